@@ -1,0 +1,1 @@
+"""Closed-form solutions, one module each, with their source."""

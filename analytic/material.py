@@ -1,0 +1,73 @@
+"""Elastic constants of one body and of a pair.
+
+A rigid body is `None` wherever a `Material` is expected for the roller.
+Nomenclature: E Young's modulus [Pa], nu Poisson's ratio, E* combined modulus [Pa],
+alpha and beta Dundurs' constants.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic linear elastic material: `youngs_modulus` [Pa] > 0, 0 <= `poissons_ratio` < 0.5."""
+
+    youngs_modulus: float
+    poissons_ratio: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.youngs_modulus) and self.youngs_modulus > 0.0):
+            raise ValueError(f"Young's modulus must be positive, not {self.youngs_modulus:g} Pa")
+        if not 0.0 <= self.poissons_ratio < 0.5:
+            raise ValueError(
+                f"Poisson's ratio must be at least 0 and below 0.5, not {self.poissons_ratio:g}"
+            )
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / (2 (1 + nu)) [Pa]."""
+        return self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
+
+    @property
+    def plane_strain_modulus(self) -> float:
+        """E' = E / (1 - nu^2) [Pa]."""
+        return self.youngs_modulus / (1.0 - self.poissons_ratio**2)
+
+
+def combined_modulus(first: Material | None, second: Material | None) -> float:
+    """E* [Pa] of two bodies, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 (Johnson 1985, eq. 4.18).
+
+    `None` is a rigid body. Raises ValueError if both are rigid.
+    """
+    compliance = sum(1.0 / m.plane_strain_modulus for m in (first, second) if m is not None)
+    if compliance == 0.0:
+        raise ValueError("two rigid bodies have no elastic contact")
+    return 1.0 / compliance
+
+
+def dundurs_constants(body: Material, roller: Material | None) -> tuple[float, float]:
+    """Dundurs' (alpha, beta) in plane strain, `roller` as the first body (Barber 2018, ch. 4).
+
+    alpha = (1/E'_body - 1/E'_roller) / (1/E'_body + 1/E'_roller); beta weighs the two
+    (1-2nu)/G in the same way and vanishes for equal materials, so that a tangential
+    traction then moves the two surfaces alike and leaves the normal problem untouched.
+    A rigid roller gives alpha = 1 and beta = (1-2nu)/(2(1-nu)) of the body.
+    """
+
+    def compliances(material: Material | None) -> tuple[float, float]:
+        if material is None:
+            return 0.0, 0.0
+        nu, shear = material.poissons_ratio, material.shear_modulus
+        return (1.0 - nu) / shear, (1.0 - 2.0 * nu) / shear
+
+    (normal_body, coupling_body), (normal_roller, coupling_roller) = (
+        compliances(body),
+        compliances(roller),
+    )
+    total = normal_body + normal_roller
+    return (
+        (normal_body - normal_roller) / total,
+        (coupling_body - coupling_roller) / (2.0 * total),
+    )

@@ -1,0 +1,1 @@
+"""Scene, plan, both models, uncertainty, verdicts, report and the command line."""

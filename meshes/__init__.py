@@ -1,0 +1,1 @@
+"""Graded meshes of the rough body: built by gmsh, checked, stored."""
