@@ -1,0 +1,80 @@
+"""The grid of pressure hats under a roller, and the initial gap averaged over them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
+
+
+@dataclass(frozen=True)
+class HatGrid:
+    """Hats at x_i = i * pitch for first <= i <= last, whole numbers: grids of halved pitch nest.
+
+    pitch [m]; `x` (n,) [m]; `weights` (n,) [m], the area under each hat of height 1.
+    """
+
+    pitch: float
+    first: int
+    last: int
+
+    @classmethod
+    def within(cls, start: float, stop: float, pitch: float) -> "HatGrid":
+        """Largest grid whose hats, with their feet, lie in start <= x <= stop [m]."""
+        slack = 1e-9  # of a pitch: an end that is a multiple but for round-off counts as one
+        first = int(np.ceil(start / pitch - slack)) + 1
+        last = int(np.floor(stop / pitch + slack)) - 1
+        if last - first < 2:
+            raise ValueError(
+                f"{stop - start:g} m hold fewer than three pressure elements of {pitch:g} m"
+            )
+        return cls(pitch, first, last)
+
+    @property
+    def count(self) -> int:
+        return self.last - self.first + 1
+
+    @property
+    def x(self) -> np.ndarray:
+        return np.arange(self.first, self.last + 1) * self.pitch
+
+    @property
+    def weights(self) -> np.ndarray:
+        return np.full(self.count, self.pitch)
+
+    def average(
+        self, function: Callable[[np.ndarray], np.ndarray], knots: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Integrals of phi_i f dx (n,), exact where f is a polynomial of degree 6 between `knots`."""
+        nodes = np.arange(self.first - 1, self.last + 2) * self.pitch
+        breaks = nodes
+        if knots is not None:
+            inside = knots[(knots > nodes[0]) & (knots < nodes[-1])]
+            breaks = np.union1d(nodes, inside)
+        width = np.diff(breaks)
+        middle = 0.5 * (breaks[1:] + breaks[:-1])
+        cell = np.clip(np.searchsorted(nodes, middle) - 1, 0, self.count)
+        total = np.zeros(self.count + 2)
+        for point, weight in zip(GAUSS_POINTS, GAUSS_WEIGHTS, strict=True):
+            place = middle + 0.5 * point * width
+            value = 0.5 * weight * width * function(place)
+            share = (place - nodes[cell]) / self.pitch
+            total += np.bincount(cell, (1.0 - share) * value, minlength=self.count + 2)
+            total += np.bincount(cell + 1, share * value, minlength=self.count + 2)
+        return total[1:-1]
+
+
+def roller_gap(
+    radius: float, height: Callable[[np.ndarray], np.ndarray] | None = None
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Initial gap g0(x) [m] of a parabolic roller x^2 / 2R over heights z(x) [m]; flat if None.
+
+    The constant of the gap is arbitrary: the approach absorbs it.
+    """
+
+    def gap(x: np.ndarray) -> np.ndarray:
+        parabola = x**2 / (2.0 * radius)
+        return parabola if height is None else parabola - height(x)
+
+    return gap

@@ -1,0 +1,100 @@
+"""Surface compliance as an operator: pressure in, weighted normal displacement out.
+
+Pressures are hats on a uniform grid: nodal values p_i [Pa] at x_i = x_0 + i h, linear between,
+zero one pitch beyond the ends. An operator C maps them to the Galerkin averages of the normal
+displacement, (C p)_i = integral phi_i u_z dx [m^2], u_z [m] positive into the body. C is
+symmetric. The contact solver knows nothing else of the body.
+
+    h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
+    phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
+"""
+
+from typing import Protocol
+
+import numpy as np
+import scipy.fft
+
+from analytic.elements import hat_galerkin
+
+
+class ComplianceOperator(Protocol):
+    """Anything that turns hat pressures (n,) [Pa] into weighted displacements (n,) [m^2]."""
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray: ...
+
+
+class HalfPlane:
+    """Compliance of a half-plane to hat pressures, exact log-kernel coefficients, applied by FFT.
+
+    u_z(x) = -(2 / (pi E*)) integral p(s) ln(|x - s| / L) ds (Johnson 1985, eq. 2.25).
+    The plane-strain half-plane leaves displacements undefined up to a constant; the datum L is
+    the length of the grid's support, four times its logarithmic capacity, which makes the
+    operator positive definite and scale with the unit of length.
+    With E* of two bodies the displacement is the sum of both.
+
+    count    number of hats          pitch    h [m]
+    modulus  E* [Pa], or E' of one body
+    datum    L [m]; default the support (count + 1) h
+    """
+
+    def __init__(
+        self, count: int, pitch: float, modulus: float, datum: float | None = None
+    ) -> None:
+        self.count = count
+        self.pitch = pitch
+        self.modulus = modulus
+        self.datum = (count + 1) * pitch if datum is None else datum
+        self.applications = 0
+        self._length = scipy.fft.next_fast_len(2 * count, real=True)
+        self._kernel = scipy.fft.rfft(self._embedded(self.coefficients()))
+        self._inverse_symbol = 1.0 / self._symbol()
+
+    def coefficients(self) -> np.ndarray:
+        """First column (n,) of the symmetric Toeplitz matrix D_ij [m^2/Pa] of this operator."""
+        log_integral = hat_galerkin(np.arange(self.count, dtype=float))
+        scale = 2.0 * self.pitch**2 / (np.pi * self.modulus)
+        return -scale * (log_integral + np.log(self.pitch / self.datum))
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
+        self.applications += 1
+        return self._convolve(pressure, self._kernel)
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+        """Approximate inverse of `apply`, positive definite: division by the symbol of the hats."""
+        return self._convolve(displacement, self._inverse_symbol)
+
+    def coarsened(self) -> "HalfPlane":
+        """The same half-plane on hats twice as wide, centred on nodes 1, 3, 5, …"""
+        return HalfPlane(self.count // 2, 2.0 * self.pitch, self.modulus, self.datum)
+
+    def _convolve(self, values: np.ndarray, transfer: np.ndarray) -> np.ndarray:
+        spectrum = scipy.fft.rfft(values, self._length)
+        spectrum *= transfer
+        return scipy.fft.irfft(spectrum, self._length)[: self.count]
+
+    def _embedded(self, column: np.ndarray) -> np.ndarray:
+        """Circulant of length >= 2n - 1 whose leading block is the Toeplitz matrix."""
+        circulant = np.zeros(self._length)
+        circulant[: self.count] = column
+        circulant[-(self.count - 1) or self._length :] = column[:0:-1]
+        return circulant
+
+    def _symbol(self) -> np.ndarray:
+        """2 / (E* |k|) seen through hats, summed over the aliases of each wavenumber [m^2/Pa]."""
+        cycles = np.arange(self._length // 2 + 1) / self._length
+        cycles[0] = 0.5 / self._length  # the mean has no finite compliance; any positive value does
+        aliased = cycles[:, None] + np.arange(-3, 4)
+        wavenumber = 2.0 * np.pi * np.abs(aliased) / self.pitch
+        return self.pitch * np.sum(2.0 / (self.modulus * wavenumber) * np.sinc(aliased) ** 4, axis=1)
+
+
+class SumOfBodies:
+    """Compliances of several bodies on the same hats, added: the mutual approach of their surfaces."""
+
+    def __init__(self, *bodies: ComplianceOperator) -> None:
+        self.bodies = bodies
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Sum of the weighted displacements (n,) [m^2]."""
+        return sum(body.apply(pressure) for body in self.bodies)
