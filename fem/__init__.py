@@ -1,1 +1,1 @@
-"""Plane-strain finite elements on dolfinx: compliance of the surface, stresses, a second contact solver."""
+"""Plane-strain finite elements: surface compliance, stresses, a second contact solver."""

@@ -1,0 +1,118 @@
+"""The one place that knows which dolfinx is installed: 0.5, 0.9 or 0.11.
+
+Each function hides one difference and says which. Everything else in this package is written
+against these functions, numpy, and the part of PETSc and UFL that all three share.
+"""
+
+import inspect
+import logging
+
+import numpy as np
+
+
+def quiet_compiler() -> None:
+    """Keep the just-in-time compiler's progress off the terminal.
+
+    On 0.5 the build tools beneath it put a handler on the root logger at the first cold compile
+    and report there at level INFO; a root level of WARNING set beforehand silences them.
+    """
+    root = logging.getLogger()
+    if root.level < logging.WARNING:
+        root.setLevel(logging.WARNING)
+    for handler in root.handlers:
+        handler.setLevel(max(handler.level, logging.WARNING))
+
+
+def triangle_mesh(comm, cells: np.ndarray, points: np.ndarray, degree: int):
+    """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2.
+
+    `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
+    basix element. On 0.5 the element is declared equispaced from the start: the first form that
+    is compiled would otherwise rewrite it so, and every later process would compile again.
+    """
+    from dolfinx.mesh import create_mesh
+
+    quiet_compiler()
+    cells = np.ascontiguousarray(cells, dtype=np.int64)
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    if "domain" in inspect.signature(create_mesh).parameters:
+        import ufl
+
+        triangle = ufl.Cell("triangle", geometric_dimension=2)
+        scalar = ufl.FiniteElement("Lagrange", triangle, degree, variant="equispaced")
+        return create_mesh(comm, cells, points, ufl.Mesh(ufl.VectorElement(scalar)))
+    import basix
+    import basix.ufl
+
+    element = basix.ufl.element(
+        basix.ElementFamily.P,
+        "triangle",
+        degree,
+        basix.LagrangeVariant.equispaced,
+        shape=(2,),
+    )
+    return create_mesh(comm, cells, x=points, e=element)
+
+
+def displacement_space(mesh):
+    """Continuous quadratic vector space. 0.5 has a function for vectors, later ones a shape."""
+    from dolfinx import fem
+
+    if hasattr(fem, "VectorFunctionSpace"):
+        return fem.VectorFunctionSpace(mesh, ("Lagrange", 2))
+    return fem.functionspace(mesh, ("Lagrange", 2, (2,)))
+
+
+def cell_nodes(space) -> np.ndarray:
+    """Node numbers (m, 6) of the space's cells. 0.5 hands out an adjacency list."""
+    nodes = space.dofmap.list
+    return np.asarray(nodes.array if hasattr(nodes, "array") else nodes).reshape(-1, 6)
+
+
+def cell_points(mesh) -> np.ndarray:
+    """Coordinate numbers (m, k) of the mesh's cells.
+
+    0.5 has an adjacency list, 0.9 an array, 0.11 a list of arrays, one a cell type.
+    """
+    geometry = mesh.geometry
+    count = mesh.topology.index_map(mesh.topology.dim)
+    count = count.size_local + count.num_ghosts
+    if hasattr(geometry, "dofmaps") and not callable(geometry.dofmaps):
+        points = geometry.dofmaps[0]
+    else:
+        points = geometry.dofmap
+    return np.asarray(points.array if hasattr(points, "array") else points).reshape(count, -1)
+
+
+def input_points(mesh) -> np.ndarray:
+    """Number in the arrays given to `triangle_mesh` of each of the mesh's coordinates.
+
+    A list on 0.5, an array later; a method or a property.
+    """
+    indices = mesh.geometry.input_global_indices
+    return np.asarray(indices() if callable(indices) else indices, dtype=np.int64)
+
+
+def petsc_matrix(bilinear, conditions):
+    """PETSc matrix of a UFL form; the identity in the rows and columns of `conditions`."""
+    from dolfinx import fem
+    from dolfinx.fem.petsc import assemble_matrix
+
+    quiet_compiler()
+    matrix = assemble_matrix(fem.form(bilinear), bcs=conditions)
+    matrix.assemble()
+    return matrix
+
+
+def constant(mesh, value: float):
+    """A number in a form, so that changing it does not compile the form again."""
+    from dolfinx import fem
+
+    return fem.Constant(mesh, real_number(value))
+
+
+def real_number(value: float):
+    """`value` in PETSc's own scalar type, which all three ask for in constants and conditions."""
+    from petsc4py import PETSc
+
+    return PETSc.ScalarType(value)

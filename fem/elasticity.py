@@ -1,0 +1,263 @@
+"""Plane-strain elasticity of a block: quadratic displacements, one factorisation.
+
+Displacements and loads are arrays (n, 2), x and z components, in the numbering of the mesh's
+own points; dolfinx's numbering stays inside. Under MPI every process holds the whole array and
+its own part of the matrix, so that what is computed from a displacement is the same on each.
+
+The stiffness is assembled for Young's modulus 1 and the displacement divided by the modulus:
+the factor depends on Poisson's ratio and the shape only, and results scale exactly.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from time import perf_counter
+from typing import Literal, get_args
+
+import numpy as np
+
+from analytic.material import Material
+from fem import compat
+from fem.mumps import FemError, SymmetricFactor
+from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
+from meshes.block import BlockMesh
+
+Base = Literal["bonded", "frictionless"]
+Sides = Literal["free", "rollers", "fixed"]
+
+# dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
+GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
+OPPOSITE_EDGES = [(1, 2), (0, 2), (0, 1)]
+
+# Exact for straight triangles; on curved ones a constant stress still does exact work.
+QUADRATURE = {1: 2, 2: 4}
+
+# A body that can slide is refused a net horizontal load above this part of the whole load.
+HORIZONTAL_BALANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Support:
+    """How the block is held.
+
+    base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
+    sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
+
+    With a frictionless base and free sides the bottom point nearest to the middle is held
+    horizontally; a load with a horizontal resultant has no equilibrium then.
+    """
+
+    base: Base = "bonded"
+    sides: Sides = "free"
+
+    def __post_init__(self) -> None:
+        if self.base not in get_args(Base):
+            raise ValueError(f"base must be one of {get_args(Base)}, not {self.base!r}")
+        if self.sides not in get_args(Sides):
+            raise ValueError(f"sides must be one of {get_args(Sides)}, not {self.sides!r}")
+
+    @property
+    def can_slide(self) -> bool:
+        """Whether nothing but one pinned point resists a horizontal force."""
+        return self.base == "frictionless" and self.sides == "free"
+
+
+class ElasticBody:
+    """An assembled body; factored at the first solution. Make one by `elastic_body`.
+
+    mesh, material, support   as given
+    sides                     mesh points on the four sides
+    surface                   the top side's points in order
+    points                    (n, 2) [m] of the real body, roughness included
+    curved                    whether elements have curved edges
+    matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
+    assembly_seconds          what mesh transfer and assembly took
+    factor                    the factorisation: its seconds, bytes and number of solves
+    """
+
+    def __init__(
+        self,
+        mesh: BlockMesh,
+        material: Material,
+        support: Support,
+        sides: BoundaryPoints,
+        held: np.ndarray,
+        owned: np.ndarray,
+        matrix,
+        assembly_seconds: float,
+    ) -> None:
+        self.mesh, self.material, self.support = mesh, material, support
+        self.sides, self.held = sides, held
+        self.matrix, self._owned = matrix, owned
+        self.assembly_seconds = assembly_seconds
+
+    @property
+    def unknowns(self) -> int:
+        """Displacement components, the held ones included."""
+        return 2 * len(self.mesh.points)
+
+    @property
+    def curved(self) -> bool:
+        return bool(np.any(self.mesh.shift))
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        return real_points(self.mesh)
+
+    @cached_property
+    def surface(self) -> Surface:
+        return surface_of(self.mesh)
+
+    @cached_property
+    def factor(self) -> SymmetricFactor:
+        return SymmetricFactor(self.matrix)
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
+        """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once.
+
+        Forces on held components are borne by the support. Raises ValueError if the body can
+        slide and the load has a horizontal resultant, FemError if the factorisation fails.
+        """
+        if self.support.can_slide:
+            net = np.abs(load[..., 0].sum(axis=-1))
+            if np.any(net > HORIZONTAL_BALANCE * np.abs(load).sum(axis=(-1, -2))):
+                raise ValueError(
+                    "a body on a frictionless base with free sides cannot bear a horizontal load: "
+                    "bond its base or hold its sides"
+                )
+        free = np.where(self.held, 0.0, load)
+        part = free[..., self._owned, :].reshape(*load.shape[:-2], -1).T
+        return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+
+    def _gathered(self, part: np.ndarray) -> np.ndarray:
+        """The whole displacement (..., n, 2) on every process from the parts they own."""
+        part = part.reshape(*part.shape[:-1], -1, 2)
+        whole = np.empty((*part.shape[:-2], *self.mesh.points.shape))
+        comm = self.matrix.comm.tompi4py()
+        pieces = [(self._owned, part)] if comm.size == 1 else comm.allgather((self._owned, part))
+        for owned, piece in pieces:
+            whole[..., owned, :] = piece
+        return whole
+
+
+def real_points(mesh: BlockMesh) -> np.ndarray:
+    """Points (n, 2) [m] of the real body: the flat block's, moved by the roughness."""
+    return mesh.points + np.column_stack([np.zeros_like(mesh.shift), mesh.shift])
+
+
+def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> ElasticBody:
+    """Assemble the stiffness of a block. Roughness (`mesh.shift`) gives curved elements.
+
+    Raises FemError if an element of the rough mesh is turned over.
+    """
+    import ufl
+    from mpi4py import MPI
+
+    start = perf_counter()
+    sides = boundary_points(mesh)
+    held = _held_components(mesh, support, sides)
+    degree = 2 if np.any(mesh.shift) else 1
+    if degree == 2:
+        _refuse_inverted(mesh)
+    domain, number = _domain(MPI.COMM_WORLD, mesh, degree)
+    space = compat.displacement_space(domain)
+    point = _points_of_nodes(mesh, domain, number, space)
+
+    nu = material.poissons_ratio
+    shear, lame = 0.5 / (1.0 + nu), nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+    shear, lame = (compat.constant(domain, value) for value in (shear, lame))
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    strain = ufl.sym(ufl.grad(u))
+    stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)
+    dx = ufl.Measure("dx", domain=domain, metadata={"quadrature_degree": QUADRATURE[degree]})
+    work = ufl.inner(stress, ufl.sym(ufl.grad(v))) * dx
+    conditions = _conditions(space, held[point])
+    matrix = compat.petsc_matrix(work, conditions)
+
+    owned = point[: space.dofmap.index_map.size_local]
+    return ElasticBody(mesh, material, support, sides, held, owned, matrix, perf_counter() - start)
+
+
+def _held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) -> np.ndarray:
+    """(n, 2) whether the support holds a component."""
+    held = np.zeros(mesh.points.shape, dtype=bool)
+    held[sides.bottom, 1] = True
+    if support.base == "bonded":
+        held[sides.bottom, 0] = True
+    flanks = np.union1d(sides.left, sides.right)
+    if support.sides != "free":
+        held[flanks, 0] = True
+    if support.sides == "fixed":
+        held[flanks, 1] = True
+    if support.can_slide:
+        middle = np.argmin(np.abs(mesh.points[sides.bottom, 0]))
+        held[sides.bottom[middle], 0] = True
+    return held
+
+
+def _refuse_inverted(mesh: BlockMesh) -> None:
+    """Raise FemError if the map of an element folds at a vertex or an edge's middle."""
+    from fem.triangle import NODES, jacobians
+
+    determinant = np.linalg.det(jacobians(real_points(mesh)[mesh.triangles], NODES))
+    flat = np.linalg.det(jacobians(mesh.points[mesh.triangles], NODES[:1]))
+    folded = np.any(determinant * np.sign(flat) <= 0.0, axis=1)
+    if np.any(folded):
+        raise FemError(
+            f"the roughness turns {np.count_nonzero(folded)} elements over: "
+            "refine the surface or lower its slope"
+        )
+
+
+def _domain(comm, mesh: BlockMesh, degree: int):
+    """dolfinx mesh, and the mesh point (k,) behind each of its input points.
+
+    The first process hands the whole mesh in; dolfinx spreads it.
+    """
+    if degree == 2:
+        cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(mesh.points))
+    else:
+        number, cells = np.unique(mesh.triangles[:, :3], return_inverse=True)
+        cells = cells.reshape(-1, 3)
+    points = real_points(mesh)[number]
+    if comm.rank > 0:
+        cells, points = cells[:0], points[:0]
+    return compat.triangle_mesh(comm, cells, points, degree), number
+
+
+def _points_of_nodes(mesh: BlockMesh, domain, number: np.ndarray, space) -> np.ndarray:
+    """Mesh point of each node of the displacement space (owned, then ghosts).
+
+    By topology, never by coordinates: a vertex is known from the input numbering, a midpoint
+    from the two vertices of its edge.
+    """
+    corner = number[compat.input_points(domain)[compat.cell_points(domain)[:, :3]]]
+    count = np.int64(len(mesh.points))
+
+    def key(edge: np.ndarray) -> np.ndarray:
+        return edge.min(axis=-1) * count + edge.max(axis=-1)
+
+    known = key(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].astype(np.int64)).ravel()
+    known, first = np.unique(known, return_index=True)
+    middle_of = mesh.triangles[:, 3:].ravel()[first]
+    middle = middle_of[np.searchsorted(known, key(corner[:, OPPOSITE_EDGES]))]
+
+    nodes = compat.cell_nodes(space)
+    index_map = space.dofmap.index_map
+    point = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
+    point[nodes[:, :3]] = corner
+    point[nodes[:, 3:]] = middle
+    return point
+
+
+def _conditions(space, held: np.ndarray) -> list:
+    """Zero displacement of the held components (nodes, 2) of the space."""
+    from dolfinx import fem
+
+    return [
+        fem.dirichletbc(
+            compat.real_number(0.0),
+            (2 * np.flatnonzero(held[:, axis]) + axis).astype(np.int32),
+            space.sub(axis),
+        )
+        for axis in (0, 1)
+    ]

@@ -1,0 +1,104 @@
+"""One symmetric factorisation by MUMPS, used for many right-hand sides."""
+
+from time import perf_counter
+
+import numpy as np
+
+# Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
+# 20). Graded meshes of high contrast overflow the default; each failure is answered by doubling.
+SPARE_ROOM = 60
+MOST_SPARE_ROOM = 1000
+
+# MUMPS INFOG(1) that more room cures (MUMPS users' guide, section "Error diagnostics").
+TOO_LITTLE_ROOM = (-8, -9, -14, -17, -20)
+REASONS = {
+    -5: "the analysis ran out of memory",
+    -7: "the analysis ran out of memory",
+    -10: "the matrix is singular",
+    -13: "the machine ran out of memory",
+    -19: "the memory limit is too small",
+}
+
+
+class FemError(RuntimeError):
+    """The finite-element system could not be built or solved."""
+
+
+class SymmetricFactor:
+    """LDL^T of an assembled symmetric positive definite PETSc matrix.
+
+    matrix      PETSc Mat, both triangles stored
+    seconds     what analysis and factorisation took
+    bytes       memory that MUMPS holds for the factor, over all processes
+    solves      right-hand sides so far
+
+    Raises FemError if MUMPS cannot factor it.
+    """
+
+    def __init__(self, matrix) -> None:
+        from petsc4py import PETSc
+
+        start = perf_counter()
+        matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        matrix.setOption(PETSc.Mat.Option.SPD, True)
+        self._matrix = matrix
+        self._right, self._left = matrix.createVecs()
+        spare = SPARE_ROOM
+        while True:
+            self._ksp, self._factor, info = _factorised(matrix, spare)
+            if info not in TOO_LITTLE_ROOM or spare > MOST_SPARE_ROOM:
+                break
+            spare *= 2
+        if info < 0:
+            reason = REASONS.get(info, "see the MUMPS users' guide")
+            raise FemError(
+                f"MUMPS could not factor {matrix.size[0]} unknowns: {reason} (INFOG(1) = {info})"
+            )
+        self.seconds = perf_counter() - start
+        self.bytes = 1_000_000 * self._factor.getMumpsInfog(22)
+        self.solves = 0
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
+        """This process's rows of the solution for its rows of the load: (n,) or (n, m)."""
+        if load.ndim == 1:
+            self._right.setArray(load)
+            self._factor.solve(self._right, self._left)
+            self.solves += 1
+            return self._left.getArray().copy()
+        from petsc4py import PETSc
+
+        shape = (self._matrix.getSizes()[0], (PETSc.DECIDE, load.shape[1]))
+        comm = self._matrix.comm
+        right = PETSc.Mat().createDense(shape, array=np.asfortranarray(load), comm=comm)
+        right.assemble()
+        left = PETSc.Mat().createDense(shape, comm=comm)
+        left.setUp()
+        left.assemble()
+        self._factor.matSolve(right, left)
+        self.solves += load.shape[1]
+        solution = left.getDenseArray().copy()
+        right.destroy()
+        left.destroy()
+        return solution
+
+
+def _factorised(matrix, spare: int):
+    """KSP that owns the factor, the factor, and MUMPS' INFOG(1)."""
+    from petsc4py import PETSc
+
+    ksp = PETSc.KSP().create(matrix.comm)
+    ksp.setOperators(matrix)
+    ksp.setType(PETSc.KSP.Type.PREONLY)
+    pc = ksp.getPC()
+    pc.setType(PETSc.PC.Type.CHOLESKY)
+    pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
+    pc.setFactorSetUpSolverType()
+    factor = pc.getFactorMatrix()
+    factor.setMumpsIcntl(14, spare)
+    try:
+        ksp.setUp()
+    except PETSc.Error as error:
+        info = factor.getMumpsInfog(1)
+        if info >= 0:
+            raise FemError("PETSc could not set up the factorisation") from error
+    return ksp, factor, factor.getMumpsInfog(1)
