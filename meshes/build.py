@@ -1,0 +1,163 @@
+"""From a BlockSpec to the flat, graded, second-order mesh; gmsh runs in a process of its own."""
+
+import io
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from meshes.block import BlockMesh, BlockSpec
+from meshes.boundary import boundary_loop
+from meshes.errors import MeshError
+from meshes.quality import check_quality, measure
+from meshes.second_order import add_midpoints
+
+WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
+# Under mpirun the mesher must not take itself for one more rank.
+LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
+# Decimals kept of lengths in units of surface_size: the same block in other units gives the same
+# mesh, whatever the last bit of a quotient.
+UNIT_DECIMALS = 9
+
+
+def check_spec(spec: BlockSpec) -> None:
+    """Raises MeshError, naming the field and what is allowed, when spec cannot be meshed."""
+
+    def demand(holds: bool, what: str) -> None:
+        if not holds:
+            raise MeshError(f"block: {what}")
+
+    for name in ("half_width", "depth", "surface_size"):
+        value = getattr(spec, name)
+        demand(np.isfinite(value) and value > 0.0, f"{name} is {value}: a positive length in m")
+    demand(0.0 <= spec.growth <= 0.5, f"growth is {spec.growth}: allowed is 0 to 0.5")
+    intervals = np.asarray(spec.intervals, dtype=float)
+    demand(
+        intervals.ndim == 2 and intervals.shape[1] == 2 and len(intervals) > 0,
+        f"intervals have the shape {intervals.shape}: at least one row of two ends is needed",
+    )
+    flat = intervals.ravel()
+    slack = 1e-9 * spec.surface_size
+    demand(
+        bool(
+            np.isfinite(flat).all()
+            and (np.diff(flat) >= -slack).all()
+            and (np.diff(intervals, axis=1) > 0.0).all()
+        ),
+        "intervals must be finite, ascending and disjoint",
+    )
+    demand(
+        bool(np.abs(flat[[0, -1]]).max() <= spec.half_width + slack),
+        f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {spec.half_width:g} m",
+    )
+    if spec.window is not None:
+        x0, x1, z1, size = spec.window
+        demand(
+            bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
+            f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
+        )
+
+
+def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
+    """spec with all lengths divided by unit [m] and rounded to UNIT_DECIMALS."""
+
+    def scaled(value):
+        return np.round(np.asarray(value, dtype=float) / unit, UNIT_DECIMALS)
+
+    return replace(
+        spec,
+        half_width=float(scaled(spec.half_width)),
+        depth=float(scaled(spec.depth)),
+        intervals=scaled(spec.intervals),
+        surface_size=float(scaled(spec.surface_size)),
+        window=None if spec.window is None else tuple(scaled(spec.window).tolist()),
+    )
+
+
+def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
+    """Arrays that the gmsh process returns for the arrays of task.
+
+    Raises MeshError when the process fails, crashes, or takes longer than timeout [s]. The process
+    never outlives this call, whatever ends it.
+    """
+    archive = io.BytesIO()
+    np.savez(archive, **task)
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
+    root = str(Path(__file__).resolve().parents[1])
+    paths = [root, *filter(None, [environment.get("PYTHONPATH")])]
+    environment["PYTHONPATH"] = os.pathsep.join(paths)
+    with subprocess.Popen(
+        WORKER,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=environment,
+    ) as process:
+        try:
+            output, complaint = process.communicate(archive.getvalue(), timeout=timeout)
+        except subprocess.TimeoutExpired as error:
+            raise MeshError(f"gmsh was stopped: not done after {timeout:g} s") from error
+        finally:
+            process.kill()
+    if process.returncode != 0:
+        raise MeshError(explain_failure(process.returncode, complaint.decode(errors="replace")))
+    with np.load(io.BytesIO(output)) as result:
+        return dict(result)
+
+
+def explain_failure(status: int, complaint: str) -> str:
+    """One sentence for a gmsh process that ended with status and wrote complaint."""
+    lines = [line.strip() for line in complaint.splitlines() if line.strip()]
+    last = lines[-1] if lines else "it said nothing"
+    if "cannot open shared object file" in last:
+        return (
+            f"gmsh cannot be loaded, a system library is missing ({last}): "
+            "apt install libglu1-mesa libgl1 libxrender1 libxcursor1 libxfixes3 libxft2 "
+            "libfontconfig1 libxinerama1"
+        )
+    if "No module named 'gmsh'" in last:
+        return "gmsh is not installed: pip install gmsh"
+    if status < 0:
+        return f"gmsh crashed ({signal.Signals(-status).name}): {last}"
+    return f"gmsh failed: {last}"
+
+
+def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
+    """Flat second-order mesh of the block, refined on spec.intervals (see meshes.size_law).
+
+    Every interval carries equal edges of surface_size (a whole fraction of it where a thin block
+    or a fine window needs less), with nodes at both ends; elsewhere the size grows continuously.
+    Points on the sides are exact. The same spec gives the same mesh to the last bit, and a spec
+    in other units of length the same triangles.
+
+    timeout [s] bounds the run of gmsh. Raises MeshError when spec cannot be meshed, when gmsh
+    fails, crashes or runs out of time, and when the elements are not fit to solve on.
+    """
+    began = time.perf_counter()
+    check_spec(spec)
+    unit = spec.surface_size
+    loop, corners = boundary_loop(spec)
+    small = in_units(spec, unit)
+    result = run_worker(
+        {
+            "loop": np.round(loop / unit, UNIT_DECIMALS),
+            "corners": corners,
+            "numbers": np.array([small.half_width, small.depth, small.surface_size, small.growth]),
+            "intervals": small.intervals,
+            "window": np.array(small.window or ()),
+        },
+        timeout,
+    )
+    vertices = result["vertices"] * unit
+    vertices[: len(loop)] = loop
+    points, triangles = add_midpoints(vertices, result["triangles"])
+    quality = measure(points, triangles)
+    mesh = BlockMesh(points, triangles, np.zeros(len(points)), spec, quality)
+    check_quality(mesh)
+    quality["seconds"] = time.perf_counter() - began
+    return mesh

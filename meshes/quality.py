@@ -1,0 +1,116 @@
+"""Whether a mesh is fit to solve on.
+
+Nomenclature
+
+    least_angle_degrees   smallest angle between straight edges of any triangle; 60 is best
+    least_jacobian        smallest scaled Jacobian at any corner,
+                          2/sqrt(3) * det(t1, t2) / (|t1| |t2|) with t1, t2 the tangents of the
+                          (curved) edges there; 1 for an equilateral triangle, <= 0 when inverted
+    mean_jacobian         mean over the triangles of each one's smallest
+    least_gamma           smallest 2 * inradius / circumradius; 1 for an equilateral triangle
+    size_jump             largest ratio of the sizes (square root of area) of two neighbours
+"""
+
+import numpy as np
+
+from meshes.block import BlockMesh
+from meshes.errors import MeshError
+from meshes.second_order import EDGES, unique_edges
+
+LEAST_ANGLE_DEGREES = 15.0
+LEAST_JACOBIAN = 0.05
+LARGEST_SIZE_JUMP = 4.0
+
+
+def real_points(mesh: BlockMesh) -> np.ndarray:
+    """Points (n, 2) [m] of the real, possibly rough, body."""
+    points = mesh.points.copy()
+    points[:, 1] += mesh.shift
+    return points
+
+
+def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """u_x v_z - u_z v_x over the last axis."""
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+
+
+def corner_tangents(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Tangents (m, 3, 2) [m] of both edges that leave each corner, in the sense of rotation.
+
+    Scaled to the whole edge: for straight edges they are the edges themselves.
+    """
+    corner = points[triangles[:, :3]]
+    middle = points[triangles[:, 3:]]
+    ahead, behind = np.roll(corner, -1, axis=1), np.roll(corner, 1, axis=1)
+    onward = 4.0 * middle - 3.0 * corner - ahead
+    back = 4.0 * np.roll(middle, 1, axis=1) - 3.0 * corner - behind
+    return onward, back
+
+
+def corner_jacobians(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Determinant (m, 3) [m^2] of each element's map at its corners.
+
+    When only heights are moved and x stays affine in the element, the determinant is linear in the
+    reference coordinates: positive at the corners is positive everywhere.
+    """
+    return cross(*corner_tangents(points, triangles))
+
+
+def measure(points: np.ndarray, triangles: np.ndarray) -> dict:
+    """Quality figures of six-node triangles (m, 6) on points (n, 2) [m]; names as above.
+
+    Also elements, nodes and unknowns (two displacements a node, before any is fixed).
+    """
+    onward, back = corner_tangents(points, triangles)
+    scale = np.linalg.norm(onward, axis=2) * np.linalg.norm(back, axis=2)
+    scaled = (2.0 / np.sqrt(3.0)) * (cross(onward, back) / scale).min(axis=1)
+
+    corner = points[triangles[:, :3]]
+    side = corner[:, EDGES[:, 1]] - corner[:, EDGES[:, 0]]
+    before = -np.roll(side, 1, axis=1)
+    double_area = cross(side[:, 0], -side[:, 2])
+    angle = np.degrees(np.arctan2(np.abs(cross(side, before)), (side * before).sum(axis=2)))
+    length = np.linalg.norm(side, axis=2)
+    gamma = 4.0 * double_area**2 / (length.sum(axis=1) * length.prod(axis=1))
+
+    _, edge_of = unique_edges(triangles[:, :3])
+    order = np.argsort(edge_of.ravel(), kind="stable")
+    edge, element = edge_of.ravel()[order], order // 3
+    shared = np.flatnonzero(edge[1:] == edge[:-1])
+    size = np.sqrt(np.abs(double_area))
+    pair = np.sort(np.column_stack([size[element[shared]], size[element[shared + 1]]]), axis=1)
+    jump = (pair[:, 1] / pair[:, 0]).max() if len(pair) and pair.min() > 0.0 else 1.0
+    return {
+        "least_angle_degrees": float(angle.min()),
+        "least_jacobian": float(scaled.min()),
+        "mean_jacobian": float(scaled.mean()),
+        "least_gamma": float(gamma.min()),
+        "size_jump": float(jump),
+        "elements": len(triangles),
+        "nodes": len(points),
+        "unknowns": 2 * len(points),
+    }
+
+
+def check_quality(mesh: BlockMesh) -> None:
+    """Raises MeshError naming the worst element unless the real body's mesh is fit to solve on."""
+    points = real_points(mesh)
+    figures = measure(points, mesh.triangles)
+    onward, back = corner_tangents(points, mesh.triangles)
+    scaled = cross(onward, back) / (np.linalg.norm(onward, axis=2) * np.linalg.norm(back, axis=2))
+    x, z = points[mesh.triangles[np.argmin(scaled.min(axis=1)), :3]].mean(axis=0)
+    bounds = [
+        ("least_jacobian", figures["least_jacobian"] >= LEAST_JACOBIAN, LEAST_JACOBIAN),
+        (
+            "least_angle_degrees",
+            figures["least_angle_degrees"] >= LEAST_ANGLE_DEGREES,
+            LEAST_ANGLE_DEGREES,
+        ),
+        ("size_jump", figures["size_jump"] <= LARGEST_SIZE_JUMP, LARGEST_SIZE_JUMP),
+    ]
+    for name, holds, bound in bounds:
+        if not holds:
+            raise MeshError(
+                f"mesh not fit to solve on: {name} is {figures[name]:.3g}, the bound is {bound:g} "
+                f"(worst element at x = {x:g} m, z = {z:g} m)"
+            )

@@ -1,0 +1,211 @@
+"""The flat mesh: exact geometry, topology, size law, quality, repeatability."""
+
+import numpy as np
+import pytest
+
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.errors import MeshError
+from meshes.quality import corner_jacobians
+from meshes.second_order import unique_edges
+from meshes.size_law import largest_size, surface_edge, wanted_size
+
+WINDOW = (-1.2, 1.0, 0.6, 0.04)
+
+
+def block(half_width, depth, intervals, surface_size, growth=0.2, window=None):
+    return BlockSpec(
+        half_width, depth, np.array(intervals, dtype=float), surface_size, growth, window
+    )
+
+
+SPECS = {
+    "half-plane": block(200.0, 400.0, [[-1.5, 1.5]], 0.05),
+    "asperities": block(200.0, 400.0, [[-1.5, -1.0], [-0.9, -0.8], [0.3, 1.1]], 0.02),
+    "window": block(20.0, 40.0, [[-1.0, 1.0]], 0.05, window=WINDOW),
+    "deep": block(5e5, 1e6, [[-10.0, 10.0]], 1.0),
+    "one edge": block(5e5, 1e6, [[0.0, 1.0]], 1.0),
+    "thin layer": block(1.0, 0.02, [[-0.5, 0.5]], 0.01),
+    "thinner than an edge": block(0.5, 0.02, [[-0.2, 0.2]], 0.05),
+    "touching": block(200.0, 400.0, [[-1.0, 0.0], [0.0, 1.0]], 0.05),
+    "at the sides": block(1.0, 8.0, [[-1.0, -0.5], [0.75, 1.0]], 0.05),
+    "whole width": block(1.0, 2.0, [[-1.0, 1.0]], 0.05),
+    "uniform": block(1.0, 1.0, [[-0.5, 0.0]], 0.1, growth=0.0),
+    "steep": block(200.0, 400.0, [[-1.0, 0.0]], 0.05, growth=0.5),
+    "micrometres": block(2e-2, 4e-2, [[-1e-4, 1e-4]], 2e-6),
+}
+
+
+@pytest.fixture(scope="module")
+def meshes():
+    return {name: build_block(spec) for name, spec in SPECS.items()}
+
+
+@pytest.fixture(params=SPECS)
+def mesh(request, meshes):
+    return meshes[request.param]
+
+
+def signed_areas(mesh):
+    corner = mesh.points[mesh.triangles[:, :3]]
+    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+
+
+def boundary_edges(mesh):
+    edges, edge_of = unique_edges(mesh.triangles[:, :3])
+    uses = np.bincount(edge_of.ravel(), minlength=len(edges))
+    return edges, uses
+
+
+def top_vertices(mesh):
+    vertices = np.unique(mesh.triangles[:, :3])
+    return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
+
+
+def test_area_is_that_of_the_block(mesh):
+    areas = signed_areas(mesh)
+    assert areas.min() > 0.0
+    exact = 2.0 * mesh.spec.half_width * mesh.spec.depth
+    assert areas.sum() == pytest.approx(exact, rel=1e-12)
+
+
+def test_every_edge_inside_has_two_triangles_and_on_the_sides_one(mesh):
+    edges, uses = boundary_edges(mesh)
+    assert set(np.unique(uses)) == {1, 2}
+    outer = mesh.points[edges[uses == 1]]
+    half, depth = mesh.spec.half_width, mesh.spec.depth
+    on_side = [
+        (outer[:, :, 1] == 0.0).all(axis=1),
+        (outer[:, :, 1] == depth).all(axis=1),
+        (outer[:, :, 0] == -half).all(axis=1),
+        (outer[:, :, 0] == half).all(axis=1),
+    ]
+    assert (np.sum(on_side, axis=0) == 1).all()
+    lengths = np.linalg.norm(outer[:, 1] - outer[:, 0], axis=1)
+    sides = [lengths[side].sum() for side in on_side]
+    assert sides == pytest.approx([2 * half, 2 * half, depth, depth], rel=1e-12)
+
+
+def test_simply_connected_without_stray_or_double_nodes(mesh):
+    edges, uses = boundary_edges(mesh)
+    vertices = np.unique(mesh.triangles[:, :3])
+    assert len(vertices) - len(edges) + len(mesh.triangles) == 1  # Euler characteristic
+    assert np.array_equal(np.unique(mesh.triangles), np.arange(len(mesh.points)))
+    assert len(mesh.points) == len(vertices) + len(edges)
+    assert len(np.unique(mesh.points, axis=0)) == len(mesh.points)
+    assert mesh.quality["unknowns"] == 2 * len(mesh.points)
+
+
+def test_midpoints_halve_their_edges(mesh):
+    for k, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
+        ends = mesh.points[mesh.triangles[:, [i, j]]]
+        assert np.array_equal(mesh.points[mesh.triangles[:, 3 + k]], ends.mean(axis=1))
+
+
+def test_flat_block_is_not_shifted(mesh):
+    assert mesh.shift.shape == (len(mesh.points),)
+    assert not mesh.shift.any()
+
+
+def test_intervals_carry_equal_edges_and_both_ends(mesh):
+    x = top_vertices(mesh)
+    h = surface_edge(mesh.spec)
+    for start, end in mesh.spec.intervals:
+        inside = x[(x >= start) & (x <= end)]
+        assert inside[0] == start and inside[-1] == end
+        assert np.diff(inside) == pytest.approx(h, rel=1e-6)
+
+
+def test_multiples_of_the_surface_size_are_nodes(mesh):
+    x = top_vertices(mesh)
+    size = mesh.spec.surface_size
+    for start, end in mesh.spec.intervals:
+        wanted = start + size * np.arange(round((end - start) / size) + 1)
+        nearest = np.abs(wanted[:, None] - x[None, :]).min(axis=1)
+        assert nearest.max() < 1e-6 * size
+
+
+def test_edges_follow_the_size_law(mesh):
+    edges, _ = boundary_edges(mesh)
+    ends = mesh.points[edges]
+    middle = ends.mean(axis=1)
+    ratio = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) / wanted_size(mesh.spec, *middle.T)
+    # A growth of 0.5 changes the size by half within one edge: its middle is a poor witness.
+    slack = 0.2 * mesh.spec.growth
+    assert 0.85 - slack < np.median(ratio) < 1.08
+    assert np.quantile(ratio, 0.05) > 0.66 - slack
+    assert np.quantile(ratio, 0.95) < 1.35
+    assert ratio.max() < 1.6
+
+
+def test_fit_to_solve_on(mesh):
+    assert mesh.quality["least_angle_degrees"] > 22.0
+    assert mesh.quality["least_jacobian"] > 0.4
+    assert mesh.quality["least_gamma"] > 0.4
+    assert mesh.quality["size_jump"] < 2.5
+    assert corner_jacobians(mesh.points, mesh.triangles).min() > 0.0
+
+
+def test_elements_in_the_window_are_small(meshes):
+    mesh = meshes["window"]
+    x0, x1, z1, size = WINDOW
+    centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)
+    inside = (centre[:, 0] > x0) & (centre[:, 0] < x1) & (centre[:, 1] < z1)
+    equilateral_edge = np.sqrt(4.0 / np.sqrt(3.0) * signed_areas(mesh)[inside])
+    assert np.median(equilateral_edge) < size
+    assert np.quantile(equilateral_edge, 0.95) < 1.15 * size
+    assert equilateral_edge.max() < 1.5 * size
+    beside = (centre[:, 1] > z1 + 2.0) & (centre[:, 1] < z1 + 4.0) & (np.abs(centre[:, 0]) < 1.0)
+    coarse = np.sqrt(4.0 / np.sqrt(3.0) * signed_areas(mesh)[beside])
+    assert coarse.min() > 5.0 * size
+
+
+def test_thin_block_has_elements_through_it(meshes):
+    for name in ("thin layer", "thinner than an edge"):
+        mesh = meshes[name]
+        corner = mesh.points[mesh.triangles[:, :3], 1]
+        assert np.ptp(corner, axis=1).max() <= 1.4 * largest_size(mesh.spec)
+
+
+def test_same_input_same_mesh(meshes):
+    for name in ("asperities", "window"):
+        again = build_block(SPECS[name])
+        assert again.points.tobytes() == meshes[name].points.tobytes()
+        assert again.triangles.tobytes() == meshes[name].triangles.tobytes()
+
+
+def test_other_units_same_triangles(meshes):
+    spec = SPECS["half-plane"]
+    for factor in (1e-9, 3.7, 1e6):
+        scaled = block(
+            factor * spec.half_width, factor * spec.depth, factor * spec.intervals, factor * 0.05
+        )
+        mesh = build_block(scaled)
+        assert np.array_equal(mesh.triangles, meshes["half-plane"].triangles)
+        assert mesh.points == pytest.approx(
+            factor * meshes["half-plane"].points, rel=1e-12, abs=1e-9 * factor
+        )
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"depth": 0.0}, "depth is 0.0"),
+        ({"half_width": np.nan}, "half_width is nan"),
+        ({"growth": 0.6}, "allowed is 0 to 0.5"),
+        ({"intervals": np.empty((0, 2))}, "at least one row"),
+        ({"intervals": np.array([[0.0, 1.0], [0.5, 1.5]])}, "ascending and disjoint"),
+        ({"intervals": np.array([[0.5, 0.5]])}, "ascending and disjoint"),
+        ({"intervals": np.array([[0.0, 30.0]])}, "the block to 20"),
+        ({"intervals": np.array([[0.0, 0.42]])}, "whole number"),
+        ({"intervals": np.array([[0.0, 0.1], [0.11, 0.16]])}, "leave none"),
+        ({"intervals": np.array([[19.0, 19.95]]), "half_width": 19.96}, "leave none"),
+        ({"window": (1.0, 0.0, 1.0, 0.1)}, "x0 < x1"),
+    ],
+)
+def test_impossible_request_is_refused_in_words(change, words):
+    given = {"half_width": 20.0, "depth": 40.0, "intervals": np.array([[0.0, 1.0]])}
+    spec = BlockSpec(**(given | {"surface_size": 0.05} | change))
+    with pytest.raises(MeshError, match=words):
+        build_block(spec)
