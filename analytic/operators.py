@@ -86,7 +86,9 @@ class HalfPlane:
         cycles[0] = 0.5 / self._length  # the mean has no finite compliance; any positive value does
         aliased = cycles[:, None] + np.arange(-3, 4)
         wavenumber = 2.0 * np.pi * np.abs(aliased) / self.pitch
-        return self.pitch * np.sum(2.0 / (self.modulus * wavenumber) * np.sinc(aliased) ** 4, axis=1)
+        return self.pitch * np.sum(
+            2.0 / (self.modulus * wavenumber) * np.sinc(aliased) ** 4, axis=1
+        )
 
 
 class SumOfBodies:
