@@ -1,0 +1,62 @@
+"""Stresses in the x-z plane as data, and the scalars made of them.
+
+Both models report their stresses in this type. Stresses [Pa] are positive in tension, z points
+into the body, and the body is in plane strain.
+
+Nomenclature: sx, sz normal stresses, txz orthogonal shear, sy the stress across the plane,
+s1 >= s2 principal stresses in the plane, tau1 = (s1 - s2)/2 the principal shear, nu Poisson's
+ratio.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class PlaneStress:
+    """`sx`, `sz` and `txz` [Pa]: arrays of one shape, one value a point."""
+
+    sx: np.ndarray
+    sz: np.ndarray
+    txz: np.ndarray
+
+    def __post_init__(self) -> None:
+        if not np.shape(self.sx) == np.shape(self.sz) == np.shape(self.txz):
+            raise ValueError("sx, sz and txz must be of equal shape")
+
+    def sy(self, poissons_ratio: float) -> np.ndarray:
+        """Stress across the plane [Pa], nu (sx + sz) in plane strain."""
+        return poissons_ratio * (self.sx + self.sz)
+
+    @property
+    def tau1(self) -> np.ndarray:
+        """Principal shear in the plane [Pa], sqrt(((sx - sz)/2)^2 + txz^2) >= 0.
+
+        sy is sometimes an extreme principal stress near the surface; the largest shear over
+        all directions can then exceed tau1.
+        """
+        return np.hypot(0.5 * (self.sx - self.sz), self.txz)
+
+    @property
+    def principal(self) -> tuple[np.ndarray, np.ndarray]:
+        """Principal stresses in the plane [Pa], the larger first."""
+        mean, tau1 = 0.5 * (self.sx + self.sz), self.tau1
+        return mean + tau1, mean - tau1
+
+    def von_mises(self, poissons_ratio: float) -> np.ndarray:
+        """Equivalent stress of von Mises [Pa], sy included.
+
+        With sy = nu (sx + sz): sqrt(3 tau1^2 + ((1 - 2 nu) (sx + sz)/2)^2).
+        """
+        mean = 0.5 * (self.sx + self.sz)
+        return np.hypot(np.sqrt(3.0) * self.tau1, (1.0 - 2.0 * poissons_ratio) * mean)
+
+
+@dataclass(frozen=True)
+class Extremum:
+    """An extreme `value` [Pa] of a stress and where it stands: `x`, `z` [m]."""
+
+    value: float
+    x: float
+    z: float
