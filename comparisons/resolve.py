@@ -1,0 +1,91 @@
+"""From a scene file to a resolved scene: checked, in SI, with its profile read or made."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from analytic.material import Material
+from comparisons.scene import (
+    Budget,
+    FiniteElementSettings,
+    Load,
+    Resolution,
+    ResolvedScene,
+    StressWindow,
+)
+from comparisons.scene_errors import scene_error
+from comparisons.scene_file import find_scene, read_toml
+from comparisons.scene_profile import profile_of, sinusoid_length
+from comparisons.scene_schema import RollerTable, SceneTables, plain_tables
+
+LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
+
+
+def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
+    """The scene in a file, or of a name that comes with the project.
+
+    Raises SceneError, one line, for anything that is wrong with the file, with what it says, or
+    with the profile that it names.
+    """
+    path = find_scene(name_or_path)
+    name = path.stem.strip(". ") or "scene"
+    return resolve_tables(read_toml(path), name=name, folder=path.parent, source=str(path))
+
+
+def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> ResolvedScene:
+    """The scene that `tables`, as TOML has them, describe.
+
+    folder  that the profile's path starts from
+    source  what messages call the scene
+    Raises SceneError as `load_scene` does.
+    """
+    try:
+        scene = SceneTables.model_validate(tables)
+    except ValidationError as error:
+        raise scene_error(error, source) from error
+    body = Material(scene.body.youngs_modulus, scene.body.poissons_ratio)
+    roller = _roller(scene.roller)
+    load = Load(
+        LOAD_KINDS.get(scene.load.kind, scene.load.kind), getattr(scene.load, scene.load.kind)
+    )
+    plain = plain_tables(scene)
+    profile = info = None
+    position = scene.load.position or 0.0
+    if scene.profile is not None:
+        if scene.profile.kind == "sinusoid":
+            plain["profile"].setdefault(
+                "length", sinusoid_length(scene.profile, load, scene.roller.radius, roller, body)
+            )
+        profile, info, position = profile_of(
+            plain["profile"], scene.load.position, folder=folder, source=source
+        )
+    plain["load"]["position"] = position
+    return ResolvedScene(
+        name=name,
+        source=source,
+        title=scene.title or name,
+        roller_radius=scene.roller.radius,
+        roller=roller,
+        body=body,
+        hardness=scene.body.hardness,
+        thickness=scene.body.thickness,
+        width=scene.body.width,
+        base=None if scene.body.thickness is None else scene.body.base or "bonded",
+        profile=profile,
+        profile_info=info,
+        load=load,
+        friction=scene.load.friction,
+        position=position,
+        stress=None if scene.stress is None else StressWindow(**dict(scene.stress)),
+        tolerance={name: value for name, value in scene.tolerance if value is not None},
+        finite_element=FiniteElementSettings(**dict(scene.finite_element)),
+        resolution=Resolution(**dict(scene.resolution)),
+        budget=Budget(**dict(scene.budget)),
+        tables=plain,
+    )
+
+
+def _roller(table: RollerTable) -> Material | None:
+    return None if table.rigid else Material(table.youngs_modulus, table.poissons_ratio)

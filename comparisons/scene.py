@@ -1,0 +1,173 @@
+"""A scene as resolved: everything that is asked for, in SI, with the profile in place.
+
+x along the surface with its origin under the roller's centre, heights positive out of the body
+with their zero on the mean line. `comparisons.resolve` makes it from a file.
+"""
+
+import copy
+import math
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from analytic.form import RemovedForm
+from analytic.material import Material
+from analytic.profile import Profile
+from analytic.roughness import Roughness
+
+
+@dataclass(frozen=True)
+class Load:
+    """What presses the roller on.
+
+    kind   load_per_length [N/m] | hertz_peak_pressure [Pa] of the smooth pair | approach [m]
+    """
+
+    kind: str
+    value: float
+
+
+@dataclass(frozen=True)
+class ProfileInfo:
+    """Where the profile comes from, and its figures after the form was removed.
+
+    source     the file as the scene names it, or the kind of a made profile
+    samples, length [m], spacing [m] (median)   of the whole trace
+    form       what was taken away
+    roughness  figures of what is left
+    path       the file that was read, None for a made profile
+    sha256     of the file's bytes, None for a made profile
+    bridged    lost samples of the file that were put on a line between their neighbours
+    trimmed    lost samples at the ends of the file that were left out
+    """
+
+    source: str
+    samples: int
+    length: float
+    spacing: float
+    form: RemovedForm
+    roughness: Roughness
+    path: Path | None = field(default=None, compare=False)
+    sha256: str | None = None
+    bridged: int = 0
+    trimmed: int = 0
+
+    def as_dict(self) -> dict:
+        """The same for JSON, without `path`, which another machine does not have."""
+        figures = {name: value for name, value in asdict(self).items() if name != "path"}
+        return {
+            **figures,
+            "form": _finite(figures["form"]),
+            "roughness": _finite(figures["roughness"]),
+        }
+
+
+@dataclass(frozen=True)
+class Extent:
+    """A positive length, in m or in Hertz half-widths as it was given."""
+
+    value: float
+    in_half_widths: bool
+
+    def metres(self, half_width: float) -> float:
+        """The length [m] where the Hertz half-width is `half_width` [m]."""
+        return self.value * half_width if self.in_half_widths else self.value
+
+
+@dataclass(frozen=True)
+class StressWindow:
+    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz)."""
+
+    depth: Extent
+    half_range: Extent
+    points: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class FiniteElementSettings:
+    """How the finite-element model is made.
+
+    geometry   flat: the roughness is in the gap | rough: it is the boundary
+    block      width and depth, in Hertz half-widths, of the stand-in for an unbounded body
+    growth     element size gained per distance from the contact
+    """
+
+    geometry: str
+    block: float
+    growth: float
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """`pitch` [m] of the coarsest pressure elements (None: automatic); number of `levels`."""
+
+    pitch: float | None
+    levels: int
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What a run may take: `time` [s] and `memory` [bytes]."""
+
+    time: float
+    memory: float
+
+
+@dataclass(frozen=True)
+class ResolvedScene:
+    """Everything one run needs.
+
+    name             the scene's file without its ending
+    source           what messages call the scene: its path
+    roller           None is a rigid roller
+    hardness         [Pa] cap on the contact pressure, or None
+    thickness, width [m] of the body, None where it is unbounded
+    base             bonded | frictionless, None without thickness
+    profile          None is a smooth body
+    friction         coefficients, one result for each
+    position         [m] where x = 0 lies on the trace as it was given
+    stress           None: no field is asked for
+    tolerance        relative, by the name of the compared quantity; others are not judged
+    tables           the scene file with SI numbers and every default written out: resolving
+                     them again, in a folder that holds the profile's file, gives this scene
+    """
+
+    name: str
+    source: str = field(compare=False)
+    title: str
+    roller_radius: float
+    roller: Material | None
+    body: Material
+    hardness: float | None
+    thickness: float | None
+    width: float | None
+    base: str | None
+    profile: Profile | None = field(compare=False)
+    profile_info: ProfileInfo | None
+    load: Load
+    friction: tuple[float, ...]
+    position: float
+    stress: StressWindow | None
+    tolerance: dict[str, float]
+    finite_element: FiniteElementSettings
+    resolution: Resolution
+    budget: Budget
+    tables: dict = field(repr=False)
+
+    def as_dict(self) -> dict:
+        """For JSON: `tables` with the scene's name and what became of its profile."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "profile": None,
+            "stress": None,
+            **copy.deepcopy(self.tables),
+            "profile_info": self.profile_info.as_dict() if self.profile_info else None,
+        }
+
+
+def _finite(figures: dict) -> dict:
+    """The figures with None for what JSON has no number for."""
+    return {
+        name: None if isinstance(value, float) and not math.isfinite(value) else value
+        for name, value in figures.items()
+    }

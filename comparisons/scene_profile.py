@@ -1,0 +1,124 @@
+"""The profile of a scene: read or made, without its form, put under the roller."""
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import replace
+from math import hypot, sqrt
+from pathlib import Path
+
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.form import RemovedForm, remove_form
+from analytic.material import Material, combined_modulus
+from analytic.profile import Profile
+from analytic.profile_readers import read_profile
+from analytic.roughness import roughness
+from analytic.synthetic import ground_texture, self_affine, sinusoid
+from comparisons.errors import SceneError
+from comparisons.scene import Load, ProfileInfo
+from comparisons.scene_profile_table import ProfileTable
+from comparisons.units import LENGTH, unit_in_si
+
+SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
+SINUSOID_WAVES = 3.0  # and at least so many wavelengths
+
+_MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine, "ground": ground_texture}
+
+
+def profile_of(
+    table: Mapping, position: float | None, *, folder: Path, source: str
+) -> tuple[Profile, ProfileInfo, float]:
+    """The profile with x = 0 under the roller's centre and height 0 on the mean line.
+
+    table     [profile] with SI numbers and its defaults
+    position  [m] of the roller's centre on the trace; None is the middle
+    folder    that the path of a measured profile starts from
+    source    what messages call the scene
+    Returns the account of the whole trace and the position as well. Raises SceneError.
+    """
+    if "file" in table:
+        trace, origin = _measured(table, folder / table["file"], source)
+    else:
+        trace, origin = _made(table, source)
+    position = _position(position, trace, source)
+    account = ProfileInfo(
+        **origin,
+        samples=len(trace.x),
+        length=trace.length,
+        spacing=trace.spacing,
+        roughness=roughness(trace),
+    )
+    return trace.shifted(position), account, position
+
+
+def sinusoid_length(
+    table: ProfileTable, load: Load, radius: float, roller: Material | None, body: Material
+) -> float:
+    """Length [m] of a sinusoid that outlasts its contact under `load`.
+
+    Crests touch where the roller is no higher than Hertz' compression and the waves make up
+    for: x^2 < a^2 + 4 R amplitude, a the Hertz half-width, R = `radius` [m].
+    """
+    if load.kind == "approach":
+        half_width = sqrt(2.0 * radius * load.value)
+    else:
+        hertz = hertz_from_load if load.kind == "load_per_length" else hertz_from_peak_pressure
+        half_width = hertz(load.value, radius, combined_modulus(body, roller)).half_width
+    widest = hypot(half_width, sqrt(4.0 * radius * table.amplitude))
+    return max(SINUSOID_REACH * widest, SINUSOID_WAVES * table.wavelength)
+
+
+def _measured(table: Mapping, path: Path, source: str) -> tuple[Profile, dict]:
+    """The profile in a file without its form, and where it comes from."""
+    try:
+        read = read_profile(
+            path,
+            x_scale=unit_in_si(table.get("x_unit", "m"), LENGTH),
+            height_scale=unit_in_si(table["z_unit"], LENGTH),
+            spacing=table.get("spacing"),
+            dropouts=table["dropouts"],
+        )
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    except (ValueError, OSError) as error:
+        raise SceneError(f"{source}: profile.file: {error}") from error
+    try:
+        trace, form = _without_form(read.profile, table["form"])
+    except ValueError as error:
+        raise SceneError(f"{source}: profile.form: {error}") from error
+    return trace, {
+        "source": table["file"],
+        "path": path,
+        "sha256": digest,
+        "form": form,
+        "bridged": read.bridged,
+        "trimmed": read.trimmed,
+    }
+
+
+def _made(table: Mapping, source: str) -> tuple[Profile, dict]:
+    """The profile that `analytic.synthetic` makes, about its mean line, and where it comes from."""
+    parameters = {name: value for name, value in table.items() if name != "kind"}
+    try:
+        trace = _MAKERS[table["kind"]](**parameters)
+    except ValueError as error:
+        raise SceneError(f"{source}: profile: {error}") from error
+    return trace, {"source": table["kind"], "form": RemovedForm("none")}
+
+
+def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
+    """As `remove_form`, but heights count from the mean line even where no form is removed."""
+    if form == "none":
+        level, removed = remove_form(profile, "mean")
+        return level, replace(removed, kind="none")
+    return remove_form(profile, form)
+
+
+def _position(given: float | None, trace: Profile, source: str) -> float:
+    first, last = float(trace.x[0]), float(trace.x[-1])
+    if given is None:
+        return 0.5 * (first + last)
+    if not first < given < last:
+        raise SceneError(
+            f"{source}: load.position: is {given:g} m; allowed is inside the trace, "
+            f"above {first:g} m and below {last:g} m"
+        )
+    return given

@@ -1,0 +1,145 @@
+"""The [profile] section: a measured profile or a made one, each variety with fields of its own."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from pydantic import model_validator
+
+from analytic.profile import MAX_SAMPLES
+from analytic.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
+from comparisons.scene_fields import Choice, Number, Text, Unit, Whole
+from comparisons.scene_table import FieldError, Length, Table, allowed
+from comparisons.units import DIMENSIONLESS, LENGTH
+
+Positive = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
+Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
+
+
+class ProfileTable(Table):
+    """A measured profile (`file`) or a made one (`kind`).
+
+    The parameters of a made profile are those of `analytic.synthetic`, which also checks how
+    they fit together.
+    """
+
+    file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None
+    x_unit: Annotated[str, Unit(LENGTH)] | None = None
+    z_unit: Annotated[str, Unit(LENGTH)] | None = None
+    spacing: Length | None = None
+    form: Annotated[str, Choice(("none", "mean", "line", "arc"))] | None = None
+    dropouts: Annotated[str, Choice(("refuse", "bridge"))] | None = None
+    kind: Annotated[str, Choice(("sinusoid", "self-affine", "ground"))] | None = None
+    wavelength: Length | None = None
+    amplitude: Length | None = None
+    samples_per_wavelength: Samples | None = None
+    hurst: Annotated[float, Number(DIMENSIONLESS, above=0.0, at_most=1.0)] | None = None
+    rms_slope: Positive | None = None
+    rms_height: Length | None = None
+    samples: Samples | None = None
+    length: Length | None = None
+    seed: Annotated[int, Whole(0, 2**63 - 1)] | None = None
+    shortest_wavelength: Length | None = None
+    roll_off_wavelength: Length | None = None
+    longest_wavelength: Length | None = None
+    decay: Positive | None = None
+    one_sidedness: Positive | None = None
+
+    @property
+    def variety(self) -> str:
+        """ "file" for a measured profile, else its kind."""
+        return self.kind or "file"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _defaults_of_the_variety(cls, given: object) -> object:
+        if not isinstance(given, dict):
+            return given
+        kind = given.get("kind", "file")
+        variety = PROFILE_VARIETIES.get(kind) if isinstance(kind, str) else None
+        return {**variety.defaults, **given} if variety else given
+
+    @model_validator(mode="after")
+    def _one_variety(self) -> "ProfileTable":
+        if self.file is not None and self.kind is not None:
+            raise FieldError("kind", "is given beside file; allowed is one of the two")
+        if self.file is None and self.kind is None:
+            raise FieldError("file", "is missing; allowed is file (measured) or kind (made)")
+        variety = PROFILE_VARIETIES[self.variety]
+        for name in sorted(self.model_fields_set - variety.fields()):
+            if getattr(self, name) is not None:
+                raise FieldError(
+                    name,
+                    f"does not belong to {variety.title}; allowed there are "
+                    + ", ".join(sorted(variety.fields() - {"kind", "file"})),
+                )
+        for name in variety.needed:
+            if getattr(self, name) is None:
+                raise FieldError(
+                    name, f"is missing; allowed is {allowed(ProfileTable, name)} ({variety.title})"
+                )
+        for names in variety.one_of:
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) != 1:
+                raise FieldError(
+                    names[-1] if given else names[0],
+                    f"is {'given beside ' + names[0] if given else 'missing'}; "
+                    f"allowed is exactly one of {' and '.join(names)}",
+                )
+        return self
+
+
+@dataclass(frozen=True)
+class ProfileVariety:
+    """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
+
+    title: str
+    needed: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    defaults: Mapping[str, object] = field(default_factory=dict)
+    one_of: tuple[tuple[str, ...], ...] = ()
+
+    def fields(self) -> set[str]:
+        """Every field it may have."""
+        return {
+            *self.needed,
+            *self.optional,
+            *self.defaults,
+            *(name for names in self.one_of for name in names),
+        }
+
+
+PROFILE_VARIETIES = {
+    "file": ProfileVariety(
+        "a measured profile",
+        needed=("file", "z_unit"),
+        defaults={"form": "line", "dropouts": "refuse"},
+        one_of=(("x_unit", "spacing"),),
+    ),
+    "sinusoid": ProfileVariety(
+        'kind = "sinusoid"',
+        needed=("kind", "wavelength", "amplitude"),
+        optional=("length",),
+        defaults={"samples_per_wavelength": SAMPLES_PER_WAVELENGTH},
+    ),
+    "self-affine": ProfileVariety(
+        'kind = "self-affine"',
+        needed=("kind", "hurst", "samples", "length"),
+        optional=("shortest_wavelength", "longest_wavelength"),
+        defaults={"seed": 0},
+        one_of=(("rms_slope", "rms_height"),),
+    ),
+    "ground": ProfileVariety(
+        'kind = "ground"',
+        needed=(
+            "kind",
+            "rms_height",
+            "samples",
+            "length",
+            "shortest_wavelength",
+            "roll_off_wavelength",
+            "longest_wavelength",
+        ),
+        defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
+    ),
+}

@@ -1,0 +1,178 @@
+"""Quantities with units: a number in SI, or a string such as "8.2 mm", to an SI number.
+
+pint knows the units. Its registry counts in decimals, so that "8.2 mm" and 0.0082 become the
+same double. Loading it takes ten times as long as reading a scene, so the units that scenes use
+every day stand in a table here; the tests hold every entry of it against pint.
+"""
+
+import difflib
+import math
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import lru_cache
+
+
+class UnitError(ValueError):
+    """Not a quantity of the wanted dimension; `str` says what was given, not what is allowed."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What a field measures: `phrase` for messages, its SI unit, and an example of a value."""
+
+    phrase: str
+    si_unit: str
+    example: str
+
+    def writing(self) -> str:
+        """How a value may be written, to follow the phrase in a message."""
+        return f': a number in {self.si_unit} or "{self.example}"' if self.si_unit else ""
+
+
+LENGTH = Dimension("a length", "m", "8.2 mm")
+PRESSURE = Dimension("a pressure", "Pa", "207 GPa")
+LOAD = Dimension("a load per length", "N/m", "3.85 N/um")
+TIME = Dimension("a time", "s", "300 s")
+MEMORY = Dimension("an amount of memory", "byte", "8 GB")
+DIMENSIONLESS = Dimension("a number without unit", "", "0.3")
+DIMENSIONS = (LENGTH, PRESSURE, LOAD, TIME, MEMORY, DIMENSIONLESS)
+
+COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
+    unit: (dimension, Decimal(factor))
+    for dimension, units in (
+        (LENGTH, {"m": "1", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "nm": "1e-9"}),
+        (PRESSURE, {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"}),
+        (LOAD, {"N/m": "1", "N/mm": "1e3", "kN/m": "1e3", "kN/mm": "1e6", "N/um": "1e6"}),
+        (TIME, {"s": "1", "min": "60", "h": "3600"}),
+        (MEMORY, {"byte": "1", "MB": "1e6", "GB": "1e9", "MiB": "1048576", "GiB": "1073741824"}),
+        (DIMENSIONLESS, {"%": "1e-2"}),
+    )
+    for unit, factor in units.items()
+}
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.ASCII)
+_FACTOR = r"(?:[^\W\d]\w*|%)(?:\s*(?:\*\*|\^)\s*-?\d)?"
+# pint evaluates whatever arithmetic it is given; it is only shown products of named units
+_UNIT = re.compile(rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*")
+_LONGEST_UNIT = 60
+
+
+def to_si(given: object, dimension: Dimension) -> float:
+    """The value of `given` in the SI unit of `dimension`.
+
+    `given` is an int or float, already in SI, or a string "number unit". Raises UnitError for
+    anything else, an unknown unit, another dimension, or a value that is not finite.
+    """
+    if isinstance(given, bool) or not isinstance(given, int | float | str):
+        raise UnitError(f"is {describe(given)}")
+    if not isinstance(given, str):
+        try:
+            value = float(given)
+        except OverflowError:
+            value = math.inf
+        return _finite(value, given)
+    number, unit = _split(given)
+    if not unit:
+        raise UnitError(f"is {describe(given)}, which has no unit")
+    factor = _factor(unit, dimension, given)
+    if not math.isfinite(float(number)):
+        return _finite(float(number), given)
+    if float(number) == 0.0:
+        return 0.0
+    return _finite(float(Decimal(number) * factor), given)
+
+
+def unit_in_si(unit: object, dimension: Dimension) -> float:
+    """How many SI units one `unit` (a string such as "um") is. Raises UnitError as `to_si` does."""
+    if not isinstance(unit, str):
+        raise UnitError(f"is {describe(unit)}")
+    return float(_factor(unit.strip(), dimension, unit))
+
+
+def describe(given: object) -> str:
+    """A value of a TOML file in the words of a message, cut short where it is long."""
+    if isinstance(given, bool):
+        return "true" if given else "false"
+    if isinstance(given, str):
+        shown = given if len(given) <= 40 else given[:37] + "..."
+        return f'"{shown}"' if shown.isprintable() else ascii(shown)
+    if isinstance(given, int | float):
+        if abs(given) < 10**20:
+            return repr(given)
+        return f"{given if isinstance(given, float) else Decimal(given):.3e}"
+    if isinstance(given, list | tuple):
+        return "a list"
+    if isinstance(given, dict):
+        return "a table"
+    return "a date or time"
+
+
+def _finite(value: float, given: object) -> float:
+    if not math.isfinite(value):
+        raise UnitError(f"is {describe(given)}, which is not finite")
+    return value
+
+
+def _split(given: str) -> tuple[str, str]:
+    match = _NUMBER.fullmatch(given)
+    if match is None:
+        raise UnitError(f"is {describe(given)}, which is not a number and a unit")
+    return match[1], match[2]
+
+
+def _factor(unit: str, dimension: Dimension, given: str) -> Decimal:
+    """SI units in one `unit`, which must measure `dimension`."""
+    if unit in COMMON_UNITS:
+        found, factor = COMMON_UNITS[unit]
+        if found is not dimension:
+            raise UnitError(f"is {describe(given)}, {found.phrase}")
+        return factor
+    return pint_factor(unit, dimension, given)
+
+
+def pint_factor(unit: str, dimension: Dimension, given: str) -> Decimal:
+    """As pint has it: SI units in one `unit`. Raises UnitError, which quotes `given`."""
+    if _UNIT.fullmatch(unit) is None or len(unit) > _LONGEST_UNIT:
+        raise UnitError(f"is {describe(given)}, and {describe(unit)} is not a unit")
+    registry = _registry()
+    try:
+        parsed = registry.parse_units(unit)
+    except (AttributeError, ValueError, TypeError, ArithmeticError, SyntaxError) as error:
+        raise UnitError(f"is {describe(given)}, and {_unknown(unit, dimension)}") from error
+    # root units, not dimensions: to pint a byte, a radian and a bare number are all dimensionless
+    if registry.get_root_units(parsed)[1] != _root(dimension):
+        raise UnitError(f"is {describe(given)}, {_phrase(parsed)}")
+    try:
+        return Decimal(registry.Quantity(Decimal(1), parsed).to(dimension.si_unit).magnitude)
+    except (ArithmeticError, TypeError) as error:
+        raise UnitError(f"is {describe(given)}, which cannot be converted") from error
+
+
+def _unknown(unit: str, dimension: Dimension) -> str:
+    same = [name for name, (found, _) in COMMON_UNITS.items() if found is dimension]
+    folded = {name.casefold(): name for name in reversed(same)}
+    near = difflib.get_close_matches(unit.casefold(), folded, n=1, cutoff=0.6)
+    hint = f' (did you mean "{folded[near[0]]}"?)' if near else ""
+    return f"{describe(unit)} is no known unit{hint}"
+
+
+def _phrase(parsed: object) -> str:
+    """The dimension of a pint unit in words."""
+    root = _registry().get_root_units(parsed)[1]
+    for dimension in DIMENSIONS:
+        if root == _root(dimension):
+            return dimension.phrase
+    return f"of dimension {parsed.dimensionality}" if parsed.dimensionality else "without dimension"
+
+
+def _root(dimension: Dimension) -> object:
+    registry = _registry()
+    return registry.get_root_units(registry.parse_units(dimension.si_unit))[1]
+
+
+@lru_cache(maxsize=1)
+def _registry():
+    import pint
+
+    return pint.UnitRegistry(non_int_type=Decimal)
