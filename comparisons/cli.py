@@ -1,0 +1,215 @@
+"""The command `crosscheck`: arguments in, exit status out.
+
+Commands only take their arguments apart and return the job to do; `main` does it, so that every
+error and interrupt of the work ends in one place. What a command needs beyond the standard
+library is imported by its job: `crosscheck --help` loads typer and nothing else.
+"""
+
+import difflib
+import json
+import os
+import sys
+import tempfile
+import traceback
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.errors import InputError
+from comparisons.exit_status import ExitStatus
+from comparisons.stages import Listener, silent
+
+Job = Callable[[], int]
+
+MODELS = {"half-plane": "half_plane", "finite-element": "finite_element"}
+RESULTS = Path("results")
+TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
+UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
+
+app = typer.Typer(
+    name="crosscheck",
+    help="Checks the half-plane method for rough line contact against finite elements.",
+    epilog="Exit status: 0 done; 1 done, and a quantity is outside its tolerance; "
+    "2 wrong input; 3 a solver did not converge.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+@app.command()
+def run(
+    scene: Annotated[str, typer.Argument(help="A TOML file, or a name that `scenes` lists.")],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results.", show_default="results/<name>")
+    ] = None,
+    models: Annotated[
+        str, typer.Option(help="Models to solve with, separated by commas.")
+    ] = ",".join(MODELS),
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print result.json instead of the table.")
+    ] = False,
+) -> Job:
+    """Solve a scene with both models, compare them and judge."""
+    return partial(_run, scene, out, models, as_json)
+
+
+@app.command()
+def scenes() -> Job:
+    """List the scenes that come with crosscheck."""
+    return _scenes
+
+
+@app.command()
+def doctor() -> Job:
+    """Show what is installed, what is missing, and how to get it."""
+    return _doctor
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line (default: the process's own) and return the exit status."""
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")  # libraries' notes to programmers, not to this reader
+    arguments = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        job = app(arguments or ["--help"], prog_name="crosscheck", standalone_mode=False)
+        status = job() if callable(job) else job or ExitStatus.DONE
+        sys.stdout.flush()
+        return int(status)
+    except KeyboardInterrupt:
+        return _end(ExitStatus.INTERRUPTED, "interrupted")
+    except BrokenPipeError:
+        # nobody reads on; the interpreter's last flush must not fail again
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return int(ExitStatus.BROKEN_PIPE)
+    except InputError as error:
+        return _end(ExitStatus.BAD_INPUT, str(error))
+    except Exception as error:
+        if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
+            return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
+        if os.environ.get(TRACEBACK):
+            traceback.print_exc()
+            return int(_defect(error))
+        return _end(_defect(error), f"{_account(error)} (set {TRACEBACK}=1 for the traceback)")
+
+
+def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
+    chosen = _models(models)
+    from comparisons.resolve import load_scene
+
+    resolved = load_scene(scene)
+    directory = out or RESULTS / resolved.name
+    _check_writable(directory)
+    from comparisons.run import run as run_scene
+
+    with _progress() as progress:
+        outcome = run_scene(resolved, directory, chosen, progress)
+    if as_json:
+        print(json.dumps(outcome.result, indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        _show(outcome.table())
+    return outcome.exit_status
+
+
+def _scenes() -> int:
+    from comparisons.scene_file import scene_titles
+
+    titles = scene_titles()
+    width = max(map(len, titles))
+    for name, title in titles.items():
+        print(f"{name:{width}}  {title}")
+    return ExitStatus.DONE
+
+
+def _doctor() -> int:
+    from comparisons.doctor import doctor, doctor_table
+
+    checks = doctor()
+    _show(doctor_table(checks))
+    return ExitStatus.DONE
+
+
+def _models(given: str) -> tuple[str, ...]:
+    """The models' names in results, in the order of `MODELS`."""
+    named = [name.strip() for name in given.split(",") if name.strip()]
+    for name in named:
+        if name not in MODELS:
+            near = difflib.get_close_matches(name, MODELS, n=1, cutoff=0.0)[0]
+            raise InputError(
+                f"--models: there is no model {name}; the nearest is {near}; "
+                f"allowed are {', '.join(MODELS)}"
+            )
+    if not named:
+        raise InputError(f"--models: is empty; allowed are {', '.join(MODELS)}")
+    return tuple(MODELS[name] for name in MODELS if name in named)
+
+
+def _check_writable(directory: Path) -> None:
+    """Raise InputError unless `directory` is, or can be made, a folder to write in.
+
+    Permission bits do not tell (of root, of a read-only file system), so a folder is made and
+    removed where the first new one would be.
+    """
+    place = directory
+    while not os.path.lexists(place) and place != place.parent:
+        place = place.parent
+    if not place.is_dir():
+        raise InputError(f"--out: {place} is not a folder; allowed is a folder, there or not yet")
+    try:
+        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
+    except OSError as error:
+        raise InputError(
+            f"--out: {place} cannot be written in ({error.strerror}); allowed is a folder that can"
+        ) from error
+
+
+@contextmanager
+def _progress() -> Iterator[Listener]:
+    """A listener that shows the stage at work, if anybody watches standard error."""
+    if not sys.stderr.isatty():
+        yield silent
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    with Console(stderr=True).status("") as status:
+        yield lambda stage: status.update(Text(stage))
+
+
+def _show(renderable: object) -> None:
+    from rich.console import Console
+
+    Console(width=None if sys.stdout.isatty() else UNSEEN_WIDTH).print(renderable)
+
+
+def _end(status: ExitStatus, message: str) -> int:
+    """Say the one line that goes with a status."""
+    line = " ".join(message.split())
+    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+    print(f"crosscheck: {shown}", file=sys.stderr)
+    return int(status)
+
+
+def _defect(error: Exception) -> ExitStatus:
+    return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
+
+
+def _account(error: Exception) -> str:
+    """An error that is not the user's, and where in the program it came up."""
+    if isinstance(error, OSError):
+        return f"{error.filename or 'file'}: {error.strerror or error}"
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return (
+        f"internal error: {type(error).__name__}: {error} "
+        f"in {Path(place.filename).name}, line {place.lineno}"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
