@@ -8,13 +8,14 @@ import sys
 import time
 from dataclasses import replace
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
 from meshes.boundary import boundary_loop
 from meshes.errors import MeshError
-from meshes.quality import check_quality, measure
+from meshes.quality import check_quality, cross
 from meshes.second_order import add_midpoints
 
 WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
@@ -106,8 +107,11 @@ def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndar
             process.kill()
     if process.returncode != 0:
         raise MeshError(explain_failure(process.returncode, complaint.decode(errors="replace")))
-    with np.load(io.BytesIO(output)) as result:
-        return dict(result)
+    try:
+        with np.load(io.BytesIO(output)) as result:
+            return dict(result)
+    except (ValueError, EOFError, OSError, BadZipFile) as error:
+        raise MeshError("gmsh ended without a mesh") from error
 
 
 def explain_failure(status: int, complaint: str) -> str:
@@ -125,6 +129,19 @@ def explain_failure(status: int, complaint: str) -> str:
     if status < 0:
         return f"gmsh crashed ({signal.Signals(-status).name}): {last}"
     return f"gmsh failed: {last}"
+
+
+def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) -> None:
+    """Raises MeshError unless the triangles (m, 3) use all vertices and fill the area [m^2]."""
+    used = np.zeros(len(vertices), dtype=bool)
+    used[triangles] = True
+    corner = vertices[triangles]
+    filled = 0.5 * np.abs(cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])).sum()
+    if not (used.all() and abs(filled - area) <= 1e-9 * area):
+        raise MeshError(
+            f"gmsh failed: its {len(triangles)} triangles cover {filled / area:.6g} of the block "
+            f"and leave {np.count_nonzero(~used)} vertices unused"
+        )
 
 
 def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
@@ -155,9 +172,8 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     )
     vertices = result["vertices"] * unit
     vertices[: len(loop)] = loop
+    refuse_unfilled(vertices, result["triangles"], 2.0 * spec.half_width * spec.depth)
     points, triangles = add_midpoints(vertices, result["triangles"])
-    quality = measure(points, triangles)
-    mesh = BlockMesh(points, triangles, np.zeros(len(points)), spec, quality)
-    check_quality(mesh)
-    quality["seconds"] = time.perf_counter() - began
-    return mesh
+    mesh = BlockMesh(points, triangles, np.zeros(len(points)), spec)
+    quality = check_quality(mesh)
+    return replace(mesh, quality=quality | {"seconds": time.perf_counter() - began})

@@ -21,8 +21,8 @@ OPTIONS = {
     "Mesh.MaxNumThreads1D": 1,
     "Mesh.MaxNumThreads2D": 1,
     "Mesh.RandomSeed": 1,
-    # The default random shift is relative to the whole block: with depth/h beyond 5e4 it moves
-    # points across the shortest edges and leaves triangles without area on straight sides.
+    # The default random shift is relative to the whole block: with depth/h beyond 5e4 it can move
+    # points by as much as the shortest edges and leave triangles without area on straight sides.
     "Mesh.RandomFactor": 1e-12,
     # Delaunay: half the time of the frontal variant, the same least angle.
     "Mesh.Algorithm": 5,

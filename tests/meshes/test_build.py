@@ -88,7 +88,7 @@ def test_every_edge_inside_has_two_triangles_and_on_the_sides_one(mesh):
 
 
 def test_simply_connected_without_stray_or_double_nodes(mesh):
-    edges, uses = boundary_edges(mesh)
+    edges, _ = boundary_edges(mesh)
     vertices = np.unique(mesh.triangles[:, :3])
     assert len(vertices) - len(edges) + len(mesh.triangles) == 1  # Euler characteristic
     assert np.array_equal(np.unique(mesh.triangles), np.arange(len(mesh.points)))

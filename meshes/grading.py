@@ -1,0 +1,95 @@
+"""Which ground to refine: the patches of predicted contact, made fit for a mesh.
+
+The refined intervals lie on a grid origin + n * surface_size, so that a pressure grid of the same
+origin finds its nodes there. Ground that the finite-element contact reaches beyond them is added
+to the patches, and the body is meshed and solved again.
+"""
+
+import numpy as np
+
+from meshes.errors import MeshError
+
+# Intervals with fewer edges between them are joined: the elements could hardly grow in the gap.
+MERGE_EDGES = 4
+# What is left between the last grid point and the side of the body, in edges, at least.
+LEAST_REST = 0.5
+# Ends this close to a grid point, in edges, lie on it (rounding).
+ON_GRID = 1e-6
+
+
+def merge(ground: np.ndarray, gap: float = 0.0) -> np.ndarray:
+    """Disjoint ascending stretches (k, 2) that cover ground (n, 2), no gap between them <= gap."""
+    ground = np.asarray(ground, dtype=float).reshape(-1, 2)
+    ground = ground[np.argsort(ground[:, 0], kind="stable")]
+    if len(ground) == 0:
+        return ground
+    reached = np.maximum.accumulate(ground[:, 1])
+    first = np.concatenate([[True], ground[1:, 0] - reached[:-1] > gap])
+    last = np.concatenate([first[1:], [True]])
+    return np.column_stack([ground[first, 0], reached[last]])
+
+
+def refined_intervals(
+    patches: np.ndarray,
+    surface_size: float,
+    *,
+    margin: float,
+    half_width: float,
+    origin: float = 0.0,
+) -> np.ndarray:
+    """Stretches (k, 2) of the surface [m] to refine, for a BlockSpec of that surface_size.
+
+    patches (n, 2) [m] is the predicted contact, in any order, overlapping or of no length. Each is
+    widened by margin [m] on both sides, its ends moved outwards to the grid origin +
+    n * surface_size, cut off at the sides of the body |x| = half_width [m] (leaving at least half
+    an edge there or none), and joined with others fewer than MERGE_EDGES edges away.
+
+    Raises MeshError when a patch lies outside the body or no edge fits into the body.
+    """
+    patches = np.asarray(patches, dtype=float).reshape(-1, 2)
+    if len(patches) == 0:
+        return patches
+    outside = (patches[:, 0] > half_width) | (patches[:, 1] < -half_width)
+    if not np.isfinite(patches).all() or outside.any():
+        worst = patches[np.argmax(outside)]
+        raise MeshError(
+            f"contact predicted from {worst[0]:g} to {worst[1]:g} m is not on the body, "
+            f"|x| <= {half_width:g} m"
+        )
+    ends = (patches + margin * np.array([-1.0, 1.0]) - origin) / surface_size
+    edges = np.column_stack([np.floor(ends[:, 0] + ON_GRID), np.ceil(ends[:, 1] - ON_GRID)])
+    edges[:, 1] = np.maximum(edges[:, 1], edges[:, 0] + 1)
+    lowest = -last_grid_point((half_width + origin) / surface_size)
+    highest = last_grid_point((half_width - origin) / surface_size)
+    if highest <= lowest:
+        raise MeshError(
+            f"no surface edge of {surface_size:g} m fits into a body {2 * half_width:g} m wide"
+        )
+    edges[:, 0] = np.clip(edges[:, 0], lowest, highest - 1)
+    edges[:, 1] = np.clip(edges[:, 1], lowest + 1, highest)
+    return origin + surface_size * merge(edges, gap=MERGE_EDGES - 0.5)
+
+
+def last_grid_point(edges_to_side: float) -> float:
+    """Largest whole n <= edges_to_side that leaves no rest, or one of LEAST_REST at least."""
+    last = np.floor(edges_to_side + ON_GRID)
+    rest = edges_to_side - last
+    return float(last if abs(rest) <= ON_GRID or rest >= LEAST_REST else last - 1)
+
+
+def reaches_unrefined(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:
+    """Ground (k, 2) [m] that is in contact but not refined; no rows when all of it is refined.
+
+    active (n,) [m] holds the places in contact, each of which loads the surface up to reach [m] on
+    both sides (the pitch of hat pressures). intervals (m, 2) [m] are disjoint and ascending;
+    touching ones count as one. Add the result to the patches and refine again.
+    """
+    intervals = merge(intervals)
+    active = np.unique(np.asarray(active, dtype=float))
+    loaded = active[:, None] + reach * np.array([-1.0, 1.0])
+    if len(intervals) == 0:
+        return merge(loaded)
+    slack = 1e-9 * np.abs(np.diff(intervals, axis=1)).max()
+    at = np.maximum(np.searchsorted(intervals[:, 0], active + slack, side="right") - 1, 0)
+    inside = (loaded[:, 0] >= intervals[at, 0] - slack) & (loaded[:, 1] <= intervals[at, 1] + slack)
+    return merge(loaded[~inside])

@@ -1,0 +1,102 @@
+"""The real body's mesh as a gmsh file (MSH 2.2, binary), and back.
+
+Format 2.2 because meshio, gmsh and what builds on them read it alike, named sides included;
+meshio writes 4.1 with empty extents of the entities.
+"""
+
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from meshes.block import BlockMesh, BlockSpec
+from meshes.errors import MeshError
+from meshes.quality import measure, real_points
+from meshes.second_order import unique_edges
+
+# Physical groups: name, tag; the sides are curves, the body is a surface.
+SIDES = {"top": 1, "right": 2, "bottom": 3, "left": 4}
+BODY = ("body", 5)
+# Node data: what to subtract from z to come back to the flat block.
+SHIFT = "shift"
+# Readers skip sections that they do not know.
+SPEC_SECTION = "BlockSpec"
+
+
+def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
+    """For each side of SIDES its edges (k, 3): two vertices, then the midpoint."""
+    edges, edge_of = unique_edges(mesh.triangles[:, :3])
+    outer = np.flatnonzero(np.bincount(edge_of.ravel()) == 1)
+    lines = np.column_stack([edges[outer], int(mesh.triangles[:, :3].max()) + 1 + outer])
+    x, z = mesh.points[lines[:, 2]].T
+    half, depth = mesh.spec.half_width, mesh.spec.depth
+    on = {"top": z == 0.0, "right": x == half, "bottom": z == depth, "left": x == -half}
+    return {name: lines[on[name]] for name in SIDES}
+
+
+def write_msh(mesh: BlockMesh, path: str | Path) -> None:
+    """Saves the real body, its named sides and what is needed to read it back.
+
+    Coordinates are x, z, 0 [m], z into the body. The file appears whole or not at all.
+    """
+    import meshio
+
+    path = Path(path)
+    lines = side_lines(mesh)
+    cells = [("line3", lines[name]) for name in SIDES] + [("triangle6", mesh.triangles)]
+    tags = [
+        np.full(len(block), tag)
+        for (_, block), tag in zip(cells, [*SIDES.values(), BODY[1]], strict=True)
+    ]
+    points = real_points(mesh)
+    content = meshio.Mesh(
+        np.column_stack([points, np.zeros(len(points))]),
+        cells,
+        point_data={SHIFT: mesh.shift},
+        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
+        field_data={name: np.array([tag, 1]) for name, tag in SIDES.items()}
+        | {BODY[0]: np.array([BODY[1], 2])},
+    )
+    spec = asdict(mesh.spec) | {"intervals": np.asarray(mesh.spec.intervals).tolist()}
+    unfinished = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        meshio.write(unfinished, content, file_format="gmsh22", binary=True)
+        with unfinished.open("a") as file:
+            file.write(f"${SPEC_SECTION}\n{json.dumps(spec, default=float)}\n$End{SPEC_SECTION}\n")
+        os.replace(unfinished, path)
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def read_msh(path: str | Path) -> BlockMesh:
+    """The mesh that write_msh saved: same real points, shift, triangles and spec.
+
+    Points of the flat block come back within the rounding of z + shift - shift; those of the top
+    side are exact. Raises MeshError when the file is not one of write_msh.
+    """
+    import meshio
+
+    path = Path(path)
+    spec = read_spec(path)
+    content = meshio.read(path, file_format="gmsh")
+    shift = np.asarray(content.point_data[SHIFT], dtype=float).ravel()
+    points = content.points[:, :2].copy()
+    points[:, 1] -= shift
+    triangles = content.cells_dict["triangle6"].astype(np.int64)
+    mesh = BlockMesh(points, triangles, shift, spec)
+    return BlockMesh(points, triangles, shift, spec, measure(real_points(mesh), triangles))
+
+
+def read_spec(path: Path) -> BlockSpec:
+    """The BlockSpec kept at the end of the file."""
+    start = f"\n${SPEC_SECTION}\n".encode()
+    content = path.read_bytes()
+    at = content.rfind(start)
+    if at < 0:
+        raise MeshError(f"{path} holds no block mesh of this program")
+    kept = json.loads(content[at + len(start) :].split(b"\n", 1)[0])
+    window = None if kept["window"] is None else tuple(kept["window"])
+    intervals = np.array(kept["intervals"], dtype=float).reshape(-1, 2)
+    return BlockSpec(**(kept | {"intervals": intervals, "window": window}))

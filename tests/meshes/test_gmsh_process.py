@@ -1,0 +1,178 @@
+"""What happens around the gmsh process: crashes, time-outs, missing libraries, orphans."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshes import build
+from meshes.block import BlockSpec
+from meshes.errors import MeshError
+
+ROOT = Path(__file__).resolve().parents[2]
+SPEC = BlockSpec(20.0, 40.0, np.array([[-1.0, 1.0]]), 0.1)
+LINUX = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+
+
+def worker(monkeypatch, code):
+    monkeypatch.setattr(build, "WORKER", (sys.executable, "-c", textwrap.dedent(code)))
+
+
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("import os; os.abort()", "gmsh crashed .SIGABRT."),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "gmsh crashed .SIGSEGV."),
+        ("import sys; print('first'); print('bad curve', file=sys.stderr); sys.exit(1)",
+         "gmsh failed: bad curve"),
+        ("import sys; sys.exit(7)", "gmsh failed: it said nothing"),
+        ("import sys; sys.stdin.close(); sys.exit(1)", "gmsh failed"),
+        ("pass", "gmsh ended without a mesh"),
+        ("print('half an archive')", "gmsh ended without a mesh"),
+    ],
+)  # fmt: skip
+def test_each_failure_is_one_clear_error(monkeypatch, code, words):
+    worker(monkeypatch, code)
+    with pytest.raises(MeshError, match=words) as caught:
+        build.build_block(SPEC)
+    assert "\n" not in str(caught.value)
+
+
+def test_time_out_stops_the_process(monkeypatch):
+    started = []
+
+    def recorded(*args, **kwargs):
+        started.append(popen(*args, **kwargs))
+        return started[-1]
+
+    popen = subprocess.Popen
+    monkeypatch.setattr(build.subprocess, "Popen", recorded)
+    worker(monkeypatch, "import time; time.sleep(60)")
+    with pytest.raises(MeshError, match=r"not done after 0.2 s"):
+        build.build_block(SPEC, timeout=0.2)
+    (process,) = started
+    assert process.returncode == -signal.SIGKILL
+
+
+def test_time_out_of_gmsh_itself():
+    with pytest.raises(MeshError, match=r"not done after 0.001 s"):
+        build.build_block(SPEC, timeout=0.001)
+
+
+def test_missing_system_library_says_how_to_get_it(monkeypatch, tmp_path):
+    missing = "libGLU.so.1: cannot open shared object file: No such file or directory"
+    (tmp_path / "gmsh.py").write_text(f"raise OSError({missing!r})\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(MeshError, match="apt install libglu1-mesa") as caught:
+        build.build_block(SPEC)
+    assert "libGLU.so.1" in str(caught.value)
+
+
+def test_missing_gmsh_says_how_to_get_it(monkeypatch, tmp_path):
+    message = "No module named 'gmsh'"
+    (tmp_path / "gmsh.py").write_text(f"raise ModuleNotFoundError({message!r})\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(MeshError, match="pip install gmsh"):
+        build.build_block(SPEC)
+
+
+def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
+    def crossing(spec):
+        loop, corners = boundary_loop(spec)
+        loop[2] = loop[corners[2] + 1]
+        return loop, corners
+
+    boundary_loop = build.boundary_loop
+    monkeypatch.setattr(build, "boundary_loop", crossing)
+    with pytest.raises(MeshError, match="gmsh failed: its 0 triangles cover 0 of the block"):
+        build.build_block(SPEC)
+
+
+def test_an_error_raised_by_gmsh_is_passed_on(monkeypatch):
+    def without_a_side(spec):
+        loop, corners = boundary_loop(spec)
+        return loop, corners[[0, 1, 2, 2]]
+
+    boundary_loop = build.boundary_loop
+    monkeypatch.setattr(build, "boundary_loop", without_a_side)
+    with pytest.raises(MeshError, match=r"gmsh failed: .+"):
+        build.build_block(SPEC)
+
+
+def test_a_hole_in_the_mesh_is_refused(monkeypatch):
+    def holed(task, timeout):
+        result = run_worker(task, timeout)
+        return result | {"triangles": result["triangles"][:-1]}
+
+    run_worker = build.run_worker
+    monkeypatch.setattr(build, "run_worker", holed)
+    with pytest.raises(MeshError, match=r"triangles cover 0\.99"):
+        build.build_block(SPEC)
+
+
+def test_launchers_of_parallel_runs_are_hidden_from_gmsh(monkeypatch):
+    monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "4")
+    monkeypatch.setenv("PMIX_RANK", "1")
+    worker(
+        monkeypatch,
+        """
+        import os, sys
+        names = sorted(n for n in os.environ if n.startswith(("OMPI_", "PMI")))
+        sys.exit("saw " + " ".join(names))
+        """,
+    )
+    with pytest.raises(MeshError, match=r"gmsh failed: saw$"):
+        build.build_block(SPEC)
+
+
+def alive(pid):
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+    return state != "Z"
+
+
+def children(pid):
+    return [int(p) for p in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+@LINUX
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_no_orphan_is_left_however_the_caller_ends(how):
+    caller = subprocess.Popen(
+        [
+            sys.executable,
+            "-c",
+            "import numpy as np\n"
+            "from meshes.block import BlockSpec\n"
+            "from meshes.build import build_block\n"
+            "build_block(BlockSpec(2e5, 4e5, np.array([[-9e4, 9e4]]), 1.0, 0.05))\n",
+        ],
+        cwd=ROOT,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        deadline = time.monotonic() + 20.0
+        while not (found := children(caller.pid)) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        (gmsh,) = found
+        # Its own command line shows that the child runs gmsh by now and not the caller's copy.
+        while b"gmsh_worker" not in Path(f"/proc/{gmsh}/cmdline").read_bytes():
+            time.sleep(0.02)
+        while "libgmsh" not in Path(f"/proc/{gmsh}/maps").read_text():
+            time.sleep(0.02)
+        os.kill(caller.pid, how)
+        caller.wait(timeout=10.0)
+        while alive(gmsh) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert not alive(gmsh)
+    finally:
+        caller.kill()
+        caller.wait()

@@ -1,0 +1,209 @@
+"""The real rough boundary: exact nodes, exact area, elements that stay right side out."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.errors import MeshError
+from meshes.quality import corner_jacobians, real_points
+from meshes.roughen import carried_down, roughen
+
+WAVELENGTH = 0.5
+EDGES_PER_WAVE = 20
+SPEC = BlockSpec(10.0, 20.0, np.array([[-2.0, 2.0]]), WAVELENGTH / EDGES_PER_WAVE)
+FINE_SPEC = BlockSpec(2.0, 4.0, np.array([[-2.0, 2.0]]), WAVELENGTH / EDGES_PER_WAVE)
+
+GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(4)
+# Degree 4 on the triangle (0,0), (1,0), (0,1): Strang and Fix, 6 points; weights sum to 1/2.
+A, B = 0.445948490915965, 0.091576213509771
+TRIANGLE_POINTS = np.array(
+    [[A, A], [1 - 2 * A, A], [A, 1 - 2 * A], [B, B], [1 - 2 * B, B], [B, 1 - 2 * B]]
+)
+TRIANGLE_WEIGHTS = 0.5 * np.repeat([0.223381589678011, 0.109951743655322], 3)
+
+
+@pytest.fixture(scope="module")
+def flat():
+    return build_block(SPEC)
+
+
+def sinusoid(rms_slope, wavelength=WAVELENGTH):
+    k = 2.0 * np.pi / wavelength
+    return lambda x: np.sqrt(2.0) * rms_slope / k * np.cos(k * x + 0.4)
+
+
+def self_affine(rms_slope, half_width, shortest, hurst=0.8, seed=0):
+    """Random profile with a power-law spectrum, as a spline over the whole top side."""
+    n = 8192
+    step = 2.02 * half_width / n
+    q = 2.0 * np.pi * np.fft.rfftfreq(n, step)
+    size = np.maximum(q, 2.0 * np.pi / half_width) ** (-0.5 - hurst)
+    size[(q == 0.0) | (q > 2.0 * np.pi / shortest)] = 0.0
+    phase = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, len(q))
+    height = np.fft.irfft(size * np.exp(1j * phase), n)
+    height *= rms_slope / np.gradient(height, step).std()
+    return CubicSpline(-1.01 * half_width + step * np.arange(n), height)
+
+
+def jacobians(mesh, at):
+    """Determinants of the quadratic map from its shape functions' derivatives at points (q, 2)."""
+    r, s = at.T
+    t = 1.0 - r - s
+    zero = np.zeros_like(r)
+    d_r = np.stack([1 - 4 * t, 4 * r - 1, zero, 4 * (t - r), 4 * s, -4 * s], axis=1)
+    d_s = np.stack([1 - 4 * t, zero, 4 * s - 1, -4 * r, 4 * r, 4 * (t - s)], axis=1)
+    nodes = real_points(mesh)[mesh.triangles]
+    x_r, x_s = (np.einsum("qk,ekd->eqd", d, nodes) for d in (d_r, d_s))
+    return x_r[..., 0] * x_s[..., 1] - x_r[..., 1] * x_s[..., 0]
+
+
+def area(mesh):
+    return float((jacobians(mesh, TRIANGLE_POINTS) @ TRIANGLE_WEIGHTS).sum())
+
+
+def top(mesh):
+    return mesh.points[:, 1] == 0.0
+
+
+def test_top_nodes_lie_exactly_on_the_profile(flat):
+    height = sinusoid(0.1)
+    mesh = roughen(flat, height)
+    x, z = real_points(mesh)[top(mesh)].T
+    assert np.array_equal(z, -height(x))
+    midpoints = top(mesh) & (np.arange(len(mesh.points)) > mesh.triangles[:, :3].max())
+    assert midpoints.sum() == top(mesh).sum() // 2
+    assert np.abs(mesh.shift[midpoints]).max() > 0.005
+
+
+def test_flat_mesh_and_topology_stay(flat):
+    mesh = roughen(flat, sinusoid(0.1))
+    assert np.array_equal(mesh.points, flat.points)
+    assert np.array_equal(mesh.triangles, flat.triangles)
+    assert mesh.spec is flat.spec
+    assert not flat.shift.any()
+
+
+def test_base_stays_and_nothing_moves_more_than_the_profile(flat):
+    height = sinusoid(0.2)
+    mesh = roughen(flat, height)
+    bottom = mesh.points[:, 1] == SPEC.depth
+    assert not mesh.shift[bottom].any()
+    assert np.abs(mesh.shift).max() <= np.abs(height(mesh.points[top(mesh), 0])).max() * 1.01
+    deep = mesh.points[:, 1] > 3.0 * WAVELENGTH
+    # A sinusoid has died off to exp(-2 pi) there; coarse ground at the sides adds its aliases.
+    assert np.abs(mesh.shift[deep & (np.abs(mesh.points[:, 0]) < 1.0)]).max() < 0.05 * 0.05
+
+
+def test_area_is_that_of_the_block_plus_the_profile(flat):
+    height = sinusoid(0.1)
+    mesh = roughen(flat, height)
+    x = np.sort(mesh.points[top(mesh), 0])
+    start, middle, end = x[:-1:2], x[1::2], x[2::2]
+    simpson = ((end - start) * (height(start) + 4 * height(middle) + height(end)) / 6.0).sum()
+    block = 2.0 * SPEC.half_width * SPEC.depth
+    assert area(mesh) == pytest.approx(block + simpson, rel=1e-12)
+    assert abs(simpson) > 1e-9 * block
+
+
+def test_area_converges_to_the_integral_of_the_profile():
+    slope = 0.1
+    k = 2.0 * np.pi / WAVELENGTH
+    amplitude = np.sqrt(2.0) * slope / k
+    exact = amplitude / k * (np.sin(2.0 * k + 0.4) - np.sin(-1.9 * k + 0.4))
+    errors = []
+    for edges in (3, 6, 12):
+        size = 0.1 * WAVELENGTH * 3 / edges
+        spec = BlockSpec(1.95, 4.0, np.array([[-1.95, 1.95]]), size)
+        mesh = roughen(build_block(spec), lambda x: sinusoid(slope)(x + 0.05))
+        errors.append(abs(area(mesh) - 2.0 * 1.95 * 4.0 - exact))
+    order = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert order == pytest.approx(4.0, abs=0.3)
+
+
+@pytest.mark.parametrize("rms_slope", [0.02, 0.1, 0.3])
+def test_elements_stay_right_side_out(flat, rms_slope):
+    mesh = roughen(flat, sinusoid(rms_slope))
+    assert jacobians(mesh, TRIANGLE_POINTS).min() > 0.0
+    assert mesh.quality["least_jacobian"] > 0.25
+    assert mesh.quality["least_angle_degrees"] > 20.0
+
+
+def test_corners_hold_the_least_determinant(flat):
+    mesh = roughen(flat, sinusoid(0.3))
+    inside = jacobians(mesh, np.random.default_rng(0).dirichlet([1, 1, 1], 20)[:, :2])
+    corners = corner_jacobians(real_points(mesh), mesh.triangles)
+    assert corners == pytest.approx(jacobians(mesh, np.array([[0, 0], [1, 0], [0, 1]])), rel=1e-9)
+    assert (inside >= corners.min(axis=1, keepdims=True) * (1 - 1e-9)).all()
+    assert (inside <= corners.max(axis=1, keepdims=True) * (1 + 1e-9)).all()
+
+
+@pytest.mark.parametrize(("rms_slope", "hurst"), [(0.05, 0.8), (0.3, 0.8), (0.3, 0.3)])
+def test_rough_profiles_of_many_wavelengths(flat, rms_slope, hurst):
+    height = self_affine(rms_slope, SPEC.half_width, 0.25, hurst)
+    mesh = roughen(flat, height)
+    assert mesh.quality["least_jacobian"] > 0.15
+    assert mesh.quality["least_angle_degrees"] > 15.0
+
+
+def test_slope_beyond_one_is_followed_where_the_ground_is_refined():
+    mesh = roughen(build_block(FINE_SPEC), sinusoid(0.75))
+    assert mesh.quality["least_angle_degrees"] > 10.0
+    assert jacobians(mesh, TRIANGLE_POINTS).min() > 0.0
+
+
+def test_flat_profile_changes_nothing(flat):
+    mesh = roughen(flat, np.zeros_like)
+    assert np.array_equal(real_points(mesh), flat.points)
+
+
+def test_constant_height_stretches_the_block_evenly(flat):
+    mesh = roughen(flat, lambda x: np.full_like(x, 2.0))
+    expected = -2.0 * (1.0 - flat.points[:, 1] / SPEC.depth)
+    assert mesh.shift == pytest.approx(expected, abs=1e-12)
+
+
+def test_shift_is_proportional_to_the_height(flat):
+    one, tenth = roughen(flat, sinusoid(0.1)), roughen(flat, sinusoid(0.01))
+    assert one.shift == pytest.approx(10.0 * tenth.shift, abs=1e-15)
+
+
+def test_carried_down_as_the_exact_solution():
+    errors = []
+    for size in (0.2, 0.1, 0.05):
+        spec = BlockSpec(1.0, 4.0, np.array([[-1.0, 1.0]]), size, growth=0.0)
+        mesh = build_block(spec)
+        n = mesh.triangles[:, :3].max() + 1
+        x, z = mesh.points[:n].T
+        exact = np.cos(np.pi * x) * np.sinh(np.pi / 3 * (4.0 - z)) / np.sinh(np.pi / 3 * 4.0)
+        found = carried_down(mesh.points[:n], mesh.triangles[:, :3], np.where(z == 0, exact, 0.0))
+        errors.append(np.sqrt(np.mean((found - exact) ** 2)))
+    order = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert order == pytest.approx(2.0, abs=0.35)
+    assert errors[-1] < 1e-3
+
+
+def test_too_steep_a_profile_is_refused_by_place_and_slope(flat):
+    with pytest.raises(MeshError, match=r"inside out, the worst at x = .* slope is .* .steepest"):
+        roughen(flat, sinusoid(3.0))
+
+
+def test_spike_is_named_where_it_stands(flat):
+    def spike(x):
+        return 0.2 * np.exp(-(((x - 0.75) / 0.02) ** 2))
+
+    with pytest.raises(MeshError, match=r"x = 0\.7"):
+        roughen(flat, spike)
+
+
+def test_profile_as_deep_as_the_layer_is_refused():
+    mesh = build_block(BlockSpec(1.0, 0.1, np.array([[-1.0, 1.0]]), 0.025))
+    with pytest.raises(MeshError):
+        roughen(mesh, lambda x: np.full_like(x, -0.11))
+
+
+@pytest.mark.parametrize("height", [lambda x: x * np.nan, lambda x: 0.0, lambda x: x[:-1]])
+def test_height_must_be_given_everywhere(flat, height):
+    with pytest.raises(MeshError, match="one finite number for each x"):
+        roughen(flat, height)

@@ -1,0 +1,88 @@
+"""The size law: values, growth, caps, and its two forms against each other."""
+
+import numpy as np
+import pytest
+
+from meshes.block import BlockSpec
+from meshes.size_law import (
+    edges_per_size,
+    largest_size,
+    point_size,
+    surface_edge,
+    uncapped_size,
+    wanted_size,
+)
+
+INTERVALS = np.array([[-3.0, -1.0], [-0.5, 0.0], [0.0, 0.5], [2.0, 2.25]])
+PLAIN = BlockSpec(50.0, 100.0, INTERVALS, 0.25, 0.2)
+WINDOWED = BlockSpec(50.0, 100.0, INTERVALS, 0.25, 0.2, (-4.0, 4.0, 2.0, 0.3))
+THIN = BlockSpec(50.0, 0.6, INTERVALS, 0.25, 0.2)
+
+
+def random_points(n, spec, seed=0):
+    rng = np.random.default_rng(seed)
+    x = rng.choice([1.0, 0.1], n) * rng.uniform(-spec.half_width, spec.half_width, n)
+    return x, spec.depth * rng.random(n) ** 3
+
+
+def test_size_at_known_places():
+    x = np.array([-2.0, 0.0, 1.25, -0.7, 12.25, -6.0, 1.25])
+    z = np.array([0.0, 3.0, 0.0, 0.0, 0.0, 4.0, 1.0])
+    distance = np.array([0.0, 3.0, 0.75, 0.2, 10.0, 5.0, 1.25])
+    assert wanted_size(PLAIN, x, z) == pytest.approx(0.25 + 0.2 * distance, rel=1e-14)
+
+
+def test_distance_is_that_to_the_nearest_interval():
+    x, z = random_points(400, PLAIN)
+    nearest = np.clip(x[:, None], INTERVALS[:, 0], INTERVALS[:, 1])
+    distance = np.hypot(nearest - x[:, None], z[:, None]).min(axis=1)
+    assert uncapped_size(PLAIN, x, z) == pytest.approx(0.25 + 0.2 * distance, rel=1e-14)
+
+
+@pytest.mark.parametrize("spec", [PLAIN, WINDOWED, THIN])
+def test_both_forms_agree(spec):
+    x, z = random_points(500, spec)
+    x = np.concatenate([x, INTERVALS.ravel(), [-spec.half_width, spec.half_width]])
+    z = np.concatenate([z, np.zeros(INTERVALS.size + 2)])
+    size = point_size(spec)
+    one_by_one = [size(*point) for point in zip(x.tolist(), z.tolist(), strict=True)]
+    assert wanted_size(spec, x, z) == pytest.approx(one_by_one, rel=1e-14)
+
+
+@pytest.mark.parametrize("spec", [PLAIN, WINDOWED])
+def test_grows_no_faster_than_asked_for(spec):
+    x, z = random_points(2000, spec, seed=1)
+    step = np.random.default_rng(2).normal(scale=0.5, size=(2, len(x)))
+    change = np.abs(wanted_size(spec, x + step[0], z + np.abs(step[1])) - wanted_size(spec, x, z))
+    assert (change <= spec.growth * np.hypot(*step) + 1e-12).all()
+    assert (change > 0.9 * spec.growth * np.hypot(*step)).any()
+
+
+def test_window_caps_the_size_and_nothing_is_larger_for_it():
+    x, z = random_points(4000, WINDOWED, seed=3)
+    windowed, plain = wanted_size(WINDOWED, x, z), wanted_size(PLAIN, x, z)
+    inside = (np.abs(x) <= 4.0) & (z <= 2.0)
+    assert inside.any()
+    assert windowed[inside].max() <= 0.3
+    assert (windowed <= plain).all()
+    assert (windowed[~inside] > 0.3).any()
+    assert wanted_size(WINDOWED, 7.0, 6.0) == pytest.approx(0.3 + 0.2 * 5.0)
+
+
+def test_thin_block_caps_the_size_and_cuts_the_edges_into_whole_parts():
+    assert largest_size(THIN) == pytest.approx(0.15)
+    assert edges_per_size(THIN) == 2
+    assert surface_edge(THIN) == 0.125
+    assert wanted_size(THIN, 40.0, 0.5) == pytest.approx(0.15)
+    assert edges_per_size(PLAIN) == 1
+
+
+def test_an_edge_that_just_fits_is_not_cut():
+    for depth in (0.7, 1.1, 3.3):
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4)) == 1
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 1.01)) == 2
+        assert edges_per_size(BlockSpec(50.0, depth, INTERVALS, depth / 4 * 3)) == 3
+
+
+def test_narrow_block_caps_the_size_too():
+    assert largest_size(BlockSpec(0.5, 100.0, np.array([[-0.1, 0.1]]), 0.1)) == 0.25

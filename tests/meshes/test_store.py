@@ -1,0 +1,151 @@
+"""The .msh file: read by meshio and gmsh as written, whole or not there, and back again."""
+
+import json
+import subprocess
+import sys
+import warnings
+
+import meshio
+import numpy as np
+import pytest
+
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.errors import MeshError
+from meshes.quality import real_points
+from meshes.roughen import roughen
+from meshes.store import read_msh, side_lines, write_msh
+
+SPEC = BlockSpec(3.0, 4.0, np.array([[-1.0, 0.0], [0.5, 1.0]]), 0.1, 0.3, (-1.0, 1.0, 0.5, 0.1))
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return roughen(build_block(SPEC), lambda x: 0.02 * np.cos(7.0 * x) + 0.01)
+
+
+@pytest.fixture(scope="module")
+def path(mesh, tmp_path_factory):
+    path = tmp_path_factory.mktemp("store") / "mesh.msh"
+    write_msh(mesh, path)
+    return path
+
+
+def test_meshio_reads_the_real_body_without_a_warning(mesh, path, capsys):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = meshio.read(path)
+    out, err = capsys.readouterr()
+    assert out.strip() == err == ""  # an empty line is what trying its other .msh format prints
+    assert np.array_equal(found.points[:, :2], real_points(mesh))
+    assert not found.points[:, 2].any()
+    assert np.array_equal(found.cells_dict["triangle6"], mesh.triangles)
+    assert {name: int(tag[1]) for name, tag in found.field_data.items()} == {
+        "top": 1, "right": 1, "bottom": 1, "left": 1, "body": 2
+    }  # fmt: skip
+
+
+def test_named_sides_lie_where_they_should(mesh, path):
+    found = meshio.read(path)
+    tags = found.cell_data_dict["gmsh:physical"]["line3"]
+    lines = found.cells_dict["line3"]
+
+    def nodes(name):
+        return found.points[np.unique(lines[tags == found.field_data[name][0]])]
+
+    assert (nodes("left")[:, 0] == -3.0).all() and (nodes("right")[:, 0] == 3.0).all()
+    assert (nodes("bottom")[:, 1] == 4.0).all()
+    x, z = nodes("top")[:, :2].T
+    assert z == pytest.approx(-0.02 * np.cos(7.0 * x) - 0.01, abs=1e-15)
+    assert (x.min(), x.max()) == (-3.0, 3.0)
+    assert (found.cell_data_dict["gmsh:physical"]["triangle6"] == found.field_data["body"][0]).all()
+
+
+def test_sides_are_chains_from_corner_to_corner(mesh):
+    sides = side_lines(mesh)
+    assert sum(map(len, sides.values())) * 2 == len(np.unique(np.concatenate([*sides.values()])))
+    for line in sides.values():
+        ends, uses = np.unique(line[:, :2], return_counts=True)
+        assert sorted(uses)[:2] == [1, 1] and set(uses) <= {1, 2}
+        corners = mesh.points[ends[uses == 1]]
+        assert np.isin(corners[:, 0], [-3.0, 3.0]).all() and np.isin(corners[:, 1], [0, 4]).all()
+        half = mesh.points[line[:, :2]].mean(axis=1)
+        assert mesh.points[line[:, 2]] == pytest.approx(half, abs=1e-15)
+
+
+def test_gmsh_opens_it_without_a_warning(mesh, path):
+    # In a process of its own: gmsh keeps global state and may crash what it lives in.
+    code = f"""
+import gmsh, json
+gmsh.initialize(argv=[], readConfigFiles=False, interruptible=False)
+gmsh.option.setNumber("General.Terminal", 0)
+gmsh.logger.start()
+gmsh.open({str(path)!r})
+groups = gmsh.model.getPhysicalGroups()
+print(json.dumps({{
+    "log": gmsh.logger.get(),
+    "names": sorted(gmsh.model.getPhysicalName(*group) for group in groups),
+    "triangles": len(gmsh.model.mesh.getElementsByType(9)[0]),
+    "least": min(gmsh.model.mesh.getElementQualities(
+        gmsh.model.mesh.getElementsByType(9)[0], "minDetJac")),
+}}))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    found = json.loads(done.stdout.splitlines()[-1])
+    assert not [line for line in found["log"] if not line.startswith("Info")]
+    assert found["names"] == ["body", "bottom", "left", "right", "top"]
+    assert found["triangles"] == len(mesh.triangles)
+    assert found["least"] > 0.0
+
+
+def test_round_trip(mesh, path):
+    found = read_msh(path)
+    assert np.array_equal(found.triangles, mesh.triangles)
+    assert np.array_equal(found.shift, mesh.shift)
+    assert found.points == pytest.approx(mesh.points, abs=1e-15)
+    assert np.array_equal(found.points[:, 1] == 0.0, mesh.points[:, 1] == 0.0)
+    assert np.array_equal(real_points(found)[:, 0], real_points(mesh)[:, 0])
+    assert found.spec.window == SPEC.window
+    assert np.array_equal(found.spec.intervals, SPEC.intervals)
+    assert (found.spec.half_width, found.spec.depth) == (3.0, 4.0)
+    assert (found.spec.surface_size, found.spec.growth) == (0.1, 0.3)
+    shared = {key: value for key, value in mesh.quality.items() if key != "seconds"}
+    assert found.quality == pytest.approx(shared, rel=1e-9)
+
+
+def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
+    spec = BlockSpec(np.float64(1.0), np.float32(2.0), np.array([[0, 1]]), 0.25)
+    write_msh(build_block(spec), tmp_path / "plain.msh")
+    found = read_msh(tmp_path / "plain.msh")
+    assert found.spec.window is None
+    assert found.spec.depth == 2.0
+
+
+def test_same_mesh_same_file(mesh, path, tmp_path):
+    write_msh(mesh, tmp_path / "again.msh")
+    assert (tmp_path / "again.msh").read_bytes() == path.read_bytes()
+
+
+def test_file_appears_whole_or_not_at_all(mesh, path, tmp_path, monkeypatch):
+    target = tmp_path / "mesh.msh"
+    target.write_bytes(b"what was there before")
+
+    def breaks(name, *args, **kwargs):
+        with open(name, "wb") as file:
+            file.write(b"half")
+        raise OSError("disk full")
+
+    monkeypatch.setattr(meshio, "write", breaks)
+    with pytest.raises(OSError, match="disk full"):
+        write_msh(mesh, target)
+    assert target.read_bytes() == b"what was there before"
+    assert [p.name for p in tmp_path.iterdir()] == ["mesh.msh"]
+
+
+def test_foreign_or_broken_file_is_refused(path, tmp_path):
+    (tmp_path / "other.msh").write_bytes(b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
+    with pytest.raises(MeshError, match="no block mesh"):
+        read_msh(tmp_path / "other.msh")
+    (tmp_path / "cut.msh").write_bytes(path.read_bytes()[:5000])
+    with pytest.raises(MeshError, match="no block mesh"):
+        read_msh(tmp_path / "cut.msh")
