@@ -50,7 +50,7 @@ class ModelOperator(ComplianceOperator, Protocol):
 
 @dataclass(frozen=True)
 class Constraints:
-    """What holds the bodies together: exactly one of `load` P [N/m] and `approach` d [m]; the cap H [Pa]."""
+    """Exactly one of `load` P [N/m] and `approach` d [m]; `hardness` H [Pa] caps the pressure."""
 
     load: float | None = None
     approach: float | None = None
@@ -125,7 +125,7 @@ def contact_residuals(
     approach: float,
     constraints: Constraints,
 ) -> tuple[np.ndarray, Residuals]:
-    """Gap (n,) [m] and residuals for given Cp (n,) [m^2], weighted initial gap (n,) and approach."""
+    """Gap (n,) [m] and residuals, from Cp (n,) [m^2], weighted initial gap (n,) and approach."""
     hardness = constraints.hardness
     actual = (gap + displacement) / weights - approach
     lowered = displacement / weights
@@ -220,7 +220,7 @@ def _exchange_blocks(problem: "_Problem", start: np.ndarray, hardness: float) ->
 
 
 def _exchange_singly(problem: "_Problem", start: np.ndarray, hardness: float) -> np.ndarray:
-    """Primal active set from a feasible point: one node is freed at a time, the energy falls strictly."""
+    """Primal active set from a feasible point: one node is freed at a time, the energy falls."""
     pressure = problem.feasible(start)
     sides = _Sides.of(pressure, hardness)
     for _ in range(20 * len(start)):
@@ -250,7 +250,7 @@ def _exchange_singly(problem: "_Problem", start: np.ndarray, hardness: float) ->
 
 @dataclass(frozen=True)
 class _Broken:
-    """Nodes whose sign condition fails: pulled into tension, pressed beyond H, overlapping, gaping."""
+    """Nodes whose sign condition fails: tension, pressure beyond H, overlap, a gap under p = H."""
 
     tensile: np.ndarray
     excessive: np.ndarray
@@ -377,7 +377,7 @@ class _Problem:
         return pressure, residual - self.approach * weights
 
     def _displacement_norm(self, residual: np.ndarray, free: np.ndarray) -> float:
-        """Size of the displacements that the equilibrium has to balance, over the free nodes [m^2]."""
+        """Size of the displacements that the free nodes have to balance [m^2]."""
         balanced = (residual - self.gap)[free]
         if self.by_load:
             balanced = balanced - balanced.mean()

@@ -85,7 +85,7 @@ def _assess(
     constraints: Constraints,
     tolerance: float,
 ) -> ContactSolution:
-    """Residuals of an iterate on the operator itself; the approach closes the free nodes' mean gap."""
+    """Residuals of an iterate on the operator itself; the approach closes the mean gap."""
     approach = constraints.approach
     if approach is None:
         free = (pressure > 0.0) & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))

@@ -46,7 +46,7 @@ class HatGrid:
     def average(
         self, function: Callable[[np.ndarray], np.ndarray], knots: np.ndarray | None = None
     ) -> np.ndarray:
-        """Integrals of phi_i f dx (n,), exact where f is a polynomial of degree 6 between `knots`."""
+        """Integrals of phi_i f dx (n,), exact for polynomials f of degree 6 between `knots`."""
         nodes = np.arange(self.first - 1, self.last + 2) * self.pitch
         breaks = nodes
         if knots is not None:

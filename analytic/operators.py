@@ -92,11 +92,16 @@ class HalfPlane:
 
 
 class SumOfBodies:
-    """Compliances of several bodies on the same hats, added: the mutual approach of their surfaces."""
+    """Compliances of several bodies on the same hats, each times a factor, added.
 
-    def __init__(self, *bodies: ComplianceOperator) -> None:
+    A factor stands for a body of the same shape and Poisson's ratio but another modulus.
+    """
+
+    def __init__(self, *bodies: ComplianceOperator, factors: tuple[float, ...] = ()) -> None:
         self.bodies = bodies
+        self.factors = factors or (1.0,) * len(bodies)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Sum of the weighted displacements (n,) [m^2]."""
-        return sum(body.apply(pressure) for body in self.bodies)
+        """Mutual weighted displacement (n,) [m^2] of the surfaces."""
+        pairs = zip(self.bodies, self.factors, strict=True)
+        return sum(factor * body.apply(pressure) for body, factor in pairs)

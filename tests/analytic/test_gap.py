@@ -1,5 +1,7 @@
 """Hat grids and the averages of the gap over them."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -58,7 +60,7 @@ def test_average_of_a_spline_is_exact_between_its_knots(pitch):
             return spline(x) * max(0.0, 1.0 - abs(x - node) / pitch)
 
         breaks = np.union1d(knots[np.abs(knots - node) < pitch], [node - pitch, node, node + pitch])
-        pairs = zip(breaks[:-1], breaks[1:], strict=True)
+        pairs = pairwise(breaks)
         assert found[i] == pytest.approx(sum(quad(integrand, *pair)[0] for pair in pairs), abs=1e-9)
 
 

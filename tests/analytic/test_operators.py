@@ -46,7 +46,7 @@ def test_operator_and_preconditioner_are_positive_definite(count):
 
 
 def test_coarsened_operator_agrees_on_coarse_hats():
-    """A coarse hat is 1/2, 1, 1/2 of fine ones: restriction of the fine operator is the coarse one."""
+    """A coarse hat is 1/2, 1, 1/2 of fine ones, and so is the operator between them."""
     fine = HalfPlane(15, PITCH, MODULUS)
     coarse = fine.coarsened()
     refine = np.zeros((15, 7))
@@ -61,3 +61,5 @@ def test_sum_of_bodies_is_the_half_plane_of_the_combined_modulus():
     combined = HalfPlane(40, PITCH, 1.0 / (1.0 / 70e9 + 1.0 / 210e9))
     pressure = np.linspace(0.0, 1e9, 40)
     assert both.apply(pressure) == pytest.approx(combined.apply(pressure), rel=1e-13)
+    scaled = SumOfBodies(HalfPlane(40, PITCH, 210e9), factors=(4.0,))
+    assert scaled.apply(pressure) == pytest.approx(combined.apply(pressure), rel=1e-13)

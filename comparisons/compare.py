@@ -1,0 +1,156 @@
+"""From the levels of both models to figures with uncertainties, and to verdicts."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.level import Level, ModelRun, Window
+from comparisons.problem import Problem
+from comparisons.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
+from comparisons.uncertainty import Convergence, grid_convergence
+from comparisons.verdict import Comparison, judge
+
+# A contact residual r leaves errors of up to this multiple of r in the pressures: 1e-6 of the
+# displacements' range was seen to leave 2e-3.
+PRESSURE_PER_RESIDUAL = 2e3
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """Relative uncertainty of a figure, by cause; `convergence` tells how refinement went."""
+
+    iteration: float
+    discretisation: float
+    domain: float
+    convergence: Convergence
+
+    @property
+    def total(self) -> float:
+        """Sum of the parts: they are bounds, not random."""
+        return self.iteration + self.discretisation + self.domain
+
+
+def figures(level: Level, problem: Problem, friction: float) -> dict[str, float]:
+    """The compared quantities that one model has by itself, SI."""
+    found = {
+        "peak_pressure": float(level.solution.pressure.max()),
+        "contact_length": level.contact_length,
+        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
+    }
+    stress = level.stress(friction)
+    if stress is not None:
+        found["tau1_max"] = stress.extremes["tau1"].value
+        found["tau1_max_depth"] = stress.extremes["tau1"].z
+        found["txz_max_abs"] = abs(stress.extremes["txz"].value)
+    return found
+
+
+def norms(
+    level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
+) -> dict[str, float]:
+    """The compared quantities of a pair of levels on the same pressure elements: relative L2."""
+    found = {"pressure_l2": relative_l2(level.solution.pressure, reference.solution.pressure)}
+    one, other = level.stress(friction), reference.stress(friction)
+    if one is not None and other is not None:
+        weights = layer_thickness(window.z)[:, None]
+        depth = window.z[:, None] / problem.hertz.half_width
+        for name, part in (("near", depth < NEAR), ("deep", depth > DEEP)):
+            if np.any(part):
+                found[f"tau1_field_{name}"] = relative_l2(
+                    one.field.tau1, other.field.tau1, np.where(part, weights, 0.0)
+                )
+    return found
+
+
+def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
+    """Of every figure that the model has by itself."""
+    history = [figures(level, problem, friction) for level in run.levels]
+    moved = figures(run.halved, problem, friction) if run.halved else history[0]
+    found = {}
+    for name, value in history[-1].items():
+        values = [figures_of_level[name] for figures_of_level in history]
+        convergence = grid_convergence(values, QUANTITIES[name].formal_order)
+        scale = abs(value) or 1.0
+        found[name] = Uncertainty(
+            iteration=PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst,
+            discretisation=convergence.uncertainty / scale,
+            domain=abs(moved[name] - history[0][name]) / scale,
+            convergence=convergence,
+        )
+    return found
+
+
+def norm_uncertainties(
+    half_plane: ModelRun,
+    finite_element: ModelRun,
+    problem: Problem,
+    friction: float,
+    window: Window | None,
+) -> dict[str, Uncertainty]:
+    """Of every norm of the difference of the two models, absolute: the norms are relative."""
+    pairs = zip(half_plane.levels, finite_element.levels, strict=True)
+    history = [norms(one, other, problem, friction, window) for one, other in pairs]
+    first, halved = finite_element.levels[0], finite_element.halved
+    moved = norms(halved, first, problem, friction, window) if halved else {}
+    residual = max(run.finest.solution.residuals.worst for run in (half_plane, finite_element))
+    found = {}
+    for name in history[-1]:
+        convergence = grid_convergence([h[name] for h in history], QUANTITIES[name].formal_order)
+        found[name] = Uncertainty(
+            iteration=PRESSURE_PER_RESIDUAL * residual,
+            discretisation=convergence.uncertainty,
+            domain=moved.get(name, 0.0),
+            convergence=convergence,
+        )
+    return found
+
+
+def compare(
+    half_plane: ModelRun,
+    finite_element: ModelRun,
+    problem: Problem,
+    friction: float,
+    window: Window | None,
+) -> list[Comparison]:
+    """Every quantity at one friction coefficient, in the order of QUANTITIES."""
+    one = figures(half_plane.finest, problem, friction)
+    other = figures(finite_element.finest, problem, friction)
+    doubt_one = uncertainties(half_plane, problem, friction)
+    doubt_other = uncertainties(finite_element, problem, friction)
+    doubt_norm = norm_uncertainties(half_plane, finite_element, problem, friction, window)
+    listed = []
+    for name in QUANTITIES:
+        if name in one:
+            first, second = one[name], other[name]
+            difference = _relative(first, second)
+            doubt = doubt_one[name].total + doubt_other[name].total
+        elif name in doubt_norm:
+            first = second = None
+            difference, doubt = doubt_norm[name].convergence.value, doubt_norm[name].total
+        else:
+            continue
+        tolerance = problem.scene.tolerance.get(name)
+        known = difference is not None and np.isfinite(doubt)
+        verdict = judge(difference, doubt, tolerance) if known and tolerance else None
+        if tolerance and not known:
+            verdict = "indistinct"
+        listed.append(
+            Comparison(
+                quantity=name,
+                friction=friction,
+                half_plane=first,
+                finite_element=second,
+                difference=difference,
+                uncertainty=doubt if np.isfinite(doubt) else None,
+                tolerance=tolerance,
+                verdict=verdict,
+            )
+        )
+    return listed
+
+
+def _relative(value: float, reference: float) -> float | None:
+    """(value - reference) / reference; None where only the reference vanishes."""
+    if reference == 0.0:
+        return 0.0 if value == 0.0 else None
+    return (value - reference) / reference

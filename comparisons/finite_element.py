@@ -1,0 +1,223 @@
+"""The finite-element model of a scene on one level of refinement.
+
+The rough body is a block: of the scene's own thickness and width where they are given, else so
+large that it stands for a half-plane. An elastic roller is a flat block of its own on the same
+pressures. The contact is solved on the sum of both surface compliances; the half-plane appears
+only as the model of the outer iteration, whose answer is checked on the finite elements.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analytic.contact import solve_contact
+from analytic.defect import solve_with_model
+from analytic.operators import HalfPlane, SumOfBodies
+from analytic.patches import contact_patches
+from analytic.plane_stress import PlaneStress
+from comparisons.level import EXTREMES, Level, MeshField, StressResult, Window
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.stages import Stages
+from fem.compliance import FiniteElementCompliance
+from fem.elasticity import ElasticBody, Support, elastic_body
+from fem.stress import evaluate, maximum, nodal_stress
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.grading import merge, reaches_unrefined, refined_intervals
+from meshes.roughen import roughen
+
+EDGES_PER_HAT = 2  # quadratic edges under each pressure element
+MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
+FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
+COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
+STEEPEST_GROWTH = 0.5
+MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
+TAPER_HATS = 40.0  # surface edges over which real roughness fades outside the refined ground
+UNBOUNDED_SIDES = "free"  # of a block that stands for a half-plane
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """How fine a level is.
+
+    pitch    of the pressure elements [m]
+    coarser  number of levels that the third is finer; negative for finer ones still
+    block    width and depth of an unbounded body, in half-widths
+    """
+
+    pitch: float
+    coarser: int
+    block: float
+
+
+def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:
+    """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
+    scene, half_width = problem.scene, problem.hertz.half_width
+    depth = refinement.block * half_width
+    reach = 0.5 * depth
+    if scene.thickness is not None:
+        depth = scene.thickness
+        reach = max(reach, 1.5 * depth)
+    if scene.width is not None:
+        reach = 0.5 * scene.width
+    edge = refinement.pitch / EDGES_PER_HAT
+    intervals = refined_intervals(
+        patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
+    )
+    if scene.finite_element.geometry == "rough":
+        intervals = np.array([[intervals[0, 0], intervals[-1, 1]]])
+    growth = scene.finite_element.growth * COARSER_GROWTH**refinement.coarser
+    window = None
+    if scene.stress is not None:
+        size = FIELD_SIZE * half_width * 2.0**refinement.coarser
+        across = min(reach, max(scene.stress.half_range.metres(half_width), half_width))
+        down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
+        window = (-across, across, down, size)
+    return BlockSpec(reach, depth, intervals, edge, min(growth, STEEPEST_GROWTH), window)
+
+
+def finite_element_level(
+    problem: Problem,
+    plan: Plan,
+    refinement: Refinement,
+    window: Window | None,
+    stages: Stages,
+) -> Level:
+    """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
+
+    Ground to refine is predicted by the half-plane on the same pressure elements. If contact
+    reaches ground that was not refined it is refined too and the level solved again.
+    Raises MeshError or FemError where a mesh or a factorisation fails.
+    """
+    grid = problem.grid(refinement.pitch)
+    average = grid.average(problem.gap, problem.knots)
+    model = HalfPlane(grid.count, grid.pitch, problem.modulus)
+    with stages.stage("contact", "finite elements: predicting the contact"):
+        guess = solve_contact(model, average, grid.weights, problem.constraints())
+    ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
+    for _ in range(MOST_MESHES):
+        bodies = _bodies(problem, plan, block_spec(problem, refinement, ground), stages)
+        with stages.stage("contact", "finite elements: contact"):
+            direction = _roller_slope(problem)
+            compliances = [
+                FiniteElementCompliance(
+                    body, grid.x[0], grid.pitch, grid.count, direction if body.curved else None
+                )
+                for body in bodies
+            ]
+            operator = SumOfBodies(*compliances, factors=_factors(problem, bodies))
+            solution = solve_with_model(
+                operator, model, average, grid.weights, problem.constraints(), start
+            )
+        touching = grid.x[solution.pressure > 0.0]
+        missed = reaches_unrefined(bodies[0].mesh.spec.intervals, touching, reach=grid.pitch)
+        if len(missed) == 0:
+            break
+        ground, start = merge(np.vstack([ground, missed])), solution.pressure
+    body, compliance = bodies[0], compliances[0]
+    level = Level(
+        grid=grid,
+        solution=solution,
+        displacement=compliance.apply(solution.pressure) / grid.weights,
+        patches=contact_patches(grid.x, solution.pressure, solution.gap),
+        seconds=stages.seconds,
+        unknowns=body.unknowns,
+        mesh=body.mesh,
+    )
+    if window is None:
+        return level
+    with stages.stage("stresses", "finite elements: stresses"):
+        found = [
+            _stresses(compliance, solution.pressure, friction, window)
+            for friction in problem.scene.friction
+        ]
+    return replace(
+        level,
+        stresses=tuple(result for result, _ in found),
+        mesh_field=MeshField(
+            body.points, body.mesh.triangles, {r.friction: nodal for r, nodal in found}
+        ),
+    )
+
+
+def _bodies(
+    problem: Problem, plan: Plan, spec: BlockSpec, stages: Stages
+) -> tuple[ElasticBody, ...]:
+    """The rough body, factored; and the roller's block where it needs one of its own."""
+    scene = problem.scene
+    with stages.stage("mesh", "finite elements: mesh"):
+        flat = build_block(spec)
+        mesh = flat
+        if scene.finite_element.geometry == "rough" and scene.profile is not None:
+            mesh = roughen(flat, _boundary(problem, spec))
+    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
+    wanted = [(mesh, scene.body, Support(base=scene.base or "bonded", sides=sides))]
+    if scene.roller is not None and not plan.shared_factor:
+        unbounded = scene.thickness is None and scene.width is None
+        block = flat
+        if not unbounded:
+            depth = scene.finite_element.block * problem.hertz.half_width
+            with stages.stage("mesh", "finite elements: mesh of the roller"):
+                block = build_block(replace(spec, half_width=0.5 * depth, depth=depth, window=None))
+        wanted.append((block, scene.roller, Support(base="bonded", sides=UNBOUNDED_SIDES)))
+    bodies = []
+    for block, material, support in wanted:
+        with stages.stage("assembly", "finite elements: assembly"):
+            body = elastic_body(block, material, support)
+        with stages.stage("factorisation", "finite elements: factorisation"):
+            body.factorise()
+        bodies.append(body)
+    return tuple(bodies)
+
+
+def _factors(problem: Problem, bodies: tuple[ElasticBody, ...]) -> tuple[float, ...]:
+    """Weights of the bodies' compliances in the sum: one factorisation may serve both."""
+    scene = problem.scene
+    if len(bodies) == 1 and scene.roller is not None:
+        return (1.0 + scene.body.youngs_modulus / scene.roller.youngs_modulus,)
+    return (1.0,) * len(bodies)
+
+
+def _roller_slope(problem: Problem) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Force per length of x under unit pressure on a rough boundary: along the roller's normal."""
+    radius = problem.scene.roller_radius
+
+    def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return x / radius, np.ones_like(x)
+
+    return direction
+
+
+def _boundary(problem: Problem, spec: BlockSpec) -> Callable[[np.ndarray], np.ndarray]:
+    """Heights [m] of the real boundary anywhere on the block's top.
+
+    The profile on the refined ground; beyond it the roughness fades, so that elements which grow
+    there need not follow waves that they cannot resolve.
+    """
+    curve = problem.scene.profile.spline()
+    first, last = problem.scene.profile.x[[0, -1]]
+    start, stop = spec.intervals[0, 0], spec.intervals[-1, 1]
+    fade = TAPER_HATS * spec.surface_size
+
+    def height(x: np.ndarray) -> np.ndarray:
+        outside = np.maximum(0.0, np.maximum(start - x, x - stop)) / fade
+        share = np.clip(1.0 - outside, 0.0, 1.0)
+        smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+        return smooth * curve(np.clip(x, first, last))
+
+    return height
+
+
+def _stresses(
+    compliance: FiniteElementCompliance, pressure: np.ndarray, friction: float, window: Window
+) -> tuple[StressResult, PlaneStress]:
+    """Stresses under one friction coefficient: on the window, and at the mesh's points."""
+    body = compliance.body
+    moved = compliance.displacement(pressure, friction)
+    nodal = nodal_stress(compliance, moved, pressure, friction)
+    x, z = np.meshgrid(window.x, window.z)
+    field = evaluate(body, nodal, x, z)
+    extremes = {name: maximum(body, nodal, name) for name in EXTREMES}
+    return StressResult(friction, extremes, field), nodal

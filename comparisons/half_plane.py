@@ -1,0 +1,73 @@
+"""The half-plane model of a scene on one level of refinement."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from analytic.contact import solve_contact
+from analytic.operators import HalfPlane
+from analytic.patches import contact_patches
+from analytic.plane_stress import PlaneStress
+from analytic.stress_field import friction_field
+from analytic.stress_maximum import maximum
+from comparisons.level import EXTREMES, Level, StressResult, Window
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.stages import Stages
+
+
+def half_plane_level(
+    problem: Problem, plan: Plan, pitch: float, window: Window | None, stages: Stages
+) -> Level:
+    """Solve one level: contact, and where asked for the stresses on the window."""
+    scene = problem.scene
+    with stages.stage("contact", "half-plane: contact"):
+        grid = problem.grid(pitch)
+        operator = HalfPlane(grid.count, pitch, problem.modulus)
+        average = grid.average(problem.gap, problem.knots)
+        solution = solve_contact(operator, average, grid.weights, problem.constraints())
+        body = HalfPlane(grid.count, pitch, scene.body.plane_strain_modulus)
+        level = Level(
+            grid=grid,
+            solution=solution,
+            displacement=body.apply(solution.pressure) / grid.weights,
+            patches=contact_patches(grid.x, solution.pressure, solution.gap),
+            seconds=stages.seconds,
+            unknowns=grid.count,
+        )
+    if window is None:
+        return level
+    with stages.stage("stresses", "half-plane: stresses"):
+        stresses = _stresses(problem, plan, level, window)
+    return replace(level, stresses=stresses)
+
+
+def _stresses(
+    problem: Problem, plan: Plan, level: Level, window: Window
+) -> tuple[StressResult, ...]:
+    """Fields on the window and extremes off the grid, one set for each friction coefficient."""
+    x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
+    # the window's spacing is the pitch times or over a power of two
+    ratio = Fraction((window.x[1] - window.x[0]) / pitch).limit_denominator(1024)
+    field = friction_field(
+        x, pressure, (window.x[0], window.x[-1]), window.z, subdivisions=ratio.denominator
+    )
+    stride = slice(None, None, ratio.numerator)
+    results = []
+    for friction in problem.scene.friction:
+        whole = field.at(friction)
+        stress = whole.stress
+        results.append(
+            StressResult(
+                friction=friction,
+                extremes={
+                    name: maximum(x, pressure, whole, friction, name, problem.scene.body)
+                    for name in EXTREMES
+                },
+                field=PlaneStress(
+                    stress.sx[:, stride], stress.sz[:, stride], stress.txz[:, stride]
+                ),
+            )
+        )
+    return tuple(results)

@@ -1,0 +1,112 @@
+"""One model's solution on one level of refinement, as data that both models fill in."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.contact import ContactSolution
+from analytic.gap import HatGrid
+from analytic.plane_stress import Extremum, PlaneStress
+from meshes.block import BlockMesh
+
+EXTREMES = ("tau1", "txz", "von_mises")
+
+
+@dataclass(frozen=True)
+class Window:
+    """Points of the common field: every x (k,) [m] at every depth z (m,) [m], z from 0 on."""
+
+    x: np.ndarray
+    z: np.ndarray
+
+
+@dataclass(frozen=True)
+class StressResult:
+    """Stresses under one friction coefficient.
+
+    extremes  largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
+    field     (m, k) on the common window
+    """
+
+    friction: float
+    extremes: dict[str, Extremum]
+    field: PlaneStress
+
+
+@dataclass(frozen=True)
+class MeshField:
+    """A finite-element level's own mesh, with stresses at its points, one set a friction.
+
+    points     (n, 2) x and z [m] of the real body
+    triangles  (m, 6) quadratic triangles in gmsh order
+    stresses   by friction coefficient, (n,) each
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    stresses: dict[float, PlaneStress]
+
+
+@dataclass(frozen=True)
+class Level:
+    """One model on pressure elements of one pitch.
+
+    displacement  (n,) [m] of the rough body's surface, averaged over each hat; positive into the
+                  body, with the model's own datum
+    patches       (k, 2) [m] contact patches
+    stresses      one a friction coefficient; empty when no field is asked for
+    seconds       by stage
+    unknowns      of the model's largest linear system
+    mesh          finite elements only: the BlockMesh solved on
+    mesh_field    finite elements only, with stresses
+    """
+
+    grid: HatGrid
+    solution: ContactSolution
+    displacement: np.ndarray
+    patches: np.ndarray
+    seconds: dict[str, float]
+    unknowns: int
+    stresses: tuple[StressResult, ...] = ()
+    mesh: BlockMesh | None = None
+    mesh_field: MeshField | None = None
+
+    @property
+    def contact_length(self) -> float:
+        """Sum of the patches [m]."""
+        return float(np.ptp(self.patches, axis=1).sum())
+
+    @property
+    def extent(self) -> float:
+        """Distance from the first to the last contact [m]."""
+        return float(self.patches[-1, 1] - self.patches[0, 0])
+
+    def stress(self, friction: float) -> StressResult | None:
+        """Stresses under one friction coefficient, None without [stress]."""
+        return next((s for s in self.stresses if s.friction == friction), None)
+
+
+@dataclass(frozen=True)
+class ModelRun:
+    """All levels of one model, coarse to fine.
+
+    name    half_plane | finite_element
+    halved  finite elements: the coarsest level again on a block of half the size, if checked
+    """
+
+    name: str
+    levels: tuple[Level, ...]
+    halved: Level | None = None
+
+    @property
+    def finest(self) -> Level:
+        return self.levels[-1]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """By stage, all levels together."""
+        total: dict[str, float] = {}
+        for level in (*self.levels, *([self.halved] if self.halved else [])):
+            for stage, seconds in level.seconds.items():
+                total[stage] = total.get(stage, 0.0) + seconds
+        return total

@@ -1,0 +1,46 @@
+"""What a finished run holds: everything that its files, table and report are made of."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from comparisons.exit_status import ExitStatus
+from comparisons.level import ModelRun, Window
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.verdict import Comparison
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A finished run.
+
+    runs         by model name, half_plane and/or finite_element
+    window       points of the common field, None without [stress]
+    comparisons  in the order of friction coefficients, then of quantities; empty for one model
+    result       the content of result.json
+    record       the content of record.json
+    directory    where the files are
+    """
+
+    problem: Problem
+    plan: Plan
+    window: Window | None
+    runs: dict[str, ModelRun]
+    comparisons: tuple[Comparison, ...]
+    result: dict
+    record: dict
+    directory: Path
+
+    @property
+    def converged(self) -> bool:
+        """Whether every level of every model met its contact conditions."""
+        return all(level.solution.converged for run in self.runs.values() for level in run.levels)
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        """3 where a solver did not converge, 1 where a quantity is outside its tolerance, else 0."""
+        if not self.converged:
+            return ExitStatus.NOT_CONVERGED
+        if any(c.verdict == "differ" for c in self.comparisons):
+            return ExitStatus.OUTSIDE_TOLERANCE
+        return ExitStatus.DONE

@@ -1,0 +1,133 @@
+"""What a scene needs and what it does not: decided before anything runs, printed and recorded.
+
+A step that is left out never changes a figure that is asked for; `unpruned` gives the plan that
+leaves nothing out, for the test of that.
+"""
+
+from dataclasses import dataclass
+
+from comparisons.problem import Problem
+from comparisons.scene import ResolvedScene
+
+MODELS = ("half_plane", "finite_element")
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A step that a run leaves out, and the reason."""
+
+    step: str
+    because: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Steps of a run.
+
+    models          of MODELS
+    stress          compute subsurface fields
+    tangential      compute the part that friction adds to them
+    shared_factor   the roller's block is the body's with another modulus: one factorisation
+    domain_check    repeat the coarsest finite-element level on a block of half the size
+    skipped         what is left out, each with its reason
+    assumptions     what both models of this run take for granted
+    """
+
+    models: tuple[str, ...]
+    stress: bool
+    tangential: bool
+    shared_factor: bool
+    domain_check: bool
+    skipped: tuple[Skipped, ...]
+    assumptions: tuple[str, ...]
+
+    @property
+    def compares(self) -> bool:
+        return set(self.models) == set(MODELS)
+
+
+def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
+    """The plan that computes what the scene asks for and nothing else."""
+    scene = problem.scene
+    finite_elements = "finite_element" in models
+    stress = scene.stress is not None
+    tangential = stress and any(scene.friction)
+    shared = finite_elements and _shares_factor(scene)
+    domain_check = finite_elements and (scene.thickness is None or scene.width is None)
+    skipped = [
+        Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
+    ]
+
+    def skip(needless: bool, step: str, because: str) -> None:
+        if needless:
+            skipped.append(Skipped(step, because))
+
+    skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
+    skip(not stress, "subsurface stresses", "the scene has no [stress]")
+    skip(stress and not tangential, "stresses of the sliding traction", "there is no friction")
+    skip(scene.hardness is None, "hardness cap", "the body has no hardness")
+    if finite_elements:
+        skip(scene.roller is None, "mesh of the roller", "it is rigid")
+        skip(
+            shared,
+            "factorisation of the roller's block",
+            "it is the body's block with another modulus, or the same",
+        )
+        skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
+    if not len(models) == len(MODELS):
+        skipped.append(Skipped("comparison", "it takes both models"))
+    return Plan(
+        models=models,
+        stress=stress,
+        tangential=tangential,
+        shared_factor=shared,
+        domain_check=domain_check,
+        skipped=tuple(skipped),
+        assumptions=_assumptions(problem),
+    )
+
+
+def unpruned(plan: Plan) -> Plan:
+    """The same run with every step that pruning leaves out."""
+    from dataclasses import replace
+
+    return replace(plan, tangential=plan.stress, shared_factor=False)
+
+
+def _shares_factor(scene: ResolvedScene) -> bool:
+    """Whether the roller's block is the body's, but for a factor on its modulus."""
+    return (
+        scene.roller is not None
+        and scene.roller.poissons_ratio == scene.body.poissons_ratio
+        and scene.thickness is None
+        and scene.width is None
+        and scene.finite_element.geometry == "flat"
+    )
+
+
+def _assumptions(problem: Problem) -> tuple[str, ...]:
+    scene = problem.scene
+    beta = problem.dundurs_beta
+    listed = [
+        "linear elasticity, small deformation, plane strain",
+        "the roller is a parabola of the relative curvature; the gap is taken at the undeformed place",
+    ]
+    if scene.finite_element.geometry == "flat":
+        listed.append("the roughness is in the gap: the pressure acts along the mean normal")
+    else:
+        listed.append(
+            "finite elements: the pressure acts on the real rough boundary along the roller's normal"
+        )
+    if scene.hardness is not None:
+        listed.append("plastic flow is a cap on the pressure (hardness)")
+    if any(scene.friction):
+        size = max(scene.friction) * abs(beta)
+        listed.append(
+            "the sliding traction does not change the pressure"
+            + (
+                " (exact: Dundurs' beta is 0)"
+                if beta == 0.0
+                else f" (friction times Dundurs' beta is {size:.3g})"
+            )
+        )
+    return tuple(listed)

@@ -1,0 +1,154 @@
+"""A resolved scene as the mechanical problem that both models solve.
+
+Symbols: R radius of relative curvature, E* combined modulus, P load per length, a and p0
+half-width and peak pressure of the smooth (Hertz) contact under the same load.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analytic.contact import Constraints, solve_contact
+from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
+from analytic.gap import HatGrid, roller_gap
+from analytic.material import combined_modulus, dundurs_constants
+from analytic.operators import HalfPlane
+from analytic.patches import contact_patches
+from analytic.profile import surface
+from analytic.roughness import shortest_wavelength
+from comparisons.resolve import ResolvedScene
+from comparisons.scene_errors import SceneError
+
+SMOOTH_ELEMENTS = 80  # pressure elements on a half-width, third level: 1e-4 in peak pressure
+HATS_PER_WAVE = 20.0  # third level; the first then has 5 to the shortest wavelength
+MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
+SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
+MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What both models solve.
+
+    scene      as resolved
+    modulus    E* of roller and body [Pa]
+    hertz      the smooth contact under the same load
+    gap        initial gap g0(x) [m] but for a constant
+    knots      (k,) [m] places where the gap's third derivative jumps, None if smooth
+    extent     (2,) [m] stretch of the surface that contact may reach
+    pitches    of the first levels, coarse to fine, each half of the one before [m]
+    """
+
+    scene: ResolvedScene
+    modulus: float
+    hertz: HertzContact
+    gap: Callable[[np.ndarray], np.ndarray]
+    knots: np.ndarray | None
+    extent: tuple[float, float]
+    pitches: tuple[float, ...]
+
+    @property
+    def dundurs_beta(self) -> float:
+        return dundurs_constants(self.scene.body, self.scene.roller)[1]
+
+    def grid(self, pitch: float) -> HatGrid:
+        """The pressure elements of a level."""
+        return HatGrid.within(*self.extent, pitch)
+
+    def constraints(self, load: float | None = None) -> Constraints:
+        """Load and hardness of the scene; `load` [N/m] in place of the scene's own."""
+        hardness = np.inf if self.scene.hardness is None else self.scene.hardness
+        return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
+
+
+def problem_of(scene: ResolvedScene) -> Problem:
+    """Set up the problem of a scene.
+
+    Raises SceneError where the contact would reach beyond the trace, or the load exceeds what
+    the surface can carry at its hardness.
+    """
+    modulus = combined_modulus(scene.roller, scene.body)
+    hertz = _smooth_contact(scene, modulus)
+    curve = None if scene.profile is None else surface(scene.profile)
+    problem = Problem(
+        scene=scene,
+        modulus=modulus,
+        hertz=hertz,
+        gap=roller_gap(scene.roller_radius, curve),
+        knots=None if scene.profile is None else scene.profile.x,
+        extent=(-1.5 * hertz.half_width, 1.5 * hertz.half_width),
+        pitches=(),
+    )
+    if scene.profile is not None or np.isfinite(problem.constraints().hardness):
+        problem = replace(problem, extent=_reach(problem))
+    return replace(problem, pitches=_pitches(problem))
+
+
+def _smooth_contact(scene: ResolvedScene, modulus: float) -> HertzContact:
+    if scene.load.kind == "hertz_peak_pressure":
+        return hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
+    return hertz_from_load(scene.load.value, scene.roller_radius, modulus)
+
+
+def _reach(problem: Problem) -> tuple[float, float]:
+    """Outermost contact with a margin [m], by a coarse half-plane solution on a wide stretch."""
+    scene, half_width = problem.scene, problem.hertz.half_width
+    start, stop = -np.inf, np.inf
+    relief = 0.0
+    if scene.profile is not None:
+        start, stop = scene.profile.x[[0, -1]]
+        relief = float(np.ptp(scene.profile.height))
+    if scene.width is not None:
+        start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    # ground this far out is lower than the roller even if the highest peak stood there
+    reach = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
+    while True:
+        low, high = max(start, -reach), min(stop, reach)
+        if not low < 0.0 < high:
+            raise SceneError(
+                f"{scene.source}: load.position: the roller's centre lies off the body"
+            )
+        grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
+        problem = replace(problem, extent=(low, high))
+        touching = scout(problem, grid)
+        if touching[0] > low + 2.0 * grid.pitch and touching[1] < high - 2.0 * grid.pitch:
+            break
+        if low == start or high == stop:
+            raise SceneError(
+                f"{scene.source}: load: the contact reaches the end of the "
+                f"{'trace' if scene.profile is not None else 'body'} ({touching[0]:.4g} m to "
+                f"{touching[1]:.4g} m of {low:.4g} m to {high:.4g} m); allowed is a load, a radius "
+                "and a position that keep it inside"
+            )
+        reach *= 2.0
+    margin = MARGIN * half_width + 4.0 * grid.pitch
+    return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
+
+
+def scout(problem: Problem, grid: HatGrid) -> tuple[float, float]:
+    """First and last contact [m] of the half-plane on a grid."""
+    operator = HalfPlane(grid.count, grid.pitch, problem.modulus)
+    solution = solve_contact(
+        operator,
+        grid.average(problem.gap, problem.knots),
+        grid.weights,
+        problem.constraints(),
+    )
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    return float(patches[0, 0]), float(patches[-1, 1])
+
+
+def _pitches(problem: Problem) -> tuple[float, ...]:
+    """Pitches of the first levels: fine enough for the shortest wave, or for the smooth edge."""
+    scene = problem.scene
+    levels = scene.resolution.levels
+    if scene.resolution.pitch is not None:
+        finest = scene.resolution.pitch
+    else:
+        finest = problem.hertz.half_width / SMOOTH_ELEMENTS
+        if scene.profile is not None:
+            finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
+        finest = max(finest, (problem.extent[1] - problem.extent[0]) / MOST_HATS)
+        finest *= 2.0 ** (3 - levels)
+    return tuple(finest * 2.0**k for k in range(levels - 1, -1, -1))

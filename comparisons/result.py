@@ -1,0 +1,170 @@
+"""The content of result.json, by the names that other people's scripts rely on."""
+
+import resource
+import sys
+
+from comparisons.compare import uncertainties
+from comparisons.level import Level, ModelRun, StressResult
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.quantities import QUANTITIES
+from comparisons.verdict import Comparison, half_space_verdict
+
+SCHEMA = 1
+
+# How much what both models of a run share may move a figure, per unit of the group that rules
+# it. Measured: a gap taken at the displaced place, along the roller's tilted normal, moves peak
+# pressure and half-width by 0.3 to 0.5 % at a/R = 0.02; finite strain moves the peak pressure of
+# a sinusoid by 0.3 % at a pressure of 0.015 E.
+TILT_PER_A_OVER_RADIUS = 0.25
+STRAIN_PER_PRESSURE_OVER_MODULUS = 0.2
+SHARED_EFFECTS = "finite rotation", "finite strain"
+
+
+def result_of(
+    problem: Problem,
+    plan: Plan,
+    runs: dict[str, ModelRun],
+    comparisons: tuple[Comparison, ...],
+    refinement: str,
+) -> dict:
+    """All figures of a run: SI units, None for what is unknown; `refinement`: why it stopped."""
+    hertz = problem.hertz
+    groups = _groups(problem, runs)
+    verdict, why = half_space_verdict(list(comparisons), shared_effects(problem, runs))
+    by_quantity = {name: [] for name in QUANTITIES}
+    for row in comparisons:
+        by_quantity[row.quantity].append(
+            {
+                "friction": row.friction,
+                "half_plane": row.half_plane,
+                "finite_element": row.finite_element,
+                "difference": row.difference,
+                "uncertainty": row.uncertainty,
+                "tolerance": row.tolerance,
+                "verdict": row.verdict,
+            }
+        )
+    return {
+        "schema": SCHEMA,
+        "scene": problem.scene.as_dict(),
+        "groups": groups,
+        "hertz": {
+            "half_width": hertz.half_width,
+            "peak_pressure": hertz.peak_pressure,
+            "reduced_modulus": hertz.combined_modulus,
+            "tau1_max": hertz.tau1_max,
+            "tau1_max_depth": hertz.tau1_max_depth,
+        },
+        "models": {
+            name: [_model(problem, run, friction) for friction in problem.scene.friction]
+            for name, run in runs.items()
+        },
+        "comparison": {name: rows for name, rows in by_quantity.items() if rows},
+        "half_space": {"verdict": verdict, "why": why},
+        "refinement": refinement,
+        "assumptions": list(plan.assumptions),
+        "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
+    }
+
+
+def shared_effects(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float]:
+    """Estimated relative size of the effects that neither model of this run contains."""
+    peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
+    tilt = TILT_PER_A_OVER_RADIUS * problem.hertz.half_width / problem.scene.roller_radius
+    strain = STRAIN_PER_PRESSURE_OVER_MODULUS * peak / problem.scene.body.youngs_modulus
+    return dict(zip(SHARED_EFFECTS, (tilt, strain), strict=True))
+
+
+def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | None]:
+    scene, half_width = problem.scene, problem.hertz.half_width
+    roughness = None if scene.profile_info is None else scene.profile_info.roughness
+    peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
+    return {
+        "a_over_thickness": None if scene.thickness is None else half_width / scene.thickness,
+        "a_over_radius": half_width / scene.roller_radius,
+        "a_over_width": None if scene.width is None else half_width / scene.width,
+        "rms_slope": None if roughness is None else roughness.rms_slope,
+        "max_slope": None if roughness is None else roughness.max_slope,
+        "friction_dundurs": max(scene.friction) * problem.dundurs_beta,
+        "peak_pressure_over_hardness": None if scene.hardness is None else peak / scene.hardness,
+    }
+
+
+def _model(problem: Problem, run: ModelRun, friction: float) -> dict:
+    level = run.finest
+    residuals = level.solution.residuals
+    return {
+        "friction": friction,
+        "contact": _contact(problem, run.name, level),
+        "stress": _stress(level.stress(friction)),
+        "uncertainty": {
+            name: {
+                "iteration": u.iteration,
+                "discretisation": u.discretisation if len(run.levels) > 2 else None,
+                "domain": u.domain,
+                "total": u.total if len(run.levels) > 2 else None,
+            }
+            for name, u in uncertainties(run, problem, friction).items()
+        },
+        "checks": {
+            "load_balance": residuals.load_balance,
+            "complementarity": residuals.complementarity,
+            "penetration": residuals.penetration,
+            "negative_pressure": residuals.negative_pressure,
+            "excess_pressure": residuals.excess_pressure,
+            "converged": level.solution.converged,
+        },
+        "cost": {
+            "seconds": run.seconds,
+            "iterations": level.solution.iterations,
+            "unknowns": level.unknowns,
+            "peak_memory": peak_memory(),
+        },
+    }
+
+
+def _contact(problem: Problem, model: str, level: Level) -> dict:
+    solution = level.solution
+    approach, why = _approach(problem, model, level)
+    return {
+        "load_per_length": solution.load,
+        "approach": approach,
+        "approach_why": why,
+        "peak_pressure": float(solution.pressure.max()),
+        "peak_position": float(level.grid.x[solution.pressure.argmax()]),
+        "contact_length": level.contact_length,
+        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
+        "contact_ratio_extent": level.contact_length / level.extent,
+        "patches": level.patches.tolist(),
+    }
+
+
+def _approach(problem: Problem, model: str, level: Level) -> tuple[float | None, str | None]:
+    """Approach from first touch [m], where both bodies have a datum; else why not."""
+    if model == "half_plane":
+        return None, "the displacement of a half-plane is known but for a constant"
+    if problem.scene.thickness is None:
+        return None, "the body is unbounded: the value would grow with the size of its mesh"
+    if problem.scene.roller is not None:
+        return None, "the elastic roller is unbounded: its share has no datum"
+    first_touch = float(problem.gap(level.grid.x).min())
+    return level.solution.approach - first_touch, None
+
+
+def _stress(stress: StressResult | None) -> dict | None:
+    if stress is None:
+        return None
+    names = {"tau1": "tau1_max", "txz": "txz_max_abs", "von_mises": "von_mises_max"}
+    found = {}
+    for key, name in names.items():
+        extreme = stress.extremes[key]
+        found[name] = abs(extreme.value)
+        found[f"{name}_at"] = [extreme.x, extreme.z]
+    return found
+
+
+def peak_memory() -> int:
+    """Largest resident memory of this process so far [bytes]."""
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes * (1 if sys.platform == "darwin" else 1024)

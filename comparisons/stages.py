@@ -1,0 +1,34 @@
+"""What a run spends its time on: seconds by stage, told to whoever watches."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+
+Listener = Callable[[str], None]
+
+
+def silent(stage: str) -> None:
+    """A listener that says nothing."""
+
+
+@dataclass
+class Stages:
+    """Collects seconds by stage; `listener` is told the name of each stage as it begins."""
+
+    listener: Listener = silent
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str, announce: str | None = None) -> Iterator[None]:
+        """Time what runs inside under `name`; repeated stages add up."""
+        self.listener(announce or name)
+        begin = perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + perf_counter() - begin
+
+    def child(self) -> "Stages":
+        """Empty collector that tells the same listener."""
+        return Stages(self.listener)

@@ -1,0 +1,91 @@
+"""Grid convergence: known sequences, coverage on made-up but realistic ones."""
+
+import numpy as np
+import pytest
+
+from analytic.contact import Constraints, solve_contact
+from analytic.exact.hertz import hertz_from_load
+from analytic.gap import HatGrid, roller_gap
+from analytic.operators import HalfPlane
+from analytic.patches import contact_patches
+from comparisons.uncertainty import grid_convergence
+
+
+def sequence(limit, error, order, levels=3):
+    return [limit + error * 2.0 ** (-order * k) for k in range(levels)]
+
+
+@pytest.mark.parametrize("order", [0.6, 1.0, 1.5, 2.0])
+def test_a_pure_power_gives_its_order_and_limit(order):
+    found = grid_convergence(sequence(7.0, 0.3, order), formal_order=2.0)
+    assert found.behaviour == "monotone"
+    assert found.order == pytest.approx(order)
+    assert found.limit == pytest.approx(7.0)
+    assert found.uncertainty == pytest.approx(1.25 * abs(found.value - 7.0))
+
+
+def test_only_the_last_three_levels_count():
+    assert grid_convergence([99.0, -5.0, *sequence(7.0, 0.3, 2.0)], 2.0) == grid_convergence(
+        sequence(7.0, 0.3, 2.0), 2.0
+    )
+
+
+def test_two_levels_tell_nothing():
+    found = grid_convergence([1.0, 1.1], 2.0)
+    assert found.uncertainty == np.inf and found.behaviour == "too few levels"
+
+
+def test_an_accidental_agreement_is_not_convergence():
+    """The last step is nearly nothing: the step before it, at the formal order, still counts."""
+    found = grid_convergence([1.0, 1.2, 1.2001], 2.0)
+    assert found.behaviour == "irregular"
+    assert found.uncertainty == pytest.approx(3.0 * 0.2 / 4.0 / 3.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "behaviour", "uncertainty"),
+    [
+        ([1.0, 1.2, 1.1], "oscillating", 0.2),
+        ([1.0, 1.1, 1.3], "diverging", 3.0 * 0.2 / (2.0**0.5 - 1.0)),
+        ([5.0, 5.0, 5.0], "settled", 0.0),
+        ([0.0, 0.0, 0.0], "settled", 0.0),
+        ([5.0, 5.0, 5.1], "irregular", 3.0 * 0.1 / (2.0**0.5 - 1.0)),
+        ([5.0, 5.1, 5.1], "irregular", 3.0 * 0.025 / 3.0),
+    ],
+)
+def test_irregular_sequences(values, behaviour, uncertainty):
+    found = grid_convergence(values, 2.0)
+    assert found.behaviour == behaviour
+    assert found.uncertainty == pytest.approx(uncertainty, abs=1e-12)
+
+
+def test_uncertainty_scales_with_the_figure():
+    small = grid_convergence(sequence(1.0, 0.1, 1.3), 2.0)
+    large = grid_convergence([1e9 * v for v in sequence(1.0, 0.1, 1.3)], 2.0)
+    assert large.uncertainty == pytest.approx(1e9 * small.uncertainty)
+
+
+def test_stated_uncertainty_covers_the_error_of_hertz():
+    """Peak pressure and contact length on shifted grids, against the exact values."""
+    hertz = hertz_from_load(3.55e6, 7.5706e-3, 115.385e9)
+    covered, widths = [], []
+    for offset in np.linspace(0.0, 0.9, 10):
+        peaks, lengths = [], []
+        for elements in (90, 180, 360):
+            reach = 1.5 * hertz.half_width
+            grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
+            shift = offset * 2.0 * reach / 360
+            solution = solve_contact(
+                HalfPlane(grid.count, grid.pitch, hertz.combined_modulus),
+                grid.average(lambda x, shift=shift: roller_gap(hertz.radius)(x - shift)),
+                grid.weights,
+                Constraints(load=hertz.load_per_length),
+            )
+            peaks.append(solution.pressure.max())
+            lengths.append(np.ptp(contact_patches(grid.x, solution.pressure, solution.gap)))
+        for values, exact in ((peaks, hertz.peak_pressure), (lengths, 2.0 * hertz.half_width)):
+            found = grid_convergence(values, 2.0)
+            covered.append(abs(found.value - exact) <= found.uncertainty)
+            widths.append(found.uncertainty / exact)
+    assert np.mean(covered) >= 0.9
+    assert np.median(widths) < 2e-3
