@@ -1,0 +1,168 @@
+"""Finished runs in a fraction of a second: real contact solutions, closed-form stress fields.
+
+The run that stands for the finite elements is the same solver on a body one per cent stiffer,
+with a structured mesh beside it: what shows results needs results, not a factorisation.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.contact import solve_contact
+from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
+from analytic.operators import HalfPlane
+from analytic.patches import contact_patches
+from analytic.plane_stress import Extremum, PlaneStress
+from comparisons.compare import compare
+from comparisons.level import Level, MeshField, ModelRun, StressResult, Window
+from comparisons.outcome import Outcome
+from comparisons.plan import make_plan
+from comparisons.problem import Problem, problem_of
+from comparisons.record import digest, record_of
+from comparisons.resolve import resolve_tables
+from comparisons.result import result_of
+from meshes.block import BlockMesh, BlockSpec
+
+MODELS = ("half_plane", "finite_element")
+STIFFER = 1.01
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SMOOTH = {
+    "title": "Smooth roller on a smooth half-plane",
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6},
+    "stress": {"points": [60, 20]},
+}
+WAVY = {
+    "title": "Wavy body",
+    "roller": {"radius": 10e-3, **STEEL},
+    "body": {**STEEL, "hardness": 4e9},
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+    "stress": {"points": [60, 20]},
+}
+
+
+def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
+    """Second-order triangles on a square block, finer towards the middle of its top."""
+    reach = 40.0 * problem.hertz.half_width
+    line = reach * np.linspace(-1.0, 1.0, cells + 1) ** 3
+    x, z = (g.ravel() for g in np.meshgrid(line, line[cells // 2 :], indexing="ij"))
+    rows = cells // 2 + 1
+    corner = (np.arange(cells)[:, None] * rows + np.arange(rows - 1)).ravel()
+    corners = np.concatenate(
+        [
+            np.column_stack([corner, corner + rows, corner + rows + 1]),
+            np.column_stack([corner, corner + rows + 1, corner + 1]),
+        ]
+    )
+    edges = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    edges, middle = np.unique(edges, axis=0, return_inverse=True)
+    vertices = np.column_stack([x, z])
+    points = np.concatenate([vertices, vertices[edges].mean(axis=1)])
+    triangles = np.column_stack([corners, len(vertices) + middle.reshape(-1, 3)])
+    spec = BlockSpec(reach, reach, np.array([[-reach / 8, reach / 8]]), float(line[1] - line[0]))
+    return BlockMesh(points, triangles, np.zeros(len(points)), spec)
+
+
+def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:
+    hertz = hertz_from_load(problem.hertz.load_per_length, problem.scene.roller_radius, modulus)
+    found = []
+    for friction in problem.scene.friction:
+        known = hertz_extremes(hertz, friction)
+        txz = max(known.txz_max, known.txz_min, key=lambda extreme: abs(extreme.value))
+        field = hertz_stress(hertz, window.x, window.z[:, None], friction)
+        deepest = Extremum(2.0 * known.tau1.value, known.tau1.x, known.tau1.z)
+        found.append(
+            StressResult(friction, {"tau1": known.tau1, "txz": txz, "von_mises": deepest}, field)
+        )
+    return tuple(found)
+
+
+def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -> Level:
+    modulus = problem.modulus * (STIFFER if name == "finite_element" else 1.0)
+    grid = problem.grid(pitch)
+    operator = HalfPlane(grid.count, pitch, modulus)
+    average = grid.average(problem.gap, problem.knots)
+    solution = solve_contact(operator, average, grid.weights, problem.constraints())
+    mesh = block_mesh(problem) if name == "finite_element" else None
+    mesh_field = None
+    if mesh is not None and window is not None:
+        zero = np.zeros(len(mesh.points))
+        nodal = {friction: PlaneStress(zero, zero, zero) for friction in problem.scene.friction}
+        mesh_field = MeshField(mesh.points, mesh.triangles, nodal)
+    return Level(
+        grid=grid,
+        solution=solution,
+        displacement=0.5 * operator.apply(solution.pressure) / grid.weights,
+        patches=contact_patches(grid.x, solution.pressure, solution.gap),
+        seconds={"contact": 0.0123, "stresses": 0.456}
+        if mesh is None
+        else {"mesh": 1.25, "assembly": 0.375, "factorisation": 1.125, "contact": 0.25},
+        unknowns=grid.count if mesh is None else 2 * len(mesh.points),
+        stresses=() if window is None else stresses(problem, modulus, window),
+        mesh=mesh,
+        mesh_field=mesh_field,
+    )
+
+
+def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
+    """The outcome of a scene given as tables."""
+    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+    problem = problem_of(scene)
+    plan = make_plan(problem, models)
+    window = None
+    if scene.stress is not None:
+        columns, rows = scene.stress.points
+        half_width = problem.hertz.half_width
+        window = Window(
+            np.linspace(-1.5, 1.5, columns + 1) * half_width,
+            np.linspace(0.0, 1.0, rows) ** 2 * half_width,
+        )
+    runs = {
+        name: ModelRun(
+            name, tuple(level_of(problem, name, pitch, window) for pitch in problem.pitches)
+        )
+        for name in models
+    }
+    comparisons = ()
+    if plan.compares:
+        comparisons = tuple(
+            row
+            for friction in scene.friction
+            for row in compare(
+                runs["half_plane"], runs["finite_element"], problem, friction, window
+            )
+        )
+    hashes = {
+        f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
+    }
+    return Outcome(
+        problem=problem,
+        plan=plan,
+        window=window,
+        runs=runs,
+        comparisons=comparisons,
+        result=result_of(problem, plan, runs, comparisons, "every judged quantity is resolved"),
+        record=record_of(scene, models, hashes),
+        directory=Path("results/made"),
+    )
+
+
+@pytest.fixture(scope="session")
+def finish() -> Callable[..., Outcome]:
+    """`finish(tables, models)`: the outcome of a scene given as tables."""
+    return finished_run
+
+
+@pytest.fixture(scope="session")
+def smooth_outcome() -> Outcome:
+    return finished_run(SMOOTH)
+
+
+@pytest.fixture(scope="session")
+def wavy_outcome() -> Outcome:
+    """Rough, with a hardness and two friction coefficients."""
+    return finished_run(WAVY)
