@@ -1,0 +1,318 @@
+"""The launcher's promises, held with stand-ins for Debian's python, apt-get, dpkg-query and sudo.
+
+Each test has a checkout of its own, in a folder with a space in its name, that holds the real
+`crosscheck` with only the path of the interpreter exchanged. The stand-ins write what they were
+asked for to a file `calls`; environment variables tell them how to behave.
+"""
+
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).resolve().parents[1]
+NOBODY = 65534
+
+PYTHON = r"""#!/bin/bash
+echo "python $*" >>"$CALLS"
+case "$1 ${2-}" in
+    "-m venv")
+        target=${@: -1}
+        mkdir -p "$target/bin"
+        touch "$target/pyvenv.cfg"
+        cp "$0" "$target/bin/python"
+        command=$target/bin/crosscheck
+        printf '%s\n' '#!/bin/bash' 'printf "<%s>" "$@"' 'exit ${STATUS:-0}' >"$command"
+        chmod +x "$command" ;;
+    "-m pip")
+        for file in "$@"; do [ "${file##*/}" = constraints.txt ] && cat "$file" >>"$CALLS"; done
+        echo "pip works" >>"$CALLS"
+        sleep "${PIP_SECONDS:-0}"
+        echo "${PIP_SAYS-}"
+        exit "${PIP_STATUS:-0}" ;;
+    "-m pytest") echo "threads=$OMP_NUM_THREADS folder=$PWD arguments=$*"; exit "${STATUS:-0}" ;;
+    "- ") cat >/dev/null; echo numpy==1.24.2 ;;
+    "-c import dolfinx") [ "${MISSING-}" != python3-dolfinx ] || [ -e "$INSTALLED" ] ;;
+esac
+"""
+DPKG_QUERY = r"""#!/bin/bash
+if [ "${@: -1}" != "${MISSING-}" ] || [ -e "$INSTALLED" ]; then printf installed; fi
+"""
+APT_GET = r"""#!/bin/bash
+echo "apt-get $*" >>"$CALLS"
+if [ -n "${APT_LOCK-}" ] && mkdir "$APT_LOCK" 2>/dev/null; then
+    echo "E: Unable to lock directory /var/lib/apt/lists/"
+    exit 100
+fi
+if [ "$1" = install ]; then touch "$INSTALLED"; fi
+"""
+SUDO = r"""#!/bin/bash
+[ "$1" = -n ] && shift
+[ -n "${SUDO_WORKS-}" ] && exec "$@"
+exit 1
+"""
+
+
+class Checkout:
+    """A folder with the launcher in it, and how to call it."""
+
+    def __init__(self, base: Path):
+        self.base = base
+        self.root = base / "check out"
+        self.environment = self.root / ".venv"
+        self.calls_file = base / "calls"
+        tools = base / "tools"
+        self.root.mkdir()
+        tools.mkdir()
+        for name, text in {
+            "python3": PYTHON,
+            "dpkg-query": DPKG_QUERY,
+            "apt-get": APT_GET,
+            "sudo": SUDO,
+        }.items():
+            (tools / name).write_text(text)
+            (tools / name).chmod(0o755)
+        source = (PROJECT / "crosscheck").read_text()
+        line = "python=/usr/bin/python3\n"
+        assert source.count(line) == 1
+        self.script = self.root / "crosscheck"
+        self.script.write_text(source.replace(line, f"python='{tools}/python3'\n"))
+        self.script.chmod(0o755)
+        shutil.copy(PROJECT / "pyproject.toml", self.root)
+        self.calls_file.touch()
+        self.variables = {
+            "PATH": f"{tools}:{os.environ['PATH']}",
+            "HOME": str(base),
+            "CALLS": str(self.calls_file),
+            "INSTALLED": str(base / "installed"),
+        }
+
+    def start(self, *arguments, script=None, before=(), **variables) -> subprocess.Popen:
+        options = {key: variables.pop(key) for key in ("cwd", "stderr") if key in variables}
+        return subprocess.Popen(
+            [*before, str(script or self.script), *arguments],
+            env=self.variables | variables,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            **({"stderr": subprocess.PIPE, "cwd": self.base} | options),
+        )
+
+    def call(self, *arguments, **options) -> subprocess.CompletedProcess:
+        process = self.start(*arguments, **options)
+        out, err = process.communicate(timeout=60)
+        return subprocess.CompletedProcess(process.args, process.returncode, out, err)
+
+    def calls(self, beginning: str = "") -> list[str]:
+        return [c for c in self.calls_file.read_text().splitlines() if c.startswith(beginning)]
+
+    def set_ups(self) -> int:
+        return len(self.calls("python -m pip install"))
+
+
+@pytest.fixture
+def checkout():
+    with tempfile.TemporaryDirectory() as folder:
+        base = Path(folder)
+        base.chmod(0o755)
+        yield Checkout(base)
+
+
+def ordinary_user(checkout: Checkout) -> list[str]:
+    """What to put before a command so that it does not run as root."""
+    if os.geteuid() != 0:
+        return []
+    for path in (checkout.base, *checkout.base.rglob("*")):
+        os.chown(path, NOBODY, NOBODY)
+    return ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
+
+
+def test_first_call_sets_up_and_later_calls_only_run(checkout):
+    first = checkout.call("run", "hertz")
+    assert (first.returncode, first.stdout, first.stderr) == (0, "<run><hertz>", "")
+    assert checkout.set_ups() == 1
+    seen = checkout.calls()
+    second = checkout.call("run", "hertz")
+    assert (second.returncode, second.stdout, second.stderr) == (0, "<run><hertz>", "")
+    assert checkout.calls() == seen
+
+
+def test_arguments_and_exit_status_pass_unchanged(checkout):
+    awkward = ["a b", "", "*", "--x=$HOME", "test"]
+    done = checkout.call(*awkward, STATUS="3")
+    assert done.returncode == 3
+    assert done.stdout == "".join(f"<{a}>" for a in awkward)
+
+
+def test_debians_numpy_is_a_constraint_for_pip(checkout):
+    checkout.call()
+    assert "numpy==1.24.2" in checkout.calls()
+    (pip,) = checkout.calls("python -m pip install")
+    assert f"--constraint {checkout.environment}/constraints.txt" in pip
+    assert pip.endswith(f"--editable {checkout.root}[test]")
+
+
+def test_works_through_a_link_and_from_another_folder(checkout):
+    link = checkout.base / "link"
+    link.symlink_to("check out/crosscheck")
+    assert checkout.call("a", script=link, cwd="/").stdout == "<a>"
+    assert (checkout.environment / "stamp").exists()
+    assert checkout.call("b", script="./crosscheck", cwd=checkout.root).stdout == "<b>"
+    assert checkout.set_ups() == 1
+
+
+def test_threads_and_packages_at_home_are_the_users(checkout):
+    checkout.call()
+    command = checkout.environment / "bin" / "crosscheck"
+    command.write_text('#!/bin/bash\necho "${OMP_NUM_THREADS-unset} $PYTHONNOUSERSITE"\n')
+    assert checkout.call().stdout == "unset 1\n"
+    assert checkout.call(OMP_NUM_THREADS="7").stdout == "7 1\n"
+
+
+def test_test_command_runs_pytest_in_the_checkout_on_one_thread(checkout):
+    done = checkout.call("test", "-k", "a b", OMP_NUM_THREADS="7", STATUS="5", cwd="/")
+    assert done.returncode == 5
+    assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest -k a b\n"
+
+
+def test_changed_dependencies_set_up_again_and_tool_settings_do_not(checkout):
+    checkout.call()
+    project = checkout.root / "pyproject.toml"
+    text = project.read_text()
+    project.write_text(text.replace("[tool.ruff]\n", "[tool.ruff]\npreview = true\n"))
+    checkout.call()
+    assert checkout.set_ups() == 1
+    assert '"rich' in text
+    project.write_text(text.replace('"rich', '"seaborn",\n    "rich'))
+    checkout.call()
+    assert checkout.set_ups() == 2
+
+
+def test_moved_checkout_sets_up_again(checkout):
+    checkout.call()
+    checkout.root = checkout.root.rename(checkout.base / "elsewhere")
+    assert checkout.call("a", script=checkout.root / "crosscheck").stdout == "<a>"
+    assert checkout.set_ups() == 2
+
+
+def test_two_first_calls_at_once_set_up_once(checkout):
+    both = [checkout.start(name, PIP_SECONDS="0.5") for name in ("a", "b")]
+    assert [p.communicate(timeout=60)[0] for p in both] == ["<a>", "<b>"]
+    assert checkout.set_ups() == 1
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_interrupted_set_up_starts_afresh(checkout, number):
+    process = checkout.start(PIP_SECONDS="30")
+    deadline = time.monotonic() + 30
+    while not checkout.calls("pip works"):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    (checkout.environment / "half").touch()
+    os.killpg(process.pid, number)
+    process.communicate(timeout=60)
+    assert process.returncode != 0
+    assert not (checkout.environment / "stamp").exists()
+    assert checkout.call("a").stdout == "<a>"
+    assert not (checkout.environment / "half").exists()
+
+
+def test_failed_pip_shows_what_it_said_last_and_where_the_rest_is(checkout):
+    done = checkout.call(PIP_STATUS="1", PIP_SAYS="ERROR: no wheel for you")
+    assert done.returncode == 2
+    assert "ERROR: no wheel for you" in done.stderr
+    assert str(checkout.environment / "setup.log") in done.stderr
+    assert checkout.call("a").stdout == "<a>"
+
+
+def test_no_network_is_said_in_a_sentence(checkout):
+    said = "NewConnectionError('<pip._vendor.urllib3...>: Failed to establish a new connection')"
+    done = checkout.call(PIP_STATUS="1", PIP_SAYS=said)
+    assert done.returncode == 2
+    assert "network" in done.stderr
+    assert "NewConnectionError" not in done.stderr
+
+
+def test_progress_goes_to_a_terminal_only(checkout):
+    ours, theirs = pty.openpty()
+    process = checkout.start("a", stderr=theirs)
+    os.close(theirs)
+    assert process.communicate(timeout=60)[0] == "<a>"
+    said = os.read(ours, 10000).decode().splitlines()
+    os.close(ours)
+    assert 3 <= len(said) <= 5
+    assert all(line.startswith("crosscheck: ") for line in said)
+    assert said[-1] == "crosscheck: ready"
+
+
+def test_an_environment_of_somebody_elses_is_left_alone(checkout):
+    checkout.environment.mkdir()
+    (checkout.environment / "pyvenv.cfg").touch()
+    cache = checkout.base / "cache"
+    assert checkout.call("a", XDG_CACHE_HOME=str(cache)).stdout == "<a>"
+    assert os.listdir(checkout.environment) == ["pyvenv.cfg"]
+    assert len(list(cache.glob("crosscheck/*/stamp"))) == 1
+    checkout.call("a", XDG_CACHE_HOME=str(cache))
+    assert checkout.set_ups() == 1
+
+
+def test_checkout_that_cannot_be_written_uses_the_cache_folder(checkout):
+    user = ordinary_user(checkout)
+    checkout.root.chmod(0o555)
+    assert checkout.call("a", before=user).stdout == "<a>"
+    assert not checkout.environment.exists()
+    assert len(list(checkout.base.glob(".cache/crosscheck/*/stamp"))) == 1
+
+
+def test_ordinary_user_without_sudo_is_told_the_line_to_type(checkout):
+    user = ordinary_user(checkout)
+    done = checkout.call("a", before=user, MISSING="python3-dolfinx")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert (
+        "sudo sh -c 'apt-get update && apt-get install --yes --no-install-recommends"
+        " python3-dolfinx'\n"
+    ) in done.stderr
+    assert checkout.calls("apt-get") == []
+    assert checkout.set_ups() == 0
+
+
+def test_ordinary_user_with_sudo_has_the_missing_packages_installed(checkout):
+    user = ordinary_user(checkout)
+    done = checkout.call("a", before=user, MISSING="libegl1", SUDO_WORKS="yes")
+    assert (done.returncode, done.stdout) == (0, "<a>")
+    assert checkout.calls("apt-get") == [
+        "apt-get update",
+        "apt-get install --yes --no-install-recommends libegl1",
+    ]
+
+
+def test_apt_get_is_tried_again_while_another_one_runs(checkout):
+    nap = checkout.base / "tools" / "sleep"
+    nap.write_text('#!/bin/bash\necho "sleep $*" >>"$CALLS"\n')
+    nap.chmod(0o755)
+    user = ordinary_user(checkout)
+    lock = str(checkout.base / "lock")
+    done = checkout.call("a", before=user, MISSING="libgl1", SUDO_WORKS="yes", APT_LOCK=lock)
+    assert (done.returncode, done.stdout) == (0, "<a>")
+    assert [c.split()[0] for c in checkout.calls() if c.startswith(("apt-get", "sleep 5"))] == [
+        "apt-get",
+        "sleep",
+        "apt-get",
+        "apt-get",
+    ]
+
+
+def test_dolfinx_from_elsewhere_needs_no_package(checkout):
+    python = checkout.base / "tools" / "python3"
+    python.write_text(python.read_text().replace("!= python3-dolfinx", "!= none"))
+    done = checkout.call("a", MISSING="python3-dolfinx")
+    assert (done.returncode, done.stdout) == (0, "<a>")
+    assert checkout.calls("apt-get") == []
