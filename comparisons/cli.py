@@ -9,7 +9,6 @@ import difflib
 import json
 import os
 import sys
-import tempfile
 import traceback
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -101,11 +100,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
     chosen = _models(models)
+    from comparisons.files import check_writable
     from comparisons.resolve import load_scene
 
     resolved = load_scene(scene)
     directory = out or RESULTS / resolved.name
-    _check_writable(directory)
+    check_writable(directory)
     from comparisons.run import run as run_scene
 
     with _progress() as progress:
@@ -148,25 +148,6 @@ def _models(given: str) -> tuple[str, ...]:
     if not named:
         raise InputError(f"--models: is empty; allowed are {', '.join(MODELS)}")
     return tuple(MODELS[name] for name in MODELS if name in named)
-
-
-def _check_writable(directory: Path) -> None:
-    """Raise InputError unless `directory` is, or can be made, a folder to write in.
-
-    Permission bits do not tell (of root, of a read-only file system), so a folder is made and
-    removed where the first new one would be.
-    """
-    place = directory
-    while not os.path.lexists(place) and place != place.parent:
-        place = place.parent
-    if not place.is_dir():
-        raise InputError(f"--out: {place} is not a folder; allowed is a folder, there or not yet")
-    try:
-        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
-    except OSError as error:
-        raise InputError(
-            f"--out: {place} cannot be written in ({error.strerror}); allowed is a folder that can"
-        ) from error
 
 
 @contextmanager

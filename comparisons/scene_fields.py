@@ -91,7 +91,7 @@ class Whole(FieldType):
 
 @dataclass(frozen=True)
 class Text(FieldType):
-    """A string with something in it."""
+    """One line of text."""
 
     meaning: str
 
@@ -99,11 +99,13 @@ class Text(FieldType):
         if not isinstance(given, str):
             raise self.wrong(f"is {describe(given)}")
         if not given.strip():
-            raise self.wrong("is empty")
+            raise self.wrong("is blank")
+        if not given.isprintable():
+            raise self.wrong("holds a control character")
         return given
 
     def allowed(self) -> str:
-        return f"a string, {self.meaning}"
+        return f"a string of one line, {self.meaning}"
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,8 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     if there is neither, with the nearest name and the names there are.
     """
     given = os.fspath(name_or_path)
+    if not given:
+        raise SceneError("the scene has no name; allowed is a scene's file or name")
     names = scene_names()
     if given in names:
         return SCENES / f"{given}.toml"
