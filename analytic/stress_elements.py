@@ -121,16 +121,17 @@ def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """
     side, x = np.where(x < 0.0, -1.0, 1.0), np.abs(x)
     y = np.stack([x + 1.0, x, x - 1.0])
-    second_difference = np.array([1.0, -2.0, 1.0])
-    turn = second_difference @ np.arctan2(z, y)
-    radius = np.hypot(y, z)
-    logs = second_difference @ np.log(np.where(radius > 0.0, radius, 1.0))
-    stretch = second_difference @ xlogy(y, radius)
+    radius, angle = np.hypot(y, z), np.arctan2(z, y)
+    logs = _second_difference(np.log(np.where(radius > 0.0, radius, 1.0)))
+    stretch = _second_difference(xlogy(y, radius))
+    shallow = z < x
+    # Around the axis angles from the vertical leave exactly nothing of what is odd in x.
+    upright = np.arctan2(1.0 - x, z) - np.arctan2(1.0 + x, z) + 2.0 * np.arctan2(x, z)
+    turn = np.where(shallow, _second_difference(angle), upright)
     # y t = |y| atan(z/|y|) + pi min(y, 0), and the difference of the latter is -pi times the hat;
     # taking z off the former leaves what is of third order in z away from the nodes.
-    shallow = z < x
-    steady = second_difference @ _shortfall(np.abs(y), z) - np.pi * np.maximum(1.0 - x, 0.0)
-    sz = np.where(shallow, steady, second_difference @ (y * np.arctan2(z, y))) / np.pi
+    steady = _second_difference(_shortfall(np.abs(y), z)) - np.pi * np.maximum(1.0 - x, 0.0)
+    sz = np.where(shallow, steady, _second_difference(y * angle)) / np.pi
     return np.stack(
         [
             sz + 2.0 * z * logs / np.pi,
@@ -139,6 +140,11 @@ def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
             side * (3.0 * z * turn - 2.0 * stretch) / np.pi,
         ]
     )
+
+
+def _second_difference(at: np.ndarray) -> np.ndarray:
+    """Of three rows; the outer two first, so that opposite ones cancel exactly."""
+    return at[0] + at[2] - 2.0 * at[1]
 
 
 def _shortfall(y: np.ndarray, z: np.ndarray) -> np.ndarray:

@@ -13,8 +13,9 @@ from analytic.stress_field import StressField
 
 Quantity = Callable[[PlaneStress], np.ndarray]
 
-_DIFFERENCE = 1e-4  # of a cell: halves the digits of neither the rounding nor the cubic term
+_DIFFERENCE = 1e-4  # of a cell: rounding and curvature spoil the slope by less than 1e-8
 _SLOPE_TOLERANCE = 1e-10  # of the largest value on the grid, a cell
+_VALUE_TOLERANCE = 1e-15
 _ITERATIONS = 50
 
 
@@ -122,7 +123,7 @@ def _climb(
         jac=True,
         method="L-BFGS-B",
         bounds=list(zip((low - origin) / width, (high - origin) / width, strict=True)),
-        options={"ftol": 0.0, "gtol": _SLOPE_TOLERANCE, "maxiter": _ITERATIONS},
+        options={"ftol": _VALUE_TOLERANCE, "gtol": _SLOPE_TOLERANCE, "maxiter": _ITERATIONS},
     )
     place = np.clip(origin + found.x * width, low, high)
     return -float(found.fun), float(place[0]), float(place[1])

@@ -157,6 +157,13 @@ def test_friction_superposes_pressure_and_traction():
     assert unit.at(0.0) is unit.normal
 
 
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
+    unit = stress(0.0, np.array([1e-12, 1e-3, 0.3, 1.0, 2.9, 3.1, 50.0]), 1.0)
+    np.testing.assert_array_equal(unit.normal.txz, 0.0)
+    np.testing.assert_array_equal(unit.traction_sx, 0.0)
+
+
 def test_moments_do_not_cancel_on_the_axis():
     """sx of a hat deep on its axis is the second moment alone: -(2/pi) mu_2 z^-3."""
     for z in (30.0, 1e3, 1e6):
