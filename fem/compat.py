@@ -6,8 +6,16 @@ against these functions, numpy, and the part of PETSc and UFL that all three sha
 
 import inspect
 import logging
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from dolfinx.fem import Constant, FunctionSpace
+    from dolfinx.mesh import Mesh
+    from mpi4py.MPI import Comm
+    from petsc4py.PETSc import Mat
+    from ufl import Form
 
 
 def quiet_compiler() -> None:
@@ -23,7 +31,7 @@ def quiet_compiler() -> None:
         handler.setLevel(max(handler.level, logging.WARNING))
 
 
-def triangle_mesh(comm, cells: np.ndarray, points: np.ndarray, degree: int):
+def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: int) -> "Mesh":
     """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2.
 
     `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
@@ -54,7 +62,7 @@ def triangle_mesh(comm, cells: np.ndarray, points: np.ndarray, degree: int):
     return create_mesh(comm, cells, x=points, e=element)
 
 
-def displacement_space(mesh):
+def displacement_space(mesh: "Mesh") -> "FunctionSpace":
     """Continuous quadratic vector space. 0.5 has a function for vectors, later ones a shape."""
     from dolfinx import fem
 
@@ -63,13 +71,13 @@ def displacement_space(mesh):
     return fem.functionspace(mesh, ("Lagrange", 2, (2,)))
 
 
-def cell_nodes(space) -> np.ndarray:
+def cell_nodes(space: "FunctionSpace") -> np.ndarray:
     """Node numbers (m, 6) of the space's cells. 0.5 hands out an adjacency list."""
     nodes = space.dofmap.list
     return np.asarray(nodes.array if hasattr(nodes, "array") else nodes).reshape(-1, 6)
 
 
-def cell_points(mesh) -> np.ndarray:
+def cell_points(mesh: "Mesh") -> np.ndarray:
     """Coordinate numbers (m, k) of the mesh's cells.
 
     0.5 has an adjacency list, 0.9 an array, 0.11 a list of arrays, one a cell type.
@@ -84,7 +92,7 @@ def cell_points(mesh) -> np.ndarray:
     return np.asarray(points.array if hasattr(points, "array") else points).reshape(count, -1)
 
 
-def input_points(mesh) -> np.ndarray:
+def input_points(mesh: "Mesh") -> np.ndarray:
     """Number in the arrays given to `triangle_mesh` of each of the mesh's coordinates.
 
     A list on 0.5, an array later; a method or a property.
@@ -93,7 +101,7 @@ def input_points(mesh) -> np.ndarray:
     return np.asarray(indices() if callable(indices) else indices, dtype=np.int64)
 
 
-def petsc_matrix(bilinear, conditions):
+def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
     """PETSc matrix of a UFL form; the identity in the rows and columns of `conditions`."""
     from dolfinx import fem
     from dolfinx.fem.petsc import assemble_matrix
@@ -104,14 +112,14 @@ def petsc_matrix(bilinear, conditions):
     return matrix
 
 
-def constant(mesh, value: float):
+def constant(mesh: "Mesh", value: float) -> "Constant":
     """A number in a form, so that changing it does not compile the form again."""
     from dolfinx import fem
 
     return fem.Constant(mesh, real_number(value))
 
 
-def real_number(value: float):
+def real_number(value: float) -> np.floating:
     """`value` in PETSc's own scalar type, which all three ask for in constants and conditions."""
     from petsc4py import PETSc
 

@@ -17,9 +17,11 @@ import numpy as np
 
 from analytic.material import Material
 from fem import compat
+from fem.locate import Locator
 from fem.mumps import FemError, SymmetricFactor
 from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
 from meshes.block import BlockMesh
+from meshes.quality import corner_jacobians, real_points
 
 Base = Literal["bonded", "frictionless"]
 Sides = Literal["free", "rollers", "fixed"]
@@ -71,6 +73,7 @@ class ElasticBody:
     curved                    whether elements have curved edges
     matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
     assembly_seconds          what mesh transfer and assembly took
+    locator                   finds the element that holds a point
     factor                    the factorisation: its seconds, bytes and number of solves
     """
 
@@ -108,6 +111,10 @@ class ElasticBody:
         return surface_of(self.mesh)
 
     @cached_property
+    def locator(self) -> Locator:
+        return Locator(self.points, self.mesh.triangles, self.curved)
+
+    @cached_property
     def factor(self) -> SymmetricFactor:
         return SymmetricFactor(self.matrix)
 
@@ -139,15 +146,10 @@ class ElasticBody:
         return whole
 
 
-def real_points(mesh: BlockMesh) -> np.ndarray:
-    """Points (n, 2) [m] of the real body: the flat block's, moved by the roughness."""
-    return mesh.points + np.column_stack([np.zeros_like(mesh.shift), mesh.shift])
-
-
 def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> ElasticBody:
     """Assemble the stiffness of a block. Roughness (`mesh.shift`) gives curved elements.
 
-    Raises FemError if an element of the rough mesh is turned over.
+    Raises FemError if an element is turned over.
     """
     import ufl
     from mpi4py import MPI
@@ -156,8 +158,9 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
     sides = boundary_points(mesh)
     held = _held_components(mesh, support, sides)
     degree = 2 if np.any(mesh.shift) else 1
-    if degree == 2:
-        _refuse_inverted(mesh)
+    folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
+    if folded.any():
+        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
     domain, number = _domain(MPI.COMM_WORLD, mesh, degree)
     space = compat.displacement_space(domain)
     point = _points_of_nodes(mesh, domain, number, space)
@@ -192,20 +195,6 @@ def _held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) -
         middle = np.argmin(np.abs(mesh.points[sides.bottom, 0]))
         held[sides.bottom[middle], 0] = True
     return held
-
-
-def _refuse_inverted(mesh: BlockMesh) -> None:
-    """Raise FemError if the map of an element folds at a vertex or an edge's middle."""
-    from fem.triangle import NODES, jacobians
-
-    determinant = np.linalg.det(jacobians(real_points(mesh)[mesh.triangles], NODES))
-    flat = np.linalg.det(jacobians(mesh.points[mesh.triangles], NODES[:1]))
-    folded = np.any(determinant * np.sign(flat) <= 0.0, axis=1)
-    if np.any(folded):
-        raise FemError(
-            f"the roughness turns {np.count_nonzero(folded)} elements over: "
-            "refine the surface or lower its slope"
-        )
 
 
 def _domain(comm, mesh: BlockMesh, degree: int):

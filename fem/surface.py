@@ -81,7 +81,7 @@ def surface_of(mesh: BlockMesh) -> Surface:
     top = boundary_points(mesh).top
     top = top[np.argsort(mesh.points[top, 0])]
     x = mesh.points[top, 0]
-    if len(x) < 3 or len(x) % 2 == 0:
+    if len(x) < 5 or len(x) % 2 == 0:
         raise ValueError(f"the top side has {len(x)} points, not vertices and midpoints in turn")
     edge = np.diff(x[::2])
     if np.any(np.abs(x[1::2] - 0.5 * (x[:-1:2] + x[2::2])) > SAME_POINT * edge):

@@ -1,11 +1,19 @@
-"""A structured block mesh, made without gmsh, for tests that need exact control of the nodes."""
+"""Bodies to test on: structured blocks with exact control of the nodes; a pressed half-plane."""
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
 
+from analytic.exact.hertz import hertz_from_peak_pressure
+from analytic.material import Material
+from fem.compliance import FiniteElementCompliance
+from fem.elasticity import Support, elastic_body
+from fem.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec
+from meshes.build import build_block
+from meshes.second_order import add_midpoints
 
 
 def structured(
@@ -29,10 +37,7 @@ def structured(
         n.ravel() for n in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
     )
     corners = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
-    edges = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    edges, middle = np.unique(edges, axis=0, return_inverse=True)
-    points = np.concatenate([vertices, vertices[edges].mean(axis=1)])
-    triangles = np.column_stack([corners, len(vertices) + middle.reshape(-1, 3)])
+    points, triangles = add_midpoints(vertices, corners)
     shift = np.zeros(len(points))
     if height is not None:
         shift = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
@@ -111,3 +116,86 @@ def forces_of(mesh: BlockMesh, stress: Callable, body_force: Callable | None = N
 @pytest.fixture(scope="session")
 def exact_forces() -> Callable[..., np.ndarray]:
     return forces_of
+
+
+class Manufactured:
+    """A smooth displacement that vanishes at depth 1, its stress, and the body force it needs."""
+
+    def __init__(self, material: Material) -> None:
+        self.material = material
+
+    def displacement(self, x, z):
+        return (z - 1) * np.sin(1.3 * x + 0.4 * z), (z - 1) * np.cos(0.7 * x - 0.9 * z)
+
+    def stress(self, x, z):
+        step = 1e-20  # imaginary: derivatives to machine precision
+        ux_x, uz_x = (np.imag(u) / step for u in self.displacement(x + step * 1j, z))
+        ux_z, uz_z = (np.imag(u) / step for u in self.displacement(x, z + step * 1j))
+        shear, nu = self.material.shear_modulus, self.material.poissons_ratio
+        mean = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (ux_x + uz_z)
+        return mean + 2 * shear * ux_x, mean + 2 * shear * uz_z, shear * (ux_z + uz_x)
+
+    def body_force(self, x, z):
+        h = 1e-5
+        right, left = self.stress(x + h, z), self.stress(x - h, z)
+        below, above = self.stress(x, z + h), self.stress(x, z - h)
+        sx_x, _, txz_x = ((r - s) / (2 * h) for r, s in zip(right, left, strict=True))
+        _, sz_z, txz_z = ((b - a) / (2 * h) for b, a in zip(below, above, strict=True))
+        return -(sx_x + txz_z), -(txz_x + sz_z)
+
+
+@pytest.fixture(scope="session")
+def manufactured() -> type[Manufactured]:
+    return Manufactured
+
+
+def dense_contact(matrix: np.ndarray, gap: np.ndarray, weights: np.ndarray, load: float):
+    """Pressure and approach of matrix p + gap - d weights >= 0, p >= 0, complementary, w'p = load.
+
+    Plain active set on a dense matrix, written apart from every solver of the project.
+    """
+    inside = gap < 0.5 * gap.max()
+    for _ in range(100):
+        w = weights[inside]
+        system = np.block([[matrix[np.ix_(inside, inside)], -w[:, None]], [w, np.zeros((1, 1))]])
+        *pressure, approach = np.linalg.solve(system, np.append(-gap[inside], load))
+        whole = np.zeros(len(gap))
+        whole[inside] = pressure
+        opening = matrix @ whole + gap - approach * weights
+        wanted = np.where(inside, whole > 0.0, opening < 0.0)
+        if np.array_equal(wanted, inside):
+            return whole, approach
+        inside = wanted
+    raise AssertionError("the active set did not settle")
+
+
+class Pressed:
+    """A half-plane's stand-in and a rigid cylinder that would press it on half-width 1, peak 1."""
+
+    def __init__(self, edges: int, growth: float = 0.2, extent: float = 4000.0, **held) -> None:
+        self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
+        spec = BlockSpec(extent, extent, np.array([[-1.2, 1.2]]), 1.0 / edges, growth)
+        self.body = elastic_body(build_block(spec), Material(1.0 - 0.3**2, 0.3), Support(**held))
+        pitch = 1.0 / edges
+        reach = int(1.1 * edges)
+        self.x = pitch * np.arange(-reach, reach + 1)
+        self.compliance = FiniteElementCompliance(self.body, self.x[0], pitch, len(self.x))
+        gap = pitch * (self.x**2 + pitch**2 / 6.0)
+        weights = np.full(len(self.x), pitch)
+        self.pressure, self.approach = dense_contact(
+            self.compliance.matrix(), gap, weights, self.hertz.load_per_length
+        )
+
+    def pressure_at(self, x: np.ndarray) -> np.ndarray:
+        return np.interp(x, self.x, self.pressure)
+
+    def displacement(self, friction: float) -> np.ndarray:
+        return self.compliance.displacement(self.pressure, friction)
+
+    def stress(self, friction: float) -> NodalStress:
+        return nodal_stress(self.body, self.displacement(friction), self.pressure_at, friction)
+
+
+@pytest.fixture(scope="session")
+def pressed() -> Callable[..., Pressed]:
+    return cache(Pressed)

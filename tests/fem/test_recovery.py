@@ -1,0 +1,62 @@
+"""Recovered stresses: exact for linear stresses, of high order for smooth ones."""
+
+import numpy as np
+
+from analytic.material import Material
+from fem.elasticity import Support, elastic_body
+from fem.recovery import element_stress, recovered_stress
+from fem.triangle import NODES
+
+MATERIAL = Material(3.0, 0.3)
+
+
+def body_of(structured_block, cells, seed=5):
+    line = np.linspace(-1, 1, cells + 1)
+    mesh = structured_block(line, np.linspace(0, 1, cells // 2 + 1), seed=seed)
+    return elastic_body(mesh, MATERIAL, Support())
+
+
+def stress_of(material, exx, ezz, gxz):
+    shear, nu = material.shear_modulus, material.poissons_ratio
+    bulk = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    return np.stack([bulk + 2 * shear * exx, bulk + 2 * shear * ezz, shear * gxz], axis=-1)
+
+
+def test_linear_stresses_are_recovered_exactly_everywhere(structured_block):
+    body = body_of(structured_block, 8)
+    x, z = body.points.T
+    moved = np.column_stack([x**2 - 0.3 * x * z + z, 0.5 * z**2 + x * z - 2 * x])
+    exact = stress_of(MATERIAL, 2 * x - 0.3 * z, z + x, -0.3 * x + 1 + z - 2)
+    np.testing.assert_allclose(recovered_stress(body, moved), exact, atol=1e-7)
+    elements = element_stress(body, moved, NODES)
+    np.testing.assert_allclose(elements, exact[body.mesh.triangles], atol=1e-12)
+
+
+def test_the_smallest_block_still_has_stresses(structured_block):
+    mesh = structured_block(np.linspace(-1, 1, 3), np.array([0.0, 1.0]))
+    body = elastic_body(mesh, MATERIAL, Support())
+    x, z = body.points.T
+    exact = stress_of(MATERIAL, 0 * x + 1, 0 * x - 2, 0 * x)
+    found = recovered_stress(body, np.column_stack([x, -2 * z]))
+    np.testing.assert_allclose(found, exact, atol=1e-7)
+
+
+def test_a_smooth_solution_is_recovered_with_order(structured_block, exact_forces, manufactured):
+    """Solved, not interpolated. The elements' own stresses at the nodes have order 2 as well, and
+    twenty times the error; the boundary's half patches catch up with the inner ones."""
+    exact = manufactured(MATERIAL)
+    errors, own = [], []
+    for cells in (8, 16, 32):
+        body = body_of(structured_block, cells)
+        moved = body.solve(exact_forces(body.mesh, exact.stress, exact.body_force))
+        truth = np.stack(exact.stress(*body.points.T), axis=-1)
+        error = recovered_stress(body, moved) - truth
+        inner = np.all(np.abs(body.points - [0.0, 0.5]) < [0.7, 0.3], axis=1)
+        errors.append([np.sqrt(np.mean(error[where] ** 2)) for where in (inner, ~inner)])
+        error = element_stress(body, moved, NODES) - truth[body.mesh.triangles]
+        own.append(np.sqrt(np.mean(error[inner[body.mesh.triangles]] ** 2)))
+    inner, outer = np.log2(np.divide(errors[:-1], errors[1:])).T
+    assert np.all((inner > 1.8) & (inner < 2.5)), inner
+    assert np.all((outer > 2.5) & (outer < 3.5)), outer
+    assert errors[-1][0] < 0.1 * own[-1]
+    assert errors[-1][1] < 0.1 * own[-1]
