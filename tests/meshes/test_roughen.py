@@ -8,7 +8,8 @@ from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.errors import MeshError
 from meshes.quality import corner_jacobians, real_points
-from meshes.roughen import carried_down, roughen
+from meshes.roughen import carried_down, roughen, spread_bulges
+from meshes.second_order import add_midpoints
 
 WAVELENGTH = 0.5
 EDGES_PER_WAVE = 20
@@ -151,6 +152,18 @@ def test_slope_beyond_one_is_followed_where_the_ground_is_refined():
     mesh = roughen(build_block(FINE_SPEC), sinusoid(0.75))
     assert mesh.quality["least_angle_degrees"] > 10.0
     assert jacobians(mesh, TRIANGLE_POINTS).min() > 0.0
+
+
+def test_bulge_is_shared_evenly_by_the_corners():
+    vertices = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, np.sqrt(0.75)]])
+    points, triangle = add_midpoints(vertices, np.array([[0, 1, 2]]))
+    bulge = np.zeros(3)
+    top_edge = triangle[0, 3] - 3
+    bulge[top_edge] = 0.2
+    points[3:, 1] += bulge + spread_bulges(bulge, triangle[:, 3:] - 3)
+    # Left to the top edge alone it would be 0.4 less at two corners and nothing at the third.
+    expected = np.full((1, 3), np.sqrt(0.75) - 0.2)
+    assert corner_jacobians(points, triangle) == pytest.approx(expected)
 
 
 def test_flat_profile_changes_nothing(flat):

@@ -142,6 +142,14 @@ def test_file_appears_whole_or_not_at_all(mesh, path, tmp_path, monkeypatch):
     assert [p.name for p in tmp_path.iterdir()] == ["mesh.msh"]
 
 
+def test_reader_of_the_former_file_is_not_disturbed(mesh, tmp_path):
+    target = tmp_path / "mesh.msh"
+    target.write_bytes(b"what was there before")
+    with target.open("rb") as reader:
+        write_msh(mesh, target)
+        assert reader.read() == b"what was there before"
+
+
 def test_foreign_or_broken_file_is_refused(path, tmp_path):
     (tmp_path / "other.msh").write_bytes(b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
     with pytest.raises(MeshError, match="no block mesh"):
