@@ -1,14 +1,25 @@
 """A roughness profile as data, and as the C2 curve that both models press on."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+MAX_SAMPLES = 2_000_000  # the spline of so many samples takes 0.25 GB while it is built
+ROUNDING = 1e-6  # of the sample spacing: so far beyond its end a profile is still evaluated
+
+Surface = Callable[..., np.ndarray]
+"""`surface(x, derivative=0)`: height [m], slope [-] or curvature [1/m] at x [m], shape of x."""
+
 
 @dataclass(frozen=True)
 class Profile:
-    """Heights along a line: `x` (n,) [m] strictly ascending, `height` (n,) [m] positive out of the body."""
+    """Heights along a line, not periodic and unknown outside its samples.
+
+    x       (n,) [m] strictly ascending, n >= 4; the samples need not be evenly spaced
+    height  (n,) [m] positive out of the body
+    """
 
     x: np.ndarray
     height: np.ndarray
@@ -23,6 +34,50 @@ class Profile:
         if not np.all(np.diff(self.x) > 0.0):
             raise ValueError("a profile's x must ascend strictly")
 
+    @property
+    def length(self) -> float:
+        """Distance from the first to the last sample [m]."""
+        return float(self.x[-1] - self.x[0])
+
+    @property
+    def spacing(self) -> float:
+        """Median distance between neighbouring samples [m]."""
+        return float(np.median(np.diff(self.x)))
+
     def spline(self) -> CubicSpline:
-        """C2 cubic spline through the samples (not-a-knot ends): height(x) [m]."""
+        """C2 cubic spline through the samples (not-a-knot ends): height(x) [m].
+
+        It extrapolates without a word; `surface` does not.
+        """
         return CubicSpline(self.x, self.height)
+
+    def shifted(self, position: float) -> "Profile":
+        """The same profile with its x = `position` [m] moved to the origin."""
+        return Profile(self.x - position, self.height)
+
+    def mirrored(self) -> "Profile":
+        """The profile as seen from the other side: height(-x)."""
+        return Profile(-self.x[::-1], self.height[::-1])
+
+
+def surface(profile: Profile) -> Surface:
+    """The profile's spline as a callable that refuses to leave the samples.
+
+    The result takes x [m] of any shape and `derivative` (0 height, 1 slope, 2 curvature), and
+    raises ValueError where x lies outside the profile by more than rounding.
+    """
+    spline = profile.spline()
+    first, last = float(profile.x[0]), float(profile.x[-1])
+    slack = ROUNDING * profile.spacing
+
+    def evaluate(x: np.ndarray, derivative: int = 0) -> np.ndarray:
+        x = np.asarray(x, dtype=float)
+        outside = ~((x >= first - slack) & (x <= last + slack))
+        if np.any(outside):
+            raise ValueError(
+                f"the profile is known from x = {first:g} m to {last:g} m, "
+                f"not at {float(x[outside].flat[0]):g} m"
+            )
+        return spline(np.clip(x, first, last), derivative)
+
+    return evaluate

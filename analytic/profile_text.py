@@ -1,0 +1,75 @@
+"""Lines of the text file of a profile, whatever program wrote it.
+
+text       UTF-8, UTF-16 with its byte-order mark, or else Latin-1; lines end in LF, CRLF or CR
+quotes     "1,5" in quotes is a number with a decimal comma, and comes out as 1.5
+"""
+
+import re
+from pathlib import Path
+
+QUOTED = re.compile(r'"([^"\n]*)"')
+OTHER_BLANKS = re.compile(r"[^\S\n\t ]")  # form feed, no-break blank and the like
+NOT_TEXT = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
+
+
+class ProfileError(ValueError):
+    """A profile file that cannot be used. One line: file, line, what is wrong, what is allowed."""
+
+    def __init__(self, path: object, message: str, line: int | None = None) -> None:
+        self.line = line
+        place = str(path) if str(path).isprintable() else repr(str(path))
+        super().__init__(f"{place}{f', line {line}' if line else ''}: {message}")
+
+
+def read_lines(path: Path, max_bytes: int) -> list[str]:
+    """The file's lines without their ends; it may have `max_bytes` at most."""
+    raw = _bytes(path, max_bytes)
+    text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
+    if not text.strip():
+        raise ProfileError(path, "is empty; a profile has lines of numbers")
+    binary = NOT_TEXT.search(text)
+    if binary:
+        line = text.count("\n", 0, binary.start()) + 1
+        code = f"byte {ord(binary[0]):#04x}"
+        raise ProfileError(path, f"is not text ({code}); export the profile as text or CSV", line)
+    text = OTHER_BLANKS.sub(" ", text.replace("\u2212", "-"))  # the typographer's minus sign
+    if '"' in text:
+        text = QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
+    return text.split("\n")
+
+
+def _bytes(path: Path, max_bytes: int) -> bytes:
+    """The file's content; a file larger than `max_bytes` is not opened."""
+    try:
+        if path.exists() and not path.is_file():  # a pipe would block
+            kind = "a directory" if path.is_dir() else "no regular file"
+            raise ProfileError(path, f"is {kind}; a profile is a text file")
+        if path.stat().st_size > max_bytes:
+            raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise ProfileError(path, "there is no such file") from None
+    except ProfileError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        reason = getattr(error, "strerror", None) or str(error)
+        raise ProfileError(path, f"cannot be read ({reason})") from error
+
+
+def _decoded(path: Path, raw: bytes) -> str:
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            return raw.decode("utf-16")
+        except UnicodeDecodeError:
+            message = "is not text (broken UTF-16); export the profile as text or CSV"
+            raise ProfileError(path, message) from None
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+def shown(text: str) -> str:
+    """Text from a file, quoted, on one line and not too long."""
+    text = text.strip()
+    return repr(text if len(text) <= 40 else text[:37] + "...")
