@@ -19,7 +19,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.errors import InputError
+from comparisons.errors import InputError, one_line
 from comparisons.exit_status import ExitStatus
 from comparisons.stages import Listener, silent
 
@@ -171,9 +171,7 @@ def _show(renderable: object) -> None:
 
 def _end(status: ExitStatus, message: str) -> int:
     """Say the one line that goes with a status."""
-    line = " ".join(message.split())
-    shown = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
-    print(f"crosscheck: {shown}", file=sys.stderr)
+    print(f"crosscheck: {one_line(message)}", file=sys.stderr)
     return int(status)
 
 

@@ -5,7 +5,7 @@ import difflib
 from pydantic import ValidationError
 
 from comparisons.errors import SceneError
-from comparisons.scene_schema import SECTIONS, SceneTables
+from comparisons.scene_schema import SECTIONS
 from comparisons.scene_table import FieldError, allowed
 from comparisons.units import describe
 
@@ -43,26 +43,25 @@ def _line(problem: dict) -> str:
 
 
 def _unknown(location: tuple, given: object) -> str:
-    """A name that no section has: the nearest one, in its own section if there is one."""
+    """A name that no section has: the nearest one, in its own section if there is one alike."""
     *section, name = map(str, location)
-    shown = ".".join([*section, name]) if name.isprintable() else ascii(".".join([*section, name]))
+    place = ".".join([*section, name])
+    sections = {table: f"[{table}]" for table in SECTIONS}
     if not section and isinstance(given, dict):
-        nearest = _nearest(name, list(SECTIONS), 0.0)
-        return f"{shown}: is no known section; the nearest is [{nearest}]"
-    own = list((SECTIONS[section[0]] if section else SceneTables).model_fields)
-    everywhere = {
-        field: table for table, model in SECTIONS.items() for field in model.model_fields
-    } | dict.fromkeys(["title"], "")
-    found = _nearest(name, own, _NEAR)
-    table = section[0] if section else ""
-    if found is None:
-        found = _nearest(name, list(everywhere), _NEAR)
-        table = everywhere.get(found, "")
-    if found is None:
-        found, table = _nearest(name, own, 0.0), section[0] if section else ""
-    return f"{shown}: is no known field; the nearest is {f'{table}.{found}' if table else found}"
+        return f"{place}: is no known section; the nearest is {_nearest(name, sections, 0.0)}"
+    fields = {
+        table: {field: f"{table}.{field}" for field in model.model_fields}
+        for table, model in SECTIONS.items()
+    }
+    own = fields[section[0]] if section else {"title": "title", **sections}
+    anywhere = {field: shown for table in fields.values() for field, shown in table.items()}
+    nearest = (
+        _nearest(name, own, _NEAR) or _nearest(name, anywhere, _NEAR) or _nearest(name, own, 0.0)
+    )
+    return f"{place}: is no known field; the nearest is {nearest}"
 
 
-def _nearest(name: str, names: list[str], cutoff: float) -> str | None:
-    found = difflib.get_close_matches(name.casefold(), names, n=1, cutoff=cutoff)
-    return found[0] if found else None
+def _nearest(name: str, shown: dict[str, str], cutoff: float) -> str | None:
+    """How the name most like `name` is shown, if any is alike enough."""
+    found = difflib.get_close_matches(name.casefold(), shown, n=1, cutoff=cutoff)
+    return shown[found[0]] if found else None

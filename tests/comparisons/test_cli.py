@@ -1,0 +1,244 @@
+"""The command line: what it hands on, what it prints where, and how it ends."""
+
+import json
+import os
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import MODELS, main
+from comparisons.errors import InputError
+from comparisons.exit_status import ExitStatus
+from comparisons.scene_file import scene_titles
+
+ROOT = Path(__file__).parents[2]
+HEAVY = (
+    "comparisons.scene_schema",
+    "pint",
+    "numpy",
+    "scipy",
+    "rich",
+    "dolfinx",
+    "gmsh",
+    "pyvista",
+    "matplotlib",
+)
+
+
+class Run:
+    """Stands for `comparisons.run`: remembers its call, then returns or raises `result`."""
+
+    def __init__(self) -> None:
+        self.calls = []
+        self.status = ExitStatus.DONE
+        self.raises = None
+
+    def run(self, scene, out, models, progress):
+        self.calls.append((scene, out, models))
+        progress("solving [with] care")
+        if self.raises:
+            raise self.raises
+        return types.SimpleNamespace(
+            result={"schema": 1, "name": "µ"},
+            exit_status=self.status,
+            table=lambda: "peak pressure agree",
+            directory=out,
+        )
+
+
+@pytest.fixture
+def solver(monkeypatch, tmp_path):
+    run = Run()
+    monkeypatch.setitem(sys.modules, "comparisons.run", run)
+    monkeypatch.chdir(tmp_path)
+    return run
+
+
+def test_run_hands_everything_on(solver, capsys):
+    assert main(["run", "smooth", "--out", "there", "--models", "half-plane"]) == 0
+    ((scene, out, models),) = solver.calls
+    assert scene.name == "smooth"
+    assert out == Path("there")
+    assert models == ("half_plane",)
+    assert capsys.readouterr() == ("peak pressure agree\n", "")
+
+
+def test_run_goes_to_results_with_both_models(solver):
+    assert main(["run", "smooth-sliding"]) == 0
+    ((_, out, models),) = solver.calls
+    assert out == Path("results/smooth-sliding")
+    assert models == tuple(MODELS.values()) == ("half_plane", "finite_element")
+
+
+def test_models_in_any_order(solver):
+    assert main(["run", "smooth", "--models", "finite-element, half-plane"]) == 0
+    assert solver.calls[0][2] == ("half_plane", "finite_element")
+
+
+def test_json_instead_of_the_table(solver, capsys):
+    assert main(["run", "smooth", "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert json.loads(out) == {"schema": 1, "name": "µ"}
+    assert err == ""
+
+
+@pytest.mark.parametrize("status", [0, 1, 3])
+def test_the_outcome_decides_the_status(solver, status):
+    solver.status = ExitStatus(status)
+    assert main(["run", "smooth"]) == status
+
+
+def test_statuses_that_scripts_rely_on():
+    assert (
+        ExitStatus.DONE,
+        ExitStatus.OUTSIDE_TOLERANCE,
+        ExitStatus.BAD_INPUT,
+        ExitStatus.NOT_CONVERGED,
+    ) == (0, 1, 2, 3)
+
+
+@pytest.mark.parametrize(
+    ("error", "status", "line"),
+    [
+        (InputError("the trace is too short"), 2, "crosscheck: the trace is too short"),
+        (KeyboardInterrupt(), 130, "crosscheck: interrupted"),
+        (
+            OSError(28, "No space left on device", "results/a"),
+            74,
+            "crosscheck: results/a: No space left on device (set CROSSCHECK_TRACEBACK=1 for the tr",
+        ),
+        (
+            ZeroDivisionError("two\nlines"),
+            70,
+            "crosscheck: internal error: ZeroDivisionError: two lines in test_cli.py, line ",
+        ),
+        (ValueError("no input"), 70, "crosscheck: internal error: ValueError: no input in "),
+    ],
+    ids=lambda value: type(value).__name__,
+)
+def test_how_failures_end(solver, capsys, monkeypatch, error, status, line):
+    monkeypatch.delenv("CROSSCHECK_TRACEBACK", raising=False)
+    solver.raises = error
+    assert main(["run", "smooth"]) == status
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith(line) and err.count("\n") == 1
+
+
+def test_traceback_on_request(solver, capsys, monkeypatch):
+    monkeypatch.setenv("CROSSCHECK_TRACEBACK", "1")
+    solver.raises = ZeroDivisionError("why")
+    assert main(["run", "smooth"]) == ExitStatus.DEFECT
+    err = capsys.readouterr().err
+    assert err.startswith("Traceback") and err.endswith("ZeroDivisionError: why\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "fragment"),
+    [
+        (["rnu"], "No such command 'rnu'"),
+        (["run"], "Missing argument"),
+        (["run", "smooth", "--moddels", "half-plane"], "No such option: --moddels"),
+        (["run", "smooth", "smooth"], "unexpected extra argument"),
+        (["run", "smooth", "--models", "fem"], "no model fem; the nearest is finite-element; all"),
+        (["run", "smooth", "--models", ","], "--models: is empty; allowed are half-plane, finite-"),
+        (["run", "smooth", "--models", "half_plane"], "the nearest is half-plane"),
+        (["run", "smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
+    ],
+)
+def test_wrong_arguments(solver, capsys, arguments, fragment):
+    assert main(arguments) == ExitStatus.BAD_INPUT
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("crosscheck: ") and err.count("\n") == 1
+    assert fragment in err
+    assert solver.calls == []
+
+
+def test_a_folder_that_cannot_be_is_refused_before_solving(solver, tmp_path, capsys):
+    (tmp_path / "results").write_text("a file")
+    assert main(["run", "smooth"]) == ExitStatus.BAD_INPUT
+    assert "results is not a folder" in capsys.readouterr().err
+    assert solver.calls == []
+    assert [path.name for path in tmp_path.iterdir()] == ["results"]
+
+
+def test_checking_the_folder_leaves_nothing(solver, tmp_path):
+    assert main(["run", "smooth", "--out", "a/b/c"]) == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_progress_is_shown_to_a_terminal(solver, capsys, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm")
+    assert main(["run", "smooth"]) == 0
+    out, err = capsys.readouterr()
+    assert out == "peak pressure agree\n"
+    assert "solving [with] care" in err
+
+
+def test_scenes_are_listed_with_their_titles(capsys):
+    assert main(["scenes"]) == 0
+    out, err = capsys.readouterr()
+    listed = dict(line.split(maxsplit=1) for line in out.splitlines())
+    assert listed == scene_titles()
+    assert err == ""
+
+
+def test_doctor_shows_its_table(capsys, monkeypatch):
+    module = types.SimpleNamespace(doctor=lambda: ["check"], doctor_table=lambda checks: checks[0])
+    monkeypatch.setitem(sys.modules, "comparisons.doctor", module)
+    assert main(["doctor"]) == 0
+    assert capsys.readouterr() == ("check\n", "")
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
+def test_help(capsys, arguments):
+    assert main(arguments) == 0
+    out, err = capsys.readouterr()
+    assert err == ""
+    assert all(command in out for command in ("run", "scenes", "doctor", "Exit status"))
+
+
+def test_help_of_run_names_its_options(capsys):
+    assert main(["run", "--help"]) == 0
+    out = capsys.readouterr().out
+    assert all(option in out for option in ("--out", "--models", "--json", "half-"))
+
+
+def python(code: str, **options) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, **options
+    )
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["run", "--help"], ["scenes"]])
+def test_help_loads_nothing_heavy(arguments):
+    done = python(
+        "import sys; from comparisons.cli import main; "
+        f"main({arguments!r}); print(*sys.modules, file=sys.stderr)",
+        check=True,
+    )
+    loaded = set(done.stderr.split())
+    assert "comparisons.cli" in loaded
+    assert loaded.isdisjoint(HEAVY)
+
+
+def test_a_reader_that_goes_away():
+    """`crosscheck scenes | head -0`: no traceback, and the status a shell expects."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "w") as pipe:
+        done = subprocess.run(
+            [sys.executable, "-m", "comparisons.cli", "scenes"],
+            cwd=ROOT,
+            stdout=pipe,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == ExitStatus.BROKEN_PIPE
+    assert done.stderr == ""
