@@ -15,20 +15,23 @@ from analytic.contact import solve_contact
 from analytic.defect import solve_with_model
 from analytic.operators import HalfPlane, SumOfBodies
 from analytic.patches import contact_patches
-from analytic.plane_stress import PlaneStress
-from comparisons.level import EXTREMES, Level, MeshField, StressResult, Window
+from analytic.gap import HatGrid
+from analytic.plane_stress import Extremum, PlaneStress
+from comparisons.level import Level, MeshField, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.stages import Stages
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody, Support, elastic_body
-from fem.stress import evaluate, maximum, nodal_stress
+from fem.maximum import maximum
+from fem.stress import evaluate, nodal_stress
+from fem.surface import straight_down
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.grading import merge, reaches_unrefined, refined_intervals
 from meshes.roughen import roughen
 
-EDGES_PER_HAT = 2  # quadratic edges under each pressure element
+EDGES_PER_HAT = 1  # quadratic edges under each pressure element
 MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
 FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
 COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
@@ -98,7 +101,7 @@ def finite_element_level(
         guess = solve_contact(model, average, grid.weights, problem.constraints())
     ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
     for _ in range(MOST_MESHES):
-        bodies = _bodies(problem, plan, block_spec(problem, refinement, ground), stages)
+        bodies, held = _bodies(problem, plan, block_spec(problem, refinement, ground), stages)
         with stages.stage("contact", "finite elements: contact"):
             direction = _roller_slope(problem)
             compliances = [
@@ -123,14 +126,15 @@ def finite_element_level(
         displacement=compliance.apply(solution.pressure) / grid.weights,
         patches=contact_patches(grid.x, solution.pressure, solution.gap),
         seconds=stages.seconds,
-        unknowns=body.unknowns,
+        unknowns=sum(b.unknowns for b in bodies),
+        factor_memory=held,
         mesh=body.mesh,
     )
     if window is None:
         return level
     with stages.stage("stresses", "finite elements: stresses"):
         found = [
-            _stresses(compliance, solution.pressure, friction, window)
+            _stresses(problem, compliance, grid, solution.pressure, friction, window)
             for friction in problem.scene.friction
         ]
     return replace(
@@ -144,8 +148,8 @@ def finite_element_level(
 
 def _bodies(
     problem: Problem, plan: Plan, spec: BlockSpec, stages: Stages
-) -> tuple[ElasticBody, ...]:
-    """The rough body, factored; and the roller's block where it needs one of its own."""
+) -> tuple[tuple[ElasticBody, ...], int]:
+    """The rough body, and the roller's block where it needs its own; bytes of their factors."""
     scene = problem.scene
     with stages.stage("mesh", "finite elements: mesh"):
         flat = build_block(spec)
@@ -162,14 +166,14 @@ def _bodies(
             with stages.stage("mesh", "finite elements: mesh of the roller"):
                 block = build_block(replace(spec, half_width=0.5 * depth, depth=depth, window=None))
         wanted.append((block, scene.roller, Support(base="bonded", sides=UNBOUNDED_SIDES)))
-    bodies = []
+    bodies, held = [], 0
     for block, material, support in wanted:
         with stages.stage("assembly", "finite elements: assembly"):
             body = elastic_body(block, material, support)
         with stages.stage("factorisation", "finite elements: factorisation"):
-            body.factorise()
+            held += body.factor.bytes
         bodies.append(body)
-    return tuple(bodies)
+    return tuple(bodies), held
 
 
 def _factors(problem: Problem, bodies: tuple[ElasticBody, ...]) -> tuple[float, ...]:
@@ -211,13 +215,34 @@ def _boundary(problem: Problem, spec: BlockSpec) -> Callable[[np.ndarray], np.nd
 
 
 def _stresses(
-    compliance: FiniteElementCompliance, pressure: np.ndarray, friction: float, window: Window
+    problem: Problem,
+    compliance: FiniteElementCompliance,
+    grid: HatGrid,
+    pressure: np.ndarray,
+    friction: float,
+    window: Window,
 ) -> tuple[StressResult, PlaneStress]:
     """Stresses under one friction coefficient: on the window, and at the mesh's points."""
-    body = compliance.body
-    moved = compliance.displacement(pressure, friction)
-    nodal = nodal_stress(compliance, moved, pressure, friction)
+    body, nu = compliance.body, problem.scene.body.poissons_ratio
+    nodes = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
+    hats = np.concatenate([[0.0], pressure, [0.0]])
+    nodal = nodal_stress(
+        body,
+        compliance.displacement(pressure, friction),
+        lambda x: np.interp(x, nodes, hats),
+        friction,
+        _roller_slope(problem) if body.curved else straight_down,
+    )
+    bounds = (window.x[0], window.x[-1], window.z[-1])
+    quantities = {
+        "tau1": lambda sx, sz, txz: PlaneStress(sx, sz, txz).tau1,
+        "txz": lambda sx, sz, txz: np.abs(txz),
+        "von_mises": lambda sx, sz, txz: PlaneStress(sx, sz, txz).von_mises(nu),
+    }
+    extremes = {}
+    for name, quantity in quantities.items():
+        found = maximum(body, nodal, quantity, bounds)
+        extremes[name] = Extremum(found.value, found.x, found.z)
     x, z = np.meshgrid(window.x, window.z)
-    field = evaluate(body, nodal, x, z)
-    extremes = {name: maximum(body, nodal, name) for name in EXTREMES}
-    return StressResult(friction, extremes, field), nodal
+    field = PlaneStress(*evaluate(body, nodal, x, z))
+    return StressResult(friction, extremes, field), PlaneStress(nodal.sx, nodal.sz, nodal.txz)

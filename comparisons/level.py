@@ -9,8 +9,6 @@ from analytic.gap import HatGrid
 from analytic.plane_stress import Extremum, PlaneStress
 from meshes.block import BlockMesh
 
-EXTREMES = ("tau1", "txz", "von_mises")
-
 
 @dataclass(frozen=True)
 class Window:
@@ -56,7 +54,8 @@ class Level:
     patches       (k, 2) [m] contact patches
     stresses      one a friction coefficient; empty when no field is asked for
     seconds       by stage
-    unknowns      of the model's largest linear system
+    unknowns      of the linear systems behind the compliance
+    factor_memory bytes that their factors hold, 0 without any
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
     """
@@ -67,6 +66,7 @@ class Level:
     patches: np.ndarray
     seconds: dict[str, float]
     unknowns: int
+    factor_memory: int = 0
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None

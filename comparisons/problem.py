@@ -18,10 +18,10 @@ from analytic.patches import contact_patches
 from analytic.profile import surface
 from analytic.roughness import shortest_wavelength
 from comparisons.resolve import ResolvedScene
-from comparisons.scene_errors import SceneError
+from comparisons.errors import SceneError
 
-SMOOTH_ELEMENTS = 80  # pressure elements on a half-width, third level: 1e-4 in peak pressure
-HATS_PER_WAVE = 20.0  # third level; the first then has 5 to the shortest wavelength
+SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
+HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
 MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
 MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
@@ -106,9 +106,7 @@ def _reach(problem: Problem) -> tuple[float, float]:
     while True:
         low, high = max(start, -reach), min(stop, reach)
         if not low < 0.0 < high:
-            raise SceneError(
-                f"{scene.source}: load.position: the roller's centre lies off the body"
-            )
+            raise SceneError(f"{scene.name}: load.position: the roller's centre lies off the body")
         grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
         problem = replace(problem, extent=(low, high))
         touching = scout(problem, grid)
@@ -116,7 +114,7 @@ def _reach(problem: Problem) -> tuple[float, float]:
             break
         if low == start or high == stop:
             raise SceneError(
-                f"{scene.source}: load: the contact reaches the end of the "
+                f"{scene.name}: load: the contact reaches the end of the "
                 f"{'trace' if scene.profile is not None else 'body'} ({touching[0]:.4g} m to "
                 f"{touching[1]:.4g} m of {low:.4g} m to {high:.4g} m); allowed is a load, a radius "
                 "and a position that keep it inside"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.stress import graded_depths
+from analytic.stress_field import graded_depths
 from comparisons.level import Window
 from comparisons.problem import Problem
 
