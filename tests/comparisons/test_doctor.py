@@ -1,0 +1,114 @@
+"""The doctor finds what works, what is missing, what crashes and what hangs."""
+
+import io
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from rich.console import Console
+
+from comparisons import doctor as module
+from comparisons.doctor import TRIALS, Check, Trial, attempt, doctor, doctor_table
+
+PROJECT = Path(__file__).resolve().parents[2]
+MODULES = {
+    "MPI": "mpi4py",
+    "others": "pint",
+} | {t.name: t.name for t in TRIALS if t.name not in ("MPI", "others")}
+each_trial = pytest.mark.parametrize("trial", TRIALS, ids=lambda trial: trial.name)
+
+
+@each_trial
+def test_what_is_installed_works(trial):
+    check = attempt(trial)
+    assert (check.name, check.ok, check.remedy) == (trial.name, True, "")
+    assert re.search(r"\d+\.\d+", check.detail)
+
+
+@each_trial
+def test_what_is_missing_is_named_with_its_remedy(trial):
+    name = MODULES[trial.name]
+    blocked = f"import sys; sys.modules[{name!r}] = None\n{trial.program}"
+    check = attempt(replace(trial, program=blocked))
+    assert not check.ok
+    assert name in check.detail
+    assert check.remedy == trial.remedy != ""
+
+
+def test_a_crash_is_a_finding():
+    check = attempt(Trial("x", "import os; os.kill(os.getpid(), 11)", "mend it"))
+    assert check == Check("x", False, "crashes (SIGSEGV)", "mend it")
+
+
+def test_a_hang_is_a_finding():
+    check = attempt(Trial("x", "import time; time.sleep(60)", "mend it"), patience=0.2)
+    assert check == Check("x", False, "does not answer within 0.2 s", "mend it")
+
+
+def test_a_starter_that_is_missing_is_a_finding():
+    check = attempt(Trial("x", "print(1)", "mend it", before=("no-such-mpirun", "-n", "2")))
+    assert check == Check("x", False, "no-such-mpirun: No such file or directory", "mend it")
+
+
+@pytest.mark.parametrize(
+    ("program", "detail"),
+    [
+        ("print('1.0'); raise ValueError('torn')", "ValueError: torn"),
+        ("import sys; sys.exit('first\\nlast')", "last"),
+        ("import sys; sys.exit('OSError: torn\\nexit code 1\\n-----')", "OSError: torn"),
+        ("raise SystemExit(3)", "fails without a word"),
+    ],
+)
+def test_a_failure_is_told_in_its_own_words(program, detail):
+    assert attempt(Trial("x", program, "mend it")) == Check("x", False, detail, "mend it")
+
+
+def test_one_process_alone_does_not_pass_for_mpi():
+    (trial,) = (t for t in TRIALS if t.name == "MPI")
+    check = attempt(replace(trial, before=()))
+    assert not check.ok
+    assert "2 processes see 1" in check.detail
+
+
+def test_python_comes_first_and_the_order_holds(monkeypatch):
+    slow = Trial("slow", "import time; time.sleep(0.3); print(1)", "")
+    monkeypatch.setattr(module, "TRIALS", (slow, Trial("fast", "print(2)", "")))
+    python, *others = doctor()
+    assert (python.name, python.ok) == ("Python", True)
+    assert sys.executable in python.detail
+    assert others == [Check("slow", True, "1", ""), Check("fast", True, "2", "")]
+
+
+def test_a_python_that_is_too_old_is_told(monkeypatch):
+    monkeypatch.setattr(module, "TRIALS", ())
+    monkeypatch.setattr(module, "OLDEST_PYTHON", (99, 1))
+    (python,) = doctor()
+    assert not python.ok
+    assert "Python 99.1 or newer" in python.remedy
+
+
+def test_table_shows_every_word_as_it_is():
+    checks = [Check("a", True, "1.0 [bold]", ""), Check("b", False, "torn", "mend [it]")]
+    console = Console(file=io.StringIO(), width=100)
+    console.print(doctor_table(checks))
+    rows = [line.split("│")[1:-1] for line in console.file.getvalue().splitlines() if "│" in line]
+    assert [[cell.strip() for cell in row] for row in rows] == [
+        ["a", "yes", "1.0 [bold]", ""],
+        ["b", "no", "torn", "mend [it]"],
+    ]
+
+
+def test_doctor_needs_the_standard_library_only():
+    code = f"import sys; sys.path.insert(0, {str(PROJECT)!r}); import comparisons.doctor"
+    subprocess.run([sys.executable, "-I", "-S", "-c", code], check=True)
+
+
+def test_libraries_in_the_remedies_are_those_that_the_launcher_installs():
+    named = {word for trial in TRIALS for word in re.findall(r"\blib[\w.-]*\w", trial.remedy)}
+    launcher = (PROJECT / "crosscheck").read_text()
+    installed = set(re.search(r"^packages=\((.*?)\)", launcher, re.S | re.M).group(1).split())
+    assert named
+    assert named == {package for package in installed if package.startswith("lib")}
