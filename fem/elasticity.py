@@ -14,6 +14,7 @@ from time import perf_counter
 from typing import Literal, get_args
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
 from analytic.material import Material
 from fem import compat
@@ -134,6 +135,19 @@ class ElasticBody:
         free = np.where(self.held, 0.0, load)
         part = free[..., self._owned, :].reshape(*load.shape[:-2], -1).T
         return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+
+    def stiffness(self) -> csr_matrix:
+        """Stiffness (2n, 2n) [Pa], x and z of each mesh point in turn; on one process only.
+
+        Rows and columns of held components are those of the identity times Young's modulus.
+        """
+        if self.matrix.comm.size > 1:
+            raise FemError("the stiffness as one matrix is to be had on one process only")
+        start, column, value = self.matrix.getValuesCSR()
+        component = (2 * self._owned[:, None] + np.arange(2)).ravel()
+        row = np.repeat(component, np.diff(start))
+        value = value * self.material.youngs_modulus
+        return csr_matrix((value, (row, component[column])), shape=(len(component),) * 2)
 
     def _gathered(self, part: np.ndarray) -> np.ndarray:
         """The whole displacement (..., n, 2) on every process from the parts they own."""

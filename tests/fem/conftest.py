@@ -199,3 +199,8 @@ class Pressed:
 @pytest.fixture(scope="session")
 def pressed() -> Callable[..., Pressed]:
     return cache(Pressed)
+
+
+@pytest.fixture(scope="session")
+def dense() -> Callable[..., tuple[np.ndarray, float]]:
+    return dense_contact
