@@ -86,12 +86,16 @@ class ElasticBody:
         sides: BoundaryPoints,
         held: np.ndarray,
         owned: np.ndarray,
+        space,
         matrix,
         assembly_seconds: float,
     ) -> None:
         self.mesh, self.material, self.support = mesh, material, support
         self.sides, self.held = sides, held
         self.matrix, self._owned = matrix, owned
+        # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
+        # survive it.
+        self._space = space
         self.assembly_seconds = assembly_seconds
 
     @property
@@ -191,7 +195,9 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
     matrix = compat.petsc_matrix(work, conditions)
 
     owned = point[: space.dofmap.index_map.size_local]
-    return ElasticBody(mesh, material, support, sides, held, owned, matrix, perf_counter() - start)
+    return ElasticBody(
+        mesh, material, support, sides, held, owned, space, matrix, perf_counter() - start
+    )
 
 
 def _held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) -> np.ndarray:
