@@ -67,9 +67,9 @@ def solve_with_model(
         model_applications += 1 + trial.iterations["applications"]
         direction = trial.pressure - pressure
         image = operator.apply(trial.pressure) - displacement
-        slope = direction @ (gap + displacement)
-        if constraints.approach is not None:
-            slope -= constraints.approach * (weights @ direction)
+        # w'(q - p) is zero where the load is prescribed; taking the approach off anyway keeps
+        # its round-off, times a large constant, out of the slope
+        slope = direction @ (gap + displacement - solution.approach * weights)
         curvature = direction @ image
         length = np.clip(-slope / curvature, 0.0, 1.0) if curvature > 0.0 else 1.0
         pressure = pressure + length * direction

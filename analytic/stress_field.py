@@ -70,31 +70,35 @@ def friction_field(
     z: np.ndarray,
     subdivisions: int = 1,
     element: Element = "hat",
+    stride: int = 1,
 ) -> FrictionField:
-    """`stress_field` for every friction at once."""
+    """`stress_field` for every friction at once; of the grid's points every `stride`-th is kept."""
     pitch = uniform_pitch(x_nodes, pressure)
     check_element(element)
     z = np.asarray(z, dtype=float)
     _check_levels(z)
-    if subdivisions < 1 or subdivisions != int(subdivisions):
-        raise ValueError(f"subdivisions must be a whole number from 1, not {subdivisions}")
+    for name, number in (("subdivisions", subdivisions), ("stride", stride)):
+        if number < 1 or number != int(number):
+            raise ValueError(f"{name} must be a whole number from 1, not {number}")
     if element == "strip" and z[0] == 0.0 and subdivisions % 2 == 0:
         raise ValueError(
             "uniform strips have no finite sx at their ends on the surface: take z > 0, "
             "an odd number of subdivisions, or hats"
         )
     first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
-    x = x_nodes[0] + np.arange(first, last + 1) * (pitch / subdivisions)
+    x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
     parts = np.zeros((4, len(z), len(x)))
     loaded = np.flatnonzero(pressure)
     if len(loaded):
         source = np.zeros((loaded[-1] - loaded[0]) * subdivisions + 1)
         source[::subdivisions] = pressure[loaded[0] : loaded[-1] + 1]
         first -= loaded[0] * subdivisions
-        offsets = np.arange(first - len(source) + 1, first + len(x))
-        _convolve(source, offsets, z / pitch, subdivisions, element, parts)
+        last -= loaded[0] * subdivisions
+        offsets = np.arange(first - len(source) + 1, last + 1)
+        _convolve(source, offsets, z / pitch, subdivisions, element, stride, parts)
         if z[0] == 0.0:
-            parts[:2, 0] = -_surface_pressure(source, offsets, subdivisions, element)
+            surface = _surface_pressure(source, offsets, subdivisions, element)
+            parts[:2, 0] = -surface[::stride]
     return FrictionField(x, z, FrictionStress(PlaneStress(*parts[:3]), parts[3]))
 
 
@@ -128,6 +132,7 @@ def _convolve(
     depths: np.ndarray,
     subdivisions: int,
     element: Element,
+    stride: int,
     parts: np.ndarray,
 ) -> None:
     """Fill `parts` (4, levels, points): sx, sz, txz under p, sx under q.
@@ -138,7 +143,7 @@ def _convolve(
     """
     size = next_fast_len(len(offsets), real=True)
     spectrum = rfft(source, size)
-    points = slice(len(source) - 1, len(offsets))
+    points = slice(len(source) - 1, len(offsets), stride)
     levels = max(1, _BLOCK // size)
     for start in range(0, len(depths), levels):
         block = slice(start, start + levels)

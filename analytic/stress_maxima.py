@@ -14,8 +14,8 @@ from analytic.stress_field import StressField
 Quantity = Callable[[PlaneStress], np.ndarray]
 
 _DIFFERENCE = 1e-4  # of a cell: rounding and curvature spoil the slope by less than 1e-8
-_SLOPE_TOLERANCE = 1e-10  # of the largest value on the grid, a cell
-_VALUE_TOLERANCE = 1e-15
+_SLOPE_TOLERANCE = 1e-8  # of the largest value on the grid, a cell
+_VALUE_TOLERANCE = 1e-12
 _ITERATIONS = 50
 
 
@@ -65,7 +65,7 @@ def field_maximum(
     coarser than the asperities can miss peaks that it does not show.
     """
     values = quantity(field.stress)
-    rows, columns = _local_maxima(values, starts)
+    rows, columns, reach = _local_maxima(values, starts)
     best = Extremum(
         float(values[rows[0], columns[0]]), float(field.x[columns[0]]), float(field.z[rows[0]])
     )
@@ -74,25 +74,28 @@ def field_maximum(
     def relative(x: np.ndarray, z: np.ndarray) -> np.ndarray:
         return quantity(stress_at(x_nodes, pressure, friction, x, z, element)) / scale
 
-    for row, column in zip(rows, columns, strict=True):
+    for row, column, highest in zip(rows, columns, reach, strict=True):
+        if highest < best.value:
+            continue
         peak, x, z = _climb(relative, (field.x, field.z), (column, row))
         if peak * scale > best.value:
             best = Extremum(peak * scale, x, z)
     return best
 
 
-def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the highest points that no neighbour exceeds, highest first.
+def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rows and columns of the highest points that no neighbour exceeds, highest first, and the
+    values that their peaks can reach.
 
-    A point is passed over if its peak cannot reach the highest value: between the points it
-    rises at most as far as its neighbourhood falls, four times what a parabola would.
+    Between the points a peak rises at most by half of what its neighbourhood falls, twice what
+    a parabola would.
     """
     highest = values == maximum_filter(values, size=3, mode="nearest")
     fall = values - minimum_filter(values, size=3, mode="nearest")
-    worth = highest & (values + fall >= values.max())
-    place = np.flatnonzero(worth)
+    reach = values + 0.5 * fall
+    place = np.flatnonzero(highest & (reach >= values.max()))
     place = place[np.argsort(-values.ravel()[place], kind="stable")[:count]]
-    return np.unravel_index(place, values.shape)
+    return *np.unravel_index(place, values.shape), reach.ravel()[place]
 
 
 def _climb(

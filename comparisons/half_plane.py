@@ -8,7 +8,6 @@ import numpy as np
 from analytic.contact import solve_contact
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
-from analytic.plane_stress import PlaneStress
 from analytic.stress_field import friction_field
 from analytic.stress_maxima import stress_maxima
 from comparisons.level import Level, StressResult, Window
@@ -50,26 +49,18 @@ def _stresses(
     x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
     # the window's spacing is the pitch times or over a power of two
     ratio = Fraction((window.x[1] - window.x[0]) / pitch).limit_denominator(1024)
-    field = friction_field(
-        x, pressure, (window.x[0], window.x[-1]), window.z, subdivisions=ratio.denominator
+    fields = friction_field(
+        x,
+        pressure,
+        (window.x[0], window.x[-1]),
+        window.z,
+        subdivisions=ratio.denominator,
+        stride=ratio.numerator,
     )
-    stride = slice(None, None, ratio.numerator)
     results = []
     for friction in problem.scene.friction:
-        whole = field.at(friction)
-        found = stress_maxima(x, pressure, friction, whole, problem.scene.body.poissons_ratio)
-        stress = whole.stress
-        results.append(
-            StressResult(
-                friction=friction,
-                extremes={
-                    "tau1": found.tau1,
-                    "txz": found.txz_abs,
-                    "von_mises": found.von_mises,
-                },
-                field=PlaneStress(
-                    stress.sx[:, stride], stress.sz[:, stride], stress.txz[:, stride]
-                ),
-            )
-        )
+        field = fields.at(friction)
+        found = stress_maxima(x, pressure, friction, field, problem.scene.body.poissons_ratio)
+        extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
+        results.append(StressResult(friction, extremes, field.stress))
     return tuple(results)

@@ -99,3 +99,17 @@ def test_two_bodies_add():
     )
     direct = solve_contact(half_plane(), average_gap(), GRID.weights, Constraints(load=LOAD))
     assert solution.pressure == pytest.approx(direct.pressure, abs=1e-9 * direct.pressure.max())
+
+
+def test_a_large_common_displacement_does_not_stall_the_iteration():
+    """A rigid part of the compliance changes the approach and nothing else."""
+    operator = perturbed()
+    rigid = 1e4 * operator.matrix.max() * np.ones_like(operator.matrix)
+    plain, raised = (
+        solve_with_model(
+            body, half_plane(), average_gap(), GRID.weights, Constraints(load=LOAD), tolerance=1e-9
+        )
+        for body in (operator, Dense(operator.matrix + rigid))
+    )
+    assert plain.converged and raised.converged
+    assert raised.pressure == pytest.approx(plain.pressure, abs=1e-6 * plain.pressure.max())

@@ -176,3 +176,13 @@ def test_graded_depths_refuse_a_first_step_that_is_too_long():
         graded_depths(1.0, 11, 0.0)
     with pytest.raises(ValueError, match="count must be at least 3"):
         graded_depths(1.0, 2, 0.1)
+
+
+@pytest.mark.parametrize("stride", [2, 3, 7])
+def test_a_stride_keeps_some_of_the_same_points(stride):
+    every = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2)
+    some = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=stride)
+    assert np.array_equal(some.x, every.x[::stride])
+    assert np.array_equal(some.at(0.2).stress.sx, every.at(0.2).stress.sx[:, ::stride])
+    with pytest.raises(ValueError, match="stride"):
+        friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=0)
