@@ -132,7 +132,7 @@ def _doctor() -> int:
 
     checks = doctor()
     _show(doctor_table(checks))
-    return ExitStatus.DONE
+    return ExitStatus.DONE if all(c.ok for c in checks) else ExitStatus.SOMETHING_MISSING
 
 
 def _models(given: str) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ class ExitStatus(IntEnum):
 
     DONE = 0
     OUTSIDE_TOLERANCE = 1
+    SOMETHING_MISSING = 1  # of `doctor`
     BAD_INPUT = 2
     NOT_CONVERGED = 3
     DEFECT = 70  # EX_SOFTWARE: an error of the program, never of the input

@@ -127,6 +127,7 @@ VALUES = [
     ("resolution.levels", "2.5", "is 2.5; allowed is a whole number from 2 to 6"),
     # names
     ("roller.raduis", "1", "is no known field; the nearest is roller.radius"),
+    ("body.THICKNESS", "1", "is no known field; the nearest is body.thickness"),
     ("roller.friction", "0.1", "is no known field; the nearest is load.friction"),
     ("frictoin", "0.1", "is no known field; the nearest is load.friction"),
     ("Titel", "1", "is no known field; the nearest is title"),

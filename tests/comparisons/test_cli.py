@@ -188,11 +188,15 @@ def test_scenes_are_listed_with_their_titles(capsys):
     assert err == ""
 
 
-def test_doctor_shows_its_table(capsys, monkeypatch):
-    module = types.SimpleNamespace(doctor=lambda: ["check"], doctor_table=lambda checks: checks[0])
+@pytest.mark.parametrize(("works", "status"), [(True, 0), (False, 1)])
+def test_doctor_shows_its_table(capsys, monkeypatch, works, status):
+    checks = [types.SimpleNamespace(ok=True), types.SimpleNamespace(ok=works)]
+    module = types.SimpleNamespace(
+        doctor=lambda: checks, doctor_table=lambda shown: f"{len(shown)} checks"
+    )
     monkeypatch.setitem(sys.modules, "comparisons.doctor", module)
-    assert main(["doctor"]) == 0
-    assert capsys.readouterr() == ("check\n", "")
+    assert main(["doctor"]) == status
+    assert capsys.readouterr() == ("2 checks\n", "")
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
@@ -229,12 +233,14 @@ def test_help_loads_nothing_heavy(arguments):
 
 def test_a_reader_that_goes_away():
     """`crosscheck scenes | head -0`: no traceback, and the status a shell expects."""
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "w") as pipe:
         done = subprocess.run(
             [sys.executable, "-m", "comparisons.cli", "scenes"],
             cwd=ROOT,
+            env=buffered,
             stdout=pipe,
             stderr=subprocess.PIPE,
             text=True,

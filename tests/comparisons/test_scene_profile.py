@@ -118,12 +118,13 @@ def test_lost_samples_are_bridged_on_request(tmp_path):
     rows = [f"{x},{z}" for x, z in zip(X.tolist(), WAVES.tolist(), strict=True)]
     rows[0] = "0,"
     rows[50] = "50,nan"
+    rows[60] = "60,nan"
     (tmp_path / "trace.csv").write_text("\n".join(rows))
     given = {"file": "trace.csv", "x_unit": "um", "z_unit": "um"}
     with pytest.raises(SceneError, match=r"profile\.file: .*trace\.csv, line 1: height"):
         with_profile(tmp_path, **given)
     info = with_profile(tmp_path, **given, dropouts="bridge").profile_info
-    assert (info.samples, info.bridged, info.trimmed) == (200, 1, 1)
+    assert (info.samples, info.bridged, info.trimmed) == (200, 2, 1)
 
 
 def test_paths_start_from_the_scene(tmp_path, monkeypatch):

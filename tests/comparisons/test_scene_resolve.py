@@ -47,7 +47,7 @@ FULL = {
         "longest_wavelength": "1 mm",
     },
     "load": {"hertz_peak_pressure": "2 GPa", "friction": [0, 0.1], "position": "0.1 mm"},
-    "stress": {"depth": "500 um", "half_range": 1.5, "points": [30, 20]},
+    "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
     "tolerance": {"peak_pressure": 0.01, "tau1_field_deep": "5 %"},
     "finite_element": {"geometry": "rough", "block": 200, "growth": 0.1},
     "resolution": {"pitch": "1 um", "levels": 4},
@@ -89,7 +89,7 @@ def test_everything_that_can_be_said():
     assert scene.load == Load("hertz_peak_pressure", 2e9)
     assert scene.friction == (0.0, 0.1)
     assert scene.position == 1e-4
-    assert scene.stress.depth == Extent(5e-4, in_half_widths=False)
+    assert scene.stress.depth == Extent(512.3456789e-6, in_half_widths=False)
     assert scene.stress.half_range == Extent(1.5, in_half_widths=True)
     assert scene.stress.points == (30, 20)
     assert scene.tolerance == {
@@ -149,7 +149,7 @@ IN_SI = {
     ("load", "position"): (Decimal("1e-4"), {"mm": -3, "micron": -6, "m": 0, "km": 3}),
     ("profile", "length"): (Decimal("0.002"), {"mm": -3, "um": -6, "dm": -1}),
     ("profile", "rms_height"): (Decimal("4e-7"), {"um": -6, "nm": -9, "angstrom": -10}),
-    ("stress", "depth"): (Decimal("5e-4"), {"um": -6, "mm": -3, "m": 0}),
+    ("stress", "depth"): (Decimal("512.3456789e-6"), {"um": -6, "mm": -3, "m": 0}),
     ("resolution", "pitch"): (Decimal("1e-6"), {"um": -6, "nm": -9}),
     ("budget", "memory"): (Decimal(2**31), {"byte": 0, "kB": 3, "GB": 9}),
 }
