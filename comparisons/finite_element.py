@@ -87,11 +87,13 @@ def finite_element_level(
     refinement: Refinement,
     window: Window | None,
     stages: Stages,
+    approach: float | None = None,
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
     Ground to refine is predicted by the half-plane on the same pressure elements. If contact
-    reaches ground that was not refined it is refined too and the level solved again.
+    reaches ground that was not refined it is refined too and the level solved again. With
+    `approach` [m], from first touch, it and not the load is prescribed.
     Raises MeshError or FemError where a mesh or a factorisation fails.
     """
     grid = problem.grid(refinement.pitch)
@@ -100,6 +102,9 @@ def finite_element_level(
     with stages.stage("contact", "finite elements: predicting the contact"):
         guess = solve_contact(model, average, grid.weights, problem.constraints())
     ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
+    constraints = problem.constraints()
+    if approach is not None:
+        constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
     for _ in range(MOST_MESHES):
         bodies, held = _bodies(problem, plan, block_spec(problem, refinement, ground), stages)
         with stages.stage("contact", "finite elements: contact"):
@@ -111,9 +116,7 @@ def finite_element_level(
                 for body in bodies
             ]
             operator = SumOfBodies(*compliances, factors=_factors(problem, bodies))
-            solution = solve_with_model(
-                operator, model, average, grid.weights, problem.constraints(), start
-            )
+            solution = solve_with_model(operator, model, average, grid.weights, constraints, start)
         touching = grid.x[solution.pressure > 0.0]
         missed = reaches_unrefined(bodies[0].mesh.spec.intervals, touching, reach=grid.pitch)
         if len(missed) == 0:

@@ -6,6 +6,7 @@ half-width and peak pressure of the smooth (Hertz) contact under the same load.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -23,7 +24,9 @@ from comparisons.errors import SceneError
 SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
 HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
 MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
+FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
+FIRST_TOUCH_POINTS = 100_001
 MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
 
 
@@ -48,6 +51,11 @@ class Problem:
     extent: tuple[float, float]
     pitches: tuple[float, ...]
 
+    @cached_property
+    def first_touch(self) -> float:
+        """Smallest initial gap g0 [m]: an approach counts from there."""
+        return float(self.gap(np.linspace(*self.extent, FIRST_TOUCH_POINTS)).min())
+
     @property
     def dundurs_beta(self) -> float:
         return dundurs_constants(self.scene.body, self.scene.roller)[1]
@@ -62,14 +70,14 @@ class Problem:
         return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
 
 
-def problem_of(scene: ResolvedScene) -> Problem:
-    """Set up the problem of a scene.
+def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
+    """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
 
-    Raises SceneError where the contact would reach beyond the trace, or the load exceeds what
-    the surface can carry at its hardness.
+    Raises SceneError where the contact would reach beyond the trace, the load exceeds what the
+    surface can carry at its hardness, or the pressure elements are too coarse or too many.
     """
     modulus = combined_modulus(scene.roller, scene.body)
-    hertz = _smooth_contact(scene, modulus)
+    hertz = _smooth_contact(scene, modulus, load)
     curve = None if scene.profile is None else surface(scene.profile)
     problem = Problem(
         scene=scene,
@@ -82,13 +90,17 @@ def problem_of(scene: ResolvedScene) -> Problem:
     )
     if scene.profile is not None or np.isfinite(problem.constraints().hardness):
         problem = replace(problem, extent=_reach(problem))
-    return replace(problem, pitches=_pitches(problem))
+    problem = replace(problem, pitches=_pitches(problem))
+    _check_count(problem)
+    return problem
 
 
-def _smooth_contact(scene: ResolvedScene, modulus: float) -> HertzContact:
+def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) -> HertzContact:
     if scene.load.kind == "hertz_peak_pressure":
         return hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
-    return hertz_from_load(scene.load.value, scene.roller_radius, modulus)
+    if scene.load.kind == "load_per_length":
+        load = scene.load.value
+    return hertz_from_load(load, scene.roller_radius, modulus)
 
 
 def _reach(problem: Problem) -> tuple[float, float]:
@@ -142,11 +154,28 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     scene = problem.scene
     levels = scene.resolution.levels
     if scene.resolution.pitch is not None:
-        finest = scene.resolution.pitch
-    else:
-        finest = problem.hertz.half_width / SMOOTH_ELEMENTS
-        if scene.profile is not None:
-            finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
-        finest = max(finest, (problem.extent[1] - problem.extent[0]) / MOST_HATS)
-        finest *= 2.0 ** (3 - levels)
-    return tuple(finest * 2.0**k for k in range(levels - 1, -1, -1))
+        return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
+    finest = problem.hertz.half_width / SMOOTH_ELEMENTS
+    if scene.profile is not None:
+        finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
+    finest = max(finest, (problem.extent[1] - problem.extent[0]) / MOST_HATS)
+    return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
+
+
+def _check_count(problem: Problem) -> None:
+    """Refuse pressure elements that are too few to show a contact, or too many to hold."""
+    scene = problem.scene
+    low, high = problem.extent
+    coarsest, finest = problem.pitches[0], problem.pitches[-1]
+    if high - low < FEWEST_ELEMENTS * coarsest:
+        raise SceneError(
+            f"{scene.name}: resolution.pitch: is {coarsest:g} m; allowed is at most "
+            f"{(high - low) / FEWEST_ELEMENTS:.3g} m for a contact of {high - low:.3g} m"
+        )
+    if high - low > MOST_ELEMENTS * finest:
+        allowed = (high - low) / MOST_ELEMENTS * 2.0 ** (len(problem.pitches) - 1)
+        raise SceneError(
+            f"{scene.name}: resolution.pitch: {coarsest:g} m needs {(high - low) / finest:.3g} "
+            f"pressure elements at the finest of {len(problem.pitches)} levels; allowed is at "
+            f"least {allowed:.3g} m, {MOST_ELEMENTS:g} elements"
+        )

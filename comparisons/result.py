@@ -155,8 +155,7 @@ def _approach(problem: Problem, model: str, level: Level) -> tuple[float | None,
         return None, "the body is unbounded: the value would grow with the size of its mesh"
     if problem.scene.roller is not None:
         return None, "the elastic roller is unbounded: its share has no datum"
-    first_touch = float(problem.gap(level.grid.x).min())
-    return level.solution.approach - first_touch, None
+    return level.solution.approach - problem.first_touch, None
 
 
 def _stress(stress: StressResult | None) -> dict | None:

@@ -4,7 +4,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
 
+from analytic.contact import ContactError
 from comparisons.compare import compare, uncertainties
+from comparisons.errors import SceneError
 from comparisons.level import Level, ModelRun, Window
 from comparisons.outcome import Outcome
 from comparisons.plan import Plan, make_plan
@@ -15,6 +17,7 @@ from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, Stages, silent
 from comparisons.window import window_of
 from comparisons.write import write_files
+from meshes.errors import MeshError
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 MOST_LEVELS = 8
@@ -35,10 +38,25 @@ def run(
     nothing is written then.
     """
     stages = Stages(listener)
-    with stages.stage("set-up", "finding the reach of the contact"):
-        problem = problem_of(scene)
-        plan = make_plan(problem, models)
-    return solve(problem, plan, out, listener)
+    try:
+        with stages.stage("set-up", "finding the reach of the contact"):
+            problem = _problem(scene, models, listener)
+        return solve(problem, make_plan(problem, models), out, listener)
+    except (ContactError, MeshError) as error:
+        raise SceneError(f"{scene.name}: {error}") from error
+
+
+def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) -> Problem:
+    if scene.load.kind != "approach":
+        return problem_of(scene)
+    if "finite_element" not in models:
+        raise SceneError(
+            f"{scene.name}: load.approach: takes finite elements to find its load; "
+            "allowed with the half-plane alone is per_length or hertz_peak_pressure"
+        )
+    from comparisons.approach import problem_of_approach
+
+    return problem_of_approach(scene, listener)
 
 
 def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) -> Outcome:

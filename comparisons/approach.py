@@ -1,0 +1,47 @@
+"""The load that brings the bodies together by a prescribed approach, from finite elements.
+
+Only a body with a datum has an approach: a layer on its base under a rigid roller. The half-plane
+is then compared under the load that the layer carries.
+"""
+
+import numpy as np
+
+from comparisons.errors import SceneError
+from comparisons.finite_element import Refinement, finite_element_level
+from comparisons.plan import make_plan
+from comparisons.problem import Problem, problem_of
+from comparisons.scene import ResolvedScene
+from comparisons.stages import Listener, Stages
+
+SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
+MOST_ROUNDS = 12
+
+
+def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
+    """The scene's problem with the load [N/m] that goes with its approach, to SETTLED or better.
+
+    Each round meshes for the load of the one before and prescribes the approach there. Raises
+    SceneError if the rounds do not settle.
+    """
+    wanted = scene.load.value
+    # a rigid body of the roller's shape would cut the surface over twice this half-width
+    half_width = np.sqrt(scene.roller_radius * wanted)
+    modulus = scene.body.plane_strain_modulus
+    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller_radius)
+    for _ in range(MOST_ROUNDS):
+        problem = problem_of(scene, load)
+        plan = make_plan(problem, ("finite_element",))
+        pitch = problem.pitches[-1]
+        refinement = Refinement(pitch, 3 - len(problem.pitches), scene.finite_element.block)
+        listener("finite elements: load of the prescribed approach")
+        level = finite_element_level(problem, plan, refinement, None, Stages(), approach=wanted)
+        before, load = load, level.solution.load
+        low, high = problem.extent
+        if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:
+            load = 2.0 * before  # the contact fills the grid: it carries more than that
+        elif abs(load - before) <= SETTLED * load:
+            return problem_of(scene, load)
+    raise SceneError(
+        f"{scene.name}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
+        "load (per_length) instead"
+    )
