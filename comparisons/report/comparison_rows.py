@@ -1,0 +1,132 @@
+"""The comparison as rows of text, for the page and for the terminal."""
+
+from dataclasses import dataclass
+
+from comparisons.compare import figures, uncertainties
+from comparisons.outcome import Outcome
+from comparisons.problem import Problem
+from comparisons.quantities import QUANTITIES
+from comparisons.report.numbers import Scale, given_percent, percent, plain, scale_of
+from comparisons.verdict import Comparison
+
+
+@dataclass(frozen=True)
+class ComparisonRow:
+    """A quantity at one friction coefficient, or at several that give the same figures.
+
+    half_plane, finite_element   with unit; empty for the norm of a difference
+    in_hertz                     the same two in units of the Hertz contact's
+    verdict                      "" where nothing was judged
+    """
+
+    quantity: str
+    label: str
+    friction: str
+    half_plane: str
+    finite_element: str
+    in_hertz: tuple[str, str]
+    difference: str
+    uncertainty: str
+    tolerance: str
+    verdict: str
+
+
+@dataclass(frozen=True)
+class FigureRow:
+    """A figure of the only model, with unit, in units of Hertz's, and its uncertainty."""
+
+    label: str
+    friction: str
+    value: str
+    in_hertz: str
+    uncertainty: str
+
+
+def comparison_rows(outcome: Outcome) -> list[ComparisonRow]:
+    """In the order of quantities, then of friction coefficients."""
+    rows = []
+    for name in QUANTITIES:
+        alike: dict[tuple, list[Comparison]] = {}
+        for row in outcome.comparisons:
+            if row.quantity == name:
+                alike.setdefault(_figures(row), []).append(row)
+        rows += [_row(outcome.problem, same) for same in alike.values()]
+    return rows
+
+
+def figure_rows(outcome: Outcome) -> list[FigureRow]:
+    """Figures of the only model of a run."""
+    [run] = outcome.runs.values()
+    problem = outcome.problem
+    alike: dict[tuple, list[float]] = {}
+    for friction in problem.scene.friction:
+        doubts = uncertainties(run, problem, friction)
+        for name, value in figures(run.finest, problem, friction).items():
+            alike.setdefault((name, value, doubts[name].total), []).append(friction)
+    order = list(QUANTITIES)
+    rows = []
+    for (name, value, doubt), frictions in sorted(
+        alike.items(), key=lambda i: order.index(i[0][0])
+    ):
+        rows.append(
+            FigureRow(
+                label=QUANTITIES[name].label,
+                friction=_listed(frictions),
+                value=scale_of([value], QUANTITIES[name].unit).text(value),
+                in_hertz=_in_hertz(problem, name, value),
+                uncertainty=percent(doubt),
+            )
+        )
+    return rows
+
+
+def _figures(row: Comparison) -> tuple:
+    return (
+        row.half_plane,
+        row.finite_element,
+        row.difference,
+        row.uncertainty,
+        row.tolerance,
+        row.verdict,
+    )
+
+
+def _row(problem: Problem, same: list[Comparison]) -> ComparisonRow:
+    row, quantity = same[0], QUANTITIES[same[0].quantity]
+    scale = scale_of([row.half_plane, row.finite_element], quantity.unit)
+    return ComparisonRow(
+        quantity=row.quantity,
+        label=quantity.label,
+        friction=_listed([r.friction for r in same]),
+        half_plane=_value(scale, row.half_plane),
+        finite_element=_value(scale, row.finite_element),
+        in_hertz=(
+            _in_hertz(problem, row.quantity, row.half_plane),
+            _in_hertz(problem, row.quantity, row.finite_element),
+        ),
+        difference=percent(row.difference, signed=not quantity.of_pair),
+        uncertainty=percent(row.uncertainty),
+        tolerance="" if row.tolerance is None else given_percent(row.tolerance),
+        verdict=row.verdict or "",
+    )
+
+
+def _value(scale: Scale, value: float | None) -> str:
+    return "" if value is None else scale.text(value)
+
+
+def _listed(frictions: list[float]) -> str:
+    return ", ".join(plain(friction) for friction in frictions)
+
+
+def _in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
+    """The figure over that of the smooth contact under the same load."""
+    hertz = problem.hertz
+    units = {
+        "peak_pressure": Scale(hertz.peak_pressure, "p₀"),
+        "contact_length": Scale(2.0 * hertz.half_width, "× 2a"),
+        "tau1_max": Scale(hertz.peak_pressure, "p₀"),
+        "tau1_max_depth": Scale(hertz.half_width, "a"),
+        "txz_max_abs": Scale(hertz.peak_pressure, "p₀"),
+    }
+    return "" if value is None or quantity not in units else units[quantity].text(value)

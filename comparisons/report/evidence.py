@@ -1,0 +1,202 @@
+"""Why the figures may be trusted: refinement, contact conditions, cost, and the run's record."""
+
+import shlex
+from dataclasses import dataclass
+
+from analytic.contact import KKT_TOLERANCE
+from comparisons.compare import (
+    Uncertainty,
+    figures,
+    norm_uncertainties,
+    norms,
+    uncertainties,
+)
+from comparisons.level import ModelRun
+from comparisons.outcome import Outcome
+from comparisons.quantities import QUANTITIES
+from comparisons.report.numbers import (
+    integer,
+    percent,
+    plain,
+    scale_of,
+    significant,
+    with_unit,
+)
+from comparisons.report.words import LABELS
+
+RESIDUALS = {
+    "load_balance": "load balance",
+    "complementarity": "pressure where there is a gap",
+    "penetration": "overlap",
+    "negative_pressure": "tension",
+    "excess_pressure": "pressure above the hardness",
+}
+
+
+@dataclass(frozen=True)
+class Table:
+    """Text cells by row; the first column names the row."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def convergence_tables(outcome: Outcome) -> list[Table]:
+    """Every figure over the levels: one table a model, one for the norms of the difference."""
+    tables = [_of_model(outcome, run) for run in outcome.runs.values()]
+    if outcome.plan.compares:
+        tables.append(_of_pair(outcome))
+    return tables
+
+
+def _of_model(outcome: Outcome, run: ModelRun) -> Table:
+    problem, halved = outcome.problem, run.halved
+    columns = len(run.levels) + (halved is not None)
+    pitch = scale_of([run.levels[0].grid.pitch], "m")
+    levels = [*run.levels, *([halved] if halved else [])]
+    rows = [
+        ("pitch of the pressure elements", *(pitch.text(v.grid.pitch) for v in levels)),
+        ("unknowns", *(integer(v.unknowns) for v in levels)),
+        ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
+    ]
+    rows = [row + ("",) * (1 + columns + 5 - len(row)) for row in rows]
+    seen = set()
+    for friction in problem.scene.friction:
+        doubts = uncertainties(run, problem, friction)
+        values = [figures(level, problem, friction) for level in levels]
+        for name in values[0]:
+            quantity = QUANTITIES[name]
+            if name == "contact_ratio" or (name in seen and not quantity.needs_stress):
+                continue  # the ratio is the length over a constant
+            seen.add(name)
+            scale = scale_of([v[name] for v in values], quantity.unit)
+            where = f", friction {plain(friction)}" if quantity.needs_stress else ""
+            rows.append(
+                (
+                    quantity.label + where,
+                    *(scale.text(v[name], 5) for v in values),
+                    *_doubts(doubts[name], domain=halved is not None),
+                )
+            )
+    return Table(
+        LABELS[run.name].capitalize(), _head(len(run.levels), halved is not None), tuple(rows)
+    )
+
+
+def _of_pair(outcome: Outcome) -> Table:
+    problem, window = outcome.problem, outcome.window
+    one, other = outcome.runs["half_plane"], outcome.runs["finite_element"]
+    rows, seen = [], set()
+    for friction in problem.scene.friction:
+        pairs = zip(one.levels, other.levels, strict=True)
+        values = [norms(first, second, problem, friction, window) for first, second in pairs]
+        doubts = norm_uncertainties(one, other, problem, friction, window)
+        for name in values[0]:
+            quantity = QUANTITIES[name]
+            if name in seen and not quantity.needs_stress:
+                continue
+            seen.add(name)
+            where = f", friction {plain(friction)}" if quantity.needs_stress else ""
+            rows.append(
+                (
+                    quantity.label + where,
+                    *(percent(v[name], digits=3) for v in values),
+                    *_doubts(doubts[name], domain=other.halved is not None),
+                )
+            )
+    return Table("Difference of both models", _head(len(one.levels), False), tuple(rows))
+
+
+def _head(levels: int, halved: bool) -> tuple[str, ...]:
+    numbered = tuple(f"level {k + 1}" for k in range(levels))
+    block = ("level 1, block halved",) if halved else ()
+    return ("", *numbered, *block, "order", "discretisation", "iteration", "domain", "total")
+
+
+def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
+    """Observed order and the parts of an uncertainty; `domain`: whether that part was looked at."""
+    known = doubt.convergence
+    order = significant(known.order, 2) if known.order is not None else ""
+    if known.behaviour != "monotone":
+        order = f"{order} {known.behaviour}".strip()
+    return (
+        order,
+        percent(doubt.discretisation),
+        percent(doubt.iteration),
+        percent(doubt.domain) if domain else "",
+        percent(doubt.total),
+    )
+
+
+def check_table(outcome: Outcome) -> Table:
+    """The contact conditions on the finest level, evaluated once more after the solution."""
+    rows = []
+    for name, words in RESIDUALS.items():
+        values = [getattr(run.finest.solution.residuals, name) for run in outcome.runs.values()]
+        rows.append((words, *(significant(value, 2) for value in values)))
+    rows.append(
+        (
+            f"all below {significant(KKT_TOLERANCE, 1)} on every level",
+            *(
+                "yes" if all(level.solution.converged for level in run.levels) else "no"
+                for run in outcome.runs.values()
+            ),
+        )
+    )
+    return Table("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
+
+
+def cost_table(outcome: Outcome) -> Table:
+    """Iterations, unknowns and memory on the finest level, and the time of all levels."""
+    rows: dict[str, list[str]] = {}
+    for name, run in outcome.runs.items():
+        level = run.finest
+        cells = {
+            "time, all levels": with_unit(sum(run.seconds.values()), "s", 3),
+            "time, finest level": with_unit(sum(level.seconds.values()), "s", 3),
+            "unknowns, finest level": integer(level.unknowns),
+            "pressure elements, finest level": integer(level.grid.count),
+        }
+        for kind, count in level.solution.iterations.items():
+            cells[f"{kind} of the contact solver, finest level"] = integer(count)
+        memory = outcome.result["models"][name][0]["cost"]["peak_memory"]
+        cells["peak memory of the process"] = with_unit(memory, "byte", 3)
+        for words, text in cells.items():
+            rows.setdefault(words, []).append((name, text))
+    names = list(outcome.runs)
+    return Table(
+        "",
+        ("", *(LABELS[name] for name in names)),
+        tuple((words, *(dict(cells).get(n, "") for n in names)) for words, cells in rows.items()),
+    )
+
+
+def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
+    """Versions, machine and hashes of the run."""
+    record = outcome.record
+    versions = ", ".join(f"{k} {v}" for k, v in record["versions"].items() if v is not None)
+    machine = ", ".join(
+        f"{name} {value}" for name, value in record["machine"].items() if value is not None
+    )
+    rows = [("versions", versions), ("machine", machine)]
+    if record.get("seed") is not None:
+        rows.append(("seed", str(record["seed"])))
+    if record.get("profile"):
+        rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
+    hashes = record.get("hashes") or {}
+    rows += [(f"SHA-256 of {name.replace('_', ' ')}", value) for name, value in hashes.items()]
+    return rows
+
+
+def commands(outcome: Outcome) -> list[tuple[str, str]]:
+    """What to type to get this again."""
+    scene, plan = outcome.problem.scene, outcome.plan
+    models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
+    return [
+        ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
+        (
+            "repeats this run from its record and tells every figure that moved",
+            f"crosscheck rerun {shlex.quote(str(outcome.directory))}",
+        ),
+    ]

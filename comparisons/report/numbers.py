@@ -1,0 +1,111 @@
+"""Numbers as a reader wants them: a few digits, with the unit that keeps them small."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+UNKNOWN = "–"
+MINUS = "−"
+
+# Unit names by power of ten over the SI unit, largest first.
+_UNITS: dict[str, tuple[tuple[float, str], ...]] = {
+    "m": ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"), (1e-12, "pm")),
+    "Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")),
+    "N/m": ((1e3, "N/mm"), (1.0, "N/m")),
+    "s": ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")),
+    "byte": ((1e9, "GB"), (1e6, "MB"), (1e3, "kB"), (1.0, "byte")),
+}
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A unit to write figures in: `factor` SI units each; `name` is empty for ratios."""
+
+    factor: float
+    name: str
+
+    def number(self, value: float | None, digits: int = 4) -> str:
+        """The figure [SI] in this unit, without the unit."""
+        return significant(None if value is None else value / self.factor, digits)
+
+    def text(self, value: float | None, digits: int = 4) -> str:
+        """The figure [SI] with the unit."""
+        number = self.number(value, digits)
+        return f"{number} {self.name}" if self.name and number != UNKNOWN else number
+
+
+def scale_of(values: Iterable[float | None], unit: str) -> Scale:
+    """The unit in which the largest of `values` [SI] has one to three digits before the point."""
+    known = [abs(v) for v in values if v is not None and math.isfinite(v)]
+    largest = max(known, default=0.0)
+    choices = _UNITS.get(unit, ((1.0, unit),))
+    for factor, name in choices:
+        if largest >= factor * 0.9995:
+            return Scale(factor, name)
+    return Scale(*(choices[-1] if largest > 0.0 else _plain(choices)))
+
+
+def _plain(choices: tuple[tuple[float, str], ...]) -> tuple[float, str]:
+    return next(choice for choice in choices if choice[0] == 1.0)
+
+
+def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
+    """One figure [SI] in the unit that suits it."""
+    return scale_of([value], unit).text(value, digits)
+
+
+def given(value: float | None, unit: str) -> str:
+    """A figure [SI] as a scene gives it: no digit more than it has, at most six."""
+    scale = scale_of([value], unit)
+    number = plain(None if value is None else value / scale.factor)
+    return f"{number} {scale.name}" if scale.name and number != UNKNOWN else number
+
+
+def significant(value: float | None, digits: int = 4) -> str:
+    """`digits` significant digits, trailing zeros kept; a power of ten for the very small."""
+    if value is None or not math.isfinite(value):
+        return UNKNOWN
+    if value == 0.0:
+        return "0"
+    if 1e-4 <= abs(value) < 10.0 ** max(digits, 5):
+        text = f"{value:#.{digits}g}"
+        text = f"{value:.0f}" if "e" in text else text.rstrip(".")
+    else:
+        mantissa, power = f"{value:.{digits - 1}e}".split("e")
+        text = f"{mantissa}e{int(power)}"
+    return text.replace("-", MINUS)
+
+
+def decimal(value: float, places: int = 3) -> str:
+    """A number with fixed decimals; what rounds to nothing is 0 without a sign."""
+    text = f"{value:.{places}f}"
+    return "0" if float(text) == 0.0 else text.replace("-", MINUS)
+
+
+def percent(value: float | None, signed: bool = False, digits: int = 2) -> str:
+    """A ratio in percent with `digits` significant digits; below 1e-6 only a bound."""
+    if value is None or not math.isfinite(value):
+        return UNKNOWN
+    if value == 0.0:
+        return "0 %"
+    size = 100.0 * abs(value)
+    sign = MINUS if value < 0.0 else "+" if signed else ""
+    if size < 1e-4:
+        return "< 0.0001 %"
+    decimals = max(0, digits - 1 - math.floor(math.log10(size)))
+    return f"{sign}{size:.{decimals}f} %"
+
+
+def given_percent(value: float) -> str:
+    """A ratio of the scene in percent, no digit more than it has."""
+    return f"{100.0 * value:.6g} %"
+
+
+def plain(value: float | None) -> str:
+    """A number of the scene: no digit more than it has, at most six."""
+    return UNKNOWN if value is None else f"{value:.6g}".replace("-", MINUS)
+
+
+def integer(value: int) -> str:
+    """Thousands apart by a thin space."""
+    return f"{value:,}".replace(",", "\u202f")

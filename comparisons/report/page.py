@@ -1,0 +1,95 @@
+"""The report: one page that opens without a network and prints without loss."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from comparisons.outcome import Outcome
+from comparisons.report.comparison_rows import comparison_rows, figure_rows
+from comparisons.report.evidence import (
+    check_table,
+    commands,
+    convergence_tables,
+    cost_table,
+    record_rows,
+)
+from comparisons.report.headline import headline
+from comparisons.report.sheet import problem_sheet
+from comparisons.report.style import Picture, drawing
+from comparisons.report.words import MODELS
+
+FOLDER = Path(__file__).parent
+UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """All pictures of a run; None or empty for what does not apply."""
+
+    problem: Picture
+    pressure: Picture
+    peak: Picture | None
+    surface: Picture
+    fields: list[tuple[float, list[Picture]]]
+    near: list[Picture]
+    sections: list[Picture]
+    mesh: list[Picture]
+    cost: Picture
+
+
+def render(outcome: Outcome) -> str:
+    """The page of a finished run; equal outcomes give equal text."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
+
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["tight"] = lambda text: UNIT.sub("\u00a0", text)  # no line ends there
+    return environment.get_template("page.html.j2").render(
+        css=Markup((FOLDER / "page.css").read_text(encoding="utf-8")),
+        scene=outcome.problem.scene,
+        headline=headline(outcome),
+        models=[MODELS[name] for name in outcome.runs],
+        comparisons=comparison_rows(outcome),
+        figures=[] if outcome.plan.compares else figure_rows(outcome),
+        sheet=problem_sheet(outcome),
+        assumptions=outcome.plan.assumptions,
+        skipped=outcome.plan.skipped,
+        refinement=outcome.result["refinement"],
+        convergence=convergence_tables(outcome),
+        checks=check_table(outcome),
+        cost=cost_table(outcome),
+        record=record_rows(outcome),
+        commands=commands(outcome),
+        pictures=draw(outcome),
+    )
+
+
+def draw(outcome: Outcome) -> Pictures:
+    """Draw what applies to the run."""
+    from comparisons.report.cost_picture import cost_picture
+    from comparisons.report.field_pictures import field_pictures, near_surface_pictures
+    from comparisons.report.mesh_picture import mesh_pictures
+    from comparisons.report.pressure_pictures import peak_picture, pressure_picture
+    from comparisons.report.problem_picture import problem_picture
+    from comparisons.report.section_pictures import section_pictures
+    from comparisons.report.surface_picture import surface_picture
+
+    rough = outcome.problem.scene.profile is not None
+    with drawing():
+        return Pictures(
+            problem=problem_picture(outcome),
+            pressure=pressure_picture(outcome),
+            peak=peak_picture(outcome) if rough else None,
+            surface=surface_picture(outcome),
+            fields=field_pictures(outcome),
+            near=near_surface_pictures(outcome),
+            sections=section_pictures(outcome),
+            mesh=mesh_pictures(outcome),
+            cost=cost_picture(outcome),
+        )

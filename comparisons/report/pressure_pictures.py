@@ -1,0 +1,254 @@
+"""Pressures over the profile, in the manner of Bailey and Sayles (1991), figure 1.
+
+Above the pressures of both models over the Hertz curve, below them on the same x the deformed
+surfaces; once over the whole contact, once around the highest peak, where the nodes of the
+piecewise-linear pressures can be told apart.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.exact.hertz import HertzContact
+from comparisons.level import Level
+from comparisons.outcome import Outcome
+from comparisons.report.numbers import Scale, percent, scale_of, significant, with_unit
+from comparisons.report.style import (
+    BODY,
+    COLUMN,
+    DIFFERENCE,
+    LINES,
+    OUTLINE,
+    REFERENCE,
+    ROLLER,
+    WIDE,
+    Picture,
+    data_uri,
+    figure,
+)
+from comparisons.report.surfaces import surfaces_of
+from comparisons.report.words import LABELS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+PEAK_HATS = 14  # pressure elements to either side of the highest peak, at least
+PEAK_REACH = 0.1  # half-widths to either side of it, at most
+
+
+def reference_level(outcome: Outcome) -> Level:
+    """The finest level of the finite elements, or of the only model."""
+    return list(outcome.runs.values())[-1].finest
+
+
+def pressure_picture(outcome: Outcome) -> Picture:
+    """The whole contact."""
+    x = reference_level(outcome).grid.x
+    across = (min(x[0], -1.05 * outcome.problem.hertz.half_width), max(x[-1], 0.0))
+    across = (across[0], max(across[1], 1.05 * outcome.problem.hertz.half_width))
+    p0 = outcome.problem.hertz.peak_pressure
+    peaks = ", ".join(
+        f"{LABELS[name]} {significant(run.finest.solution.pressure.max() / p0)} p₀ at x = "
+        f"{with_unit(_peak_position(run.finest), 'm')}"
+        for name, run in outcome.runs.items()
+    )
+    return Picture(
+        source=data_uri(_drawn(outcome, across, WIDE, 5.2)),
+        narrow=data_uri(_drawn(outcome, across, COLUMN, 5.2)),
+        wide=True,
+        alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
+        caption=(
+            f"Contact pressure over the Hertz peak pressure p₀, and the surfaces under load. "
+            f"Largest pressure: {peaks}. {_norm(outcome)}"
+            "Heights are stretched and known but for a constant; in contact both surfaces coincide."
+        ),
+    )
+
+
+def peak_picture(outcome: Outcome) -> Picture:
+    """The ground around the highest pressure."""
+    level = reference_level(outcome)
+    centre = _peak_position(level)
+    patch = level.patches[np.argmin(np.abs(level.patches.mean(axis=1) - centre))]
+    inside = level.patches[(level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)]
+    patch = inside[0] if len(inside) else patch
+    most = max(PEAK_REACH * outcome.problem.hertz.half_width, PEAK_HATS * level.grid.pitch)
+    reach = np.clip(0.75 * np.ptp(patch), PEAK_HATS * level.grid.pitch, most)
+    across = (centre - reach, centre + reach)
+    place = with_unit(centre, "m")
+    return Picture(
+        source=data_uri(_drawn(outcome, across, COLUMN, 5.6, nodes=True)),
+        alternative=f"Pressures of the models around the highest peak at x = {place}.",
+        caption=(
+            f"Around the highest peak, x = {place}: the pressures are piecewise linear between "
+            f"the marked nodes, {with_unit(level.grid.pitch, 'm', 3)} apart."
+        ),
+    )
+
+
+def _peak_position(level: Level) -> float:
+    return float(level.grid.x[level.solution.pressure.argmax()])
+
+
+def _norm(outcome: Outcome) -> str:
+    row = next((c for c in outcome.comparisons if c.quantity == "pressure_l2"), None)
+    if row is None or row.difference is None:
+        return ""
+    return f"The models differ by {percent(row.difference)} (relative L2 norm). "
+
+
+def _drawn(
+    outcome: Outcome, across: tuple[float, float], width: float, height: float, nodes: bool = False
+) -> "Figure":
+    """Pressures, their difference where there are two models, and surfaces."""
+    drawn = figure(width, height)
+    left, right = 0.72 / width, 1.0 - 0.12 / width
+    comparing = len(outcome.runs) > 1
+    heights = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
+    bottom, top, space = 0.46 / height, 1.0 - 0.24 / height, 0.16 / height
+    room = top - bottom - space * (len(heights) - 1)
+    panels, edge = [], top
+    for share in heights:
+        edge -= share * room
+        panels.append(drawn.add_axes((left, edge, right - left, share * room)))
+        edge -= space
+    unit = scale_of(np.abs(across), "m")
+    _pressures(panels[0], outcome, across, unit, nodes)
+    if comparing:
+        _difference(panels[1], outcome, across, unit)
+    _surfaces(panels[-1], outcome, across, unit)
+    for panel in panels:
+        panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
+    for panel in panels[:-1]:
+        panel.tick_params(labelbottom=False)
+    panels[-1].set_xlabel(f"x [{unit.name}]")
+    _second_axis(panels[0], outcome.problem.hertz.half_width / unit.factor)
+    return drawn
+
+
+def _second_axis(axes: "Axes", half_width: float) -> None:
+    """x/a along the top."""
+    top = axes.secondary_xaxis(
+        "top", functions=(lambda x: x / half_width, lambda s: s * half_width)
+    )
+    top.tick_params(pad=1.5)
+    axes.annotate("x/a", (0.0, 1.0), (-8, 4), "axes fraction", "offset points", ha="right")
+
+
+def _pressures(
+    axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale, nodes: bool
+) -> None:
+    problem = outcome.problem
+    p0 = problem.hertz.peak_pressure
+    smooth = np.linspace(*across, 600)
+    smooth = np.union1d(
+        smooth, np.clip([-problem.hertz.half_width, problem.hertz.half_width], *across)
+    )
+    for name, run in outcome.runs.items():
+        level = run.finest
+        x, pressure = _closed(level)
+        near = (x >= across[0] - level.grid.pitch) & (x <= across[1] + level.grid.pitch)
+        marker = {"half_plane": "o", "finite_element": "x"}[name] if nodes else None
+        axes.plot(
+            x[near] / unit.factor,
+            pressure[near] / p0,
+            label=LABELS[name],
+            marker=marker,
+            markersize=3.2,
+            markerfacecolor="none",
+            **LINES[name],
+        )
+    axes.plot(
+        smooth / unit.factor,
+        problem.hertz.pressure(smooth) / p0,
+        label="Hertz, smooth",
+        **REFERENCE,
+    )
+    if problem.scene.hardness is not None:
+        cap = problem.scene.hardness / p0
+        axes.axhline(cap, color="#777777", linestyle="-.", linewidth=0.9, label="hardness")
+    _legend(axes, problem.hertz)
+
+
+def _legend(axes: "Axes", hertz: HertzContact) -> None:
+    """The load and the lines' names, above the curves; on a narrow picture in two rows."""
+    narrow = axes.figure.get_figwidth() < 0.75 * WIDE
+    axes.set_ylim(0.0, (1.34 if narrow else 1.17) * axes.dataLim.y1)
+    axes.set_ylabel("p/p₀")
+    load = (
+        f"P = {with_unit(hertz.load_per_length, 'N/m')},  "
+        f"p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  a = {with_unit(hertz.half_width, 'm')}"
+    )
+    axes.text(0.008, 0.97, load, transform=axes.transAxes, va="top")
+    axes.legend(
+        loc="upper left" if narrow else "upper right",
+        bbox_to_anchor=(0.0, 0.91) if narrow else (1.0, 1.02),
+        ncols=4,
+        borderaxespad=0.1,
+        columnspacing=1.0,
+        handlelength=2.0,
+        handletextpad=0.5,
+    )
+
+
+def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
+    """The pressure with the feet of its first and last hat."""
+    x, pitch = level.grid.x, level.grid.pitch
+    return (
+        np.concatenate([[x[0] - pitch], x, [x[-1] + pitch]]),
+        np.concatenate([[0.0], level.solution.pressure, [0.0]]),
+    )
+
+
+def _difference(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
+    one, other = outcome.runs["half_plane"].finest, outcome.runs["finite_element"].finest
+    x, reference = _closed(other)
+    difference = np.interp(x, *_closed(one)) - reference
+    difference /= outcome.problem.hertz.peak_pressure
+    near = (x >= across[0] - other.grid.pitch) & (x <= across[1] + other.grid.pitch)
+    axes.plot(x[near] / unit.factor, difference[near], **DIFFERENCE)
+    largest = np.max(np.abs(difference[near]), initial=0.0) or 1.0
+    axes.set_ylim(-1.25 * largest, 1.25 * largest)
+    axes.set_ylabel("Δp/p₀")
+    axes.locator_params(axis="y", nbins=3)
+
+
+def _surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
+    drawn: dict[str, tuple[np.ndarray, ...]] = {}
+    for name, run in reversed(outcome.runs.items()):
+        found = surfaces_of(outcome.problem, run.finest)
+        pitch = run.finest.grid.pitch
+        near = (found.x >= across[0] - pitch) & (found.x <= across[1] + pitch)
+        x, body, roller = found.x[near], found.body[near], found.roller[near]
+        if drawn:
+            # displacements are known but for a constant: laid on each other at their mean
+            place, level, _ = next(iter(drawn.values()))
+            shift = np.mean(np.interp(x, place, level) - body)
+            body, roller = body + shift, roller + shift
+        drawn[name] = x, body, roller
+    x, body, roller = next(iter(drawn.values()))
+    low, high = body.min(), roller.max()
+    middle, high = 0.5 * (low + high), high + 0.25 * (high - low or 1.0)
+    low -= 0.35 * (high - low)
+    up = scale_of([high - low], "m")
+    base = middle / up.factor
+    few = slice(None, None, 1 + len(x) // int(90 * axes.figure.get_figwidth()))
+    x, body, roller = (
+        x[few] / unit.factor,
+        body[few] / up.factor - base,
+        roller[few] / up.factor - base,
+    )
+    low, high = low / up.factor - base, high / up.factor - base
+    axes.fill_between(x, low, body, **BODY)
+    axes.fill_between(x, roller, high, **ROLLER)
+    for name, (place, lower, upper) in reversed(drawn.items()):
+        style = LINES[name] if len(drawn) > 1 else OUTLINE
+        style = {**style, "linewidth": 0.7 * style["linewidth"]}
+        axes.plot(place / unit.factor, upper / up.factor - base, **style)
+        axes.plot(place / unit.factor, lower / up.factor - base, **style)
+    axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
+    axes.text(0.5, 0.05, "body", transform=axes.transAxes, ha="center", va="bottom")
+    axes.set_ylim(low, high)
+    axes.set_ylabel(f"height [{up.name}]")
+    axes.grid(False)

@@ -1,0 +1,115 @@
+"""The problem in figures: what a reader needs to set it up again by hand."""
+
+from analytic.material import Material
+from comparisons.outcome import Outcome
+from comparisons.report.numbers import given, plain, significant, with_unit
+from comparisons.scene import ProfileInfo, ResolvedScene
+
+Rows = list[tuple[str, str]]
+
+GROUPS = {
+    "a_over_thickness": "half-width over thickness, a/t",
+    "a_over_radius": "half-width over radius, a/R",
+    "a_over_width": "half-width over width, a/w",
+    "rms_slope": "rms slope",
+    "max_slope": "largest slope",
+    "friction_dundurs": "friction times Dundurs' β, µβ",
+    "peak_pressure_over_hardness": "peak pressure over hardness",
+}
+LOADS = {
+    "load_per_length": ("load per length", "N/m"),
+    "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
+    "approach": ("approach", "m"),
+}
+
+
+def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
+    """Headings, each with its rows of a name and a value."""
+    scene = outcome.problem.scene
+    return [
+        ("Geometry", _geometry(scene)),
+        ("Materials", _materials(outcome)),
+        ("Load", _load(outcome)),
+        ("Dimensionless groups", _groups(outcome)),
+    ]
+
+
+def _geometry(scene: ResolvedScene) -> Rows:
+    rows = [("roller, radius of relative curvature R", given(scene.roller_radius, "m"))]
+    if scene.thickness is None:
+        rows.append(("body, thickness", "unbounded"))
+    else:
+        base = {"bonded": "bonded to", "frictionless": "free to slide on"}[scene.base]
+        rows.append(("body, thickness t", f"{given(scene.thickness, 'm')}, {base} a rigid base"))
+    rows.append(("body, width w", "unbounded" if scene.width is None else given(scene.width, "m")))
+    if scene.profile_info is None:
+        return [*rows, ("surface", "smooth")]
+    return (
+        rows
+        + _profile(scene.profile_info)
+        + [("place of the roller on the trace", given(scene.position, "m"))]
+    )
+
+
+def _profile(info: ProfileInfo) -> Rows:
+    figures = info.roughness
+    rows = [
+        ("profile", info.source),
+        (
+            "samples, length, spacing",
+            f"{info.samples}, {with_unit(info.length, 'm')}, {with_unit(info.spacing, 'm')}",
+        ),
+        ("form", str(info.form)),
+        ("Ra, Rq", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
+        ("highest peak to deepest valley", with_unit(figures.rt, "m")),
+        ("skewness, kurtosis", f"{significant(figures.rsk, 3)}, {significant(figures.rku, 3)}"),
+    ]
+    if info.bridged or info.trimmed:
+        lost = f"{info.bridged} bridged, {info.trimmed} at the ends left out"
+        rows.append(("lost samples", lost))
+    return rows
+
+
+def _materials(outcome: Outcome) -> Rows:
+    problem = outcome.problem
+    scene = problem.scene
+    rows = [
+        ("roller", "rigid" if scene.roller is None else _elastic(scene.roller)),
+        ("body", _elastic(scene.body)),
+        ("combined modulus E*", with_unit(problem.modulus, "Pa")),
+        ("Dundurs' β", plain(problem.dundurs_beta)),
+    ]
+    if scene.hardness is not None:
+        rows.append(("hardness of the body", given(scene.hardness, "Pa")))
+    return rows
+
+
+def _elastic(material: Material) -> str:
+    return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+
+
+def _load(outcome: Outcome) -> Rows:
+    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+    label, unit = LOADS[scene.load.kind]
+    rows = [(f"{label} (given)", given(scene.load.value, unit))]
+    if scene.load.kind != "load_per_length":
+        rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
+    return [
+        *rows,
+        ("friction coefficient µ", ", ".join(plain(mu) for mu in scene.friction)),
+        ("Hertz half-width a", with_unit(hertz.half_width, "m")),
+        ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
+        (
+            "largest τ₁ without friction, smooth",
+            f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}",
+        ),
+    ]
+
+
+def _groups(outcome: Outcome) -> Rows:
+    groups = outcome.result["groups"]
+    return [
+        (GROUPS.get(name, name.replace("_", " ")), significant(value, 3))
+        for name, value in groups.items()
+        if value is not None
+    ]

@@ -1,0 +1,97 @@
+"""How every picture of the report looks, and how it becomes part of the page.
+
+Colours are those of Okabe and Ito, told apart by every kind of colour vision; a line style goes
+with each, so that the pictures survive a grey printer.
+"""
+
+import base64
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+COLUMN = 5.6  # inches: two such pictures stand side by side on a desk, one on a telephone
+WIDE = 11.4  # inches: a picture across the page
+
+
+LINES = {
+    "half_plane": {"color": "#0072B2", "linestyle": "-", "linewidth": 1.5},
+    "finite_element": {"color": "#D55E00", "linestyle": (0, (4, 1.6)), "linewidth": 1.1},
+}
+REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
+DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
+BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
+ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
+OUTLINE = {"color": "#444444", "linewidth": 1.0}
+
+_SETTINGS = {
+    "axes.axisbelow": True,
+    "axes.edgecolor": "#555555",
+    "axes.grid": True,
+    "axes.labelsize": 9.0,
+    "axes.linewidth": 0.7,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 9.0,
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "grid.color": "#e2e2e2",
+    "grid.linewidth": 0.6,
+    "legend.fontsize": 8.5,
+    "legend.frameon": False,
+    "legend.handlelength": 2.6,
+    "path.simplify_threshold": 0.2,
+    "savefig.dpi": 170.0,  # of what is rasterised inside a picture
+    "svg.fonttype": "path",  # the same letters on every machine
+    "svg.hashsalt": "crosscheck",  # the same names inside for the same picture
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawn picture.
+
+    source       data URI
+    alternative  what it shows, for those who cannot see it
+    caption      what it shows and how to read it
+    narrow       data URI of a version for narrow screens, None where one version suits all
+    wide         across the page
+    """
+
+    source: str
+    alternative: str
+    caption: str
+    narrow: str | None = None
+    wide: bool = False
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Settings for all that is drawn inside; whatever the caller's were, they come back."""
+    import matplotlib
+
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_SETTINGS)
+        yield
+
+
+def figure(width: float, height: float) -> "Figure":
+    """An empty figure of `width` by `height` inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height))
+
+
+def data_uri(drawn: "Figure") -> str:
+    """The figure as an SVG image; equal figures give equal text."""
+    buffer = io.BytesIO()
+    drawn.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    return "data:image/svg+xml;base64," + base64.b64encode(buffer.getvalue()).decode("ascii")
