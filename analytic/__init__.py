@@ -1,1 +1,1 @@
-"""Half-plane contact: profiles, exact solutions, operators, the contact solver, subsurface stresses."""
+"""Half-plane contact: profiles, exact solutions, operators, contact solver, subsurface stresses."""

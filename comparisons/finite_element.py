@@ -13,9 +13,9 @@ import numpy as np
 
 from analytic.contact import solve_contact
 from analytic.defect import solve_with_model
+from analytic.gap import HatGrid
 from analytic.operators import HalfPlane, SumOfBodies
 from analytic.patches import contact_patches
-from analytic.gap import HatGrid
 from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.level import Level, MeshField, StressResult, Window
 from comparisons.plan import Plan

@@ -38,7 +38,7 @@ class Outcome:
 
     @property
     def exit_status(self) -> ExitStatus:
-        """3 where a solver did not converge, 1 where a quantity is outside its tolerance, else 0."""
+        """3: a solver did not converge; 1: a quantity is outside its tolerance; else 0."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
         if any(c.verdict == "differ" for c in self.comparisons):

@@ -4,7 +4,7 @@ A step that is left out never changes a figure that is asked for; `unpruned` giv
 leaves nothing out, for the test of that.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from comparisons.problem import Problem
 from comparisons.scene import ResolvedScene
@@ -74,7 +74,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             "it is the body's block with another modulus, or the same",
         )
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
-    if not len(models) == len(MODELS):
+    if set(models) != set(MODELS):
         skipped.append(Skipped("comparison", "it takes both models"))
     return Plan(
         models=models,
@@ -89,8 +89,6 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
 
 def unpruned(plan: Plan) -> Plan:
     """The same run with every step that pruning leaves out."""
-    from dataclasses import replace
-
     return replace(plan, tangential=plan.stress, shared_factor=False)
 
 
@@ -110,13 +108,15 @@ def _assumptions(problem: Problem) -> tuple[str, ...]:
     beta = problem.dundurs_beta
     listed = [
         "linear elasticity, small deformation, plane strain",
-        "the roller is a parabola of the relative curvature; the gap is taken at the undeformed place",
+        "the roller is a parabola of the relative curvature",
+        "the gap is taken at the undeformed place",
     ]
     if scene.finite_element.geometry == "flat":
         listed.append("the roughness is in the gap: the pressure acts along the mean normal")
     else:
         listed.append(
-            "finite elements: the pressure acts on the real rough boundary along the roller's normal"
+            "finite elements: the pressure acts on the real, undeformed boundary along the roller's "
+            "normal; stresses within an asperity's height of it are those of unflattened asperities"
         )
     if scene.hardness is not None:
         listed.append("plastic flow is a cap on the pressure (hardness)")

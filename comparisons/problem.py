@@ -18,8 +18,8 @@ from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.profile import surface
 from analytic.roughness import shortest_wavelength
-from comparisons.resolve import ResolvedScene
 from comparisons.errors import SceneError
+from comparisons.scene import ResolvedScene
 
 SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
 HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
