@@ -51,6 +51,8 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         LOAD_KINDS.get(scene.load.kind, scene.load.kind), getattr(scene.load, scene.load.kind)
     )
     plain = plain_tables(scene)
+    if scene.body.thickness is not None:
+        plain["body"].setdefault("base", "bonded")
     profile = info = None
     position = scene.load.position or 0.0
     if scene.profile is not None:
@@ -72,7 +74,7 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         hardness=scene.body.hardness,
         thickness=scene.body.thickness,
         width=scene.body.width,
-        base=None if scene.body.thickness is None else scene.body.base or "bonded",
+        base=plain["body"].get("base"),
         profile=profile,
         profile_info=info,
         load=load,

@@ -118,7 +118,8 @@ def test_a_rigid_roller_has_no_material():
 
 
 def test_a_layer_is_bonded_unless_it_says_otherwise():
-    assert resolved(changed(BARE, "body", thickness="5 mm")).base == "bonded"
+    layer = resolved(changed(BARE, "body", thickness="5 mm"))
+    assert layer.base == layer.as_dict()["body"]["base"] == "bonded"
     loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
     assert resolved(loose).base == "frictionless"
 
