@@ -216,7 +216,7 @@ def test_wheel_holds_every_file_of_the_packages(tmp_path):
     for package in MAY_IMPORT:
         unwanted = shutil.ignore_patterns("__pycache__")
         shutil.copytree(PROJECT / package, source / package, ignore=unwanted)
-    for name in ("pyproject.toml", "README.md", ".gitignore"):
+    for name in ("pyproject.toml", ".gitignore"):
         shutil.copy(PROJECT / name, source)
     subprocess.run(
         [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", tmp_path],
