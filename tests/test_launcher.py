@@ -182,6 +182,13 @@ def test_test_command_runs_pytest_in_the_checkout_on_one_thread(checkout):
     assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest -k a b\n"
 
 
+def test_continuous_integration_runs_the_test_command(checkout):
+    shutil.copytree(PROJECT / ".ci", checkout.root / ".ci")
+    done = checkout.call(script=checkout.root / ".ci" / "run", STATUS="5", cwd="/")
+    assert done.returncode == 5
+    assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest\n"
+
+
 def test_changed_dependencies_set_up_again_and_tool_settings_do_not(checkout):
     checkout.call()
     project = checkout.root / "pyproject.toml"
