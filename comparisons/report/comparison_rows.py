@@ -35,6 +35,7 @@ class ComparisonRow:
 class FigureRow:
     """A figure of the only model, with unit, in units of Hertz's, and its uncertainty."""
 
+    quantity: str
     label: str
     friction: str
     value: str
@@ -70,6 +71,7 @@ def figure_rows(outcome: Outcome) -> list[FigureRow]:
     ):
         rows.append(
             FigureRow(
+                quantity=name,
                 label=QUANTITIES[name].label,
                 friction=_listed(frictions),
                 value=scale_of([value], QUANTITIES[name].unit).text(value),

@@ -16,6 +16,8 @@ BANDS = 16  # of colour on the whole scale, about
 COVERED = 99.5  # per cent of a field's points that its scale must cover
 NOTHING = 1e-12  # p0: a difference below it is none
 PIXELS = 220  # to the inch
+SMALLEST_POWER = -2  # of ten: smaller ticks are written with the power apart
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOST_TICKS = 9  # of a colour bar
 ROUND = np.array([1.0, 2.0, 2.5, 5.0, 10.0])  # steps of a scale, times a power of ten
 
@@ -127,7 +129,13 @@ def colour_bar(
     step = bands[1] - bands[0]
     apart = step * (1 + len(bands) // MOST_TICKS)
     ticks = apart * np.arange(np.ceil(bands[0] / apart), np.floor(bands[-1] / apart * 1.000001) + 1)
-    bar.set_ticks(ticks, labels=[f"{tick:.4g}".replace("-", "−") for tick in ticks])
+    power = int(np.floor(np.log10(ticks[-1])))
+    if power < SMALLEST_POWER:
+        label = f"{label}\n× 10{str(power).translate(SUPERSCRIPT)}"
+    else:
+        power = 0
+    labels = [f"{tick * 10.0**-power:.4g}" for tick in ticks]
+    bar.set_ticks(ticks, labels=[text.replace("-", "−") for text in labels])
     bar.minorticks_off()
     axes.tick_params(length=2.0, pad=1.5)
     axes.annotate(

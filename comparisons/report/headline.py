@@ -33,7 +33,9 @@ def headline(outcome: Outcome) -> Headline:
     verdict, why = outcome.result["half_space"]["verdict"], outcome.result["half_space"]["why"]
     judged = [row for row in outcome.comparisons if row.verdict is not None]
     if not judged:
-        return Headline("undecided", "Undecided: no figure has a tolerance to be judged by.")
+        return Headline(
+            "undecided", "The half-plane cannot be judged here: no figure has a tolerance."
+        )
     several = len(outcome.problem.scene.friction) > 1
     if verdict == "fails":
         outside = _by_distance(row for row in judged if row.verdict == "differ")
@@ -56,11 +58,14 @@ def headline(outcome: Outcome) -> Headline:
         row = max(unclear, key=lambda row: (row.uncertainty or float("inf")) / row.tolerance)
         return Headline(
             "undecided",
-            f"Undecided: the {_said(row, several)}; an uncertainty above the tolerance asks for "
+            f"The half-plane cannot be judged here: the {_said(row, several)}; an uncertainty above the tolerance asks for "
             "refinement, not for a conclusion.",
         )
     nearest = _said(_by_distance(judged)[0], several)
-    return Headline("undecided", f"Undecided: {why}; nearest to its tolerance, the {nearest}.")
+    return Headline(
+        "undecided",
+        f"The half-plane cannot be judged here: {why}; nearest to its tolerance, the {nearest}.",
+    )
 
 
 def _all_judged(judged: list[Comparison]) -> str:

@@ -63,11 +63,11 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
     total = height + 0.6
     drawn = figure(COLUMN, total)
     axes = drawn.add_axes((0.68 / COLUMN, 0.46 / total, width / COLUMN, height / total))
-    triangles = points[corners] / unit.factor
-    top = points[:, 1].min() / unit.factor
+    points = points / unit.factor
+    top = points[:, 1].min()
     bounds = low / unit.factor, high / unit.factor, depth / unit.factor
     cell = CELL * (bounds[1] - bounds[0]) / width
-    _edges(axes, triangles, bounds, cell)
+    _edges(axes, points, corners, bounds, cell)
     near_top = min(0.0, max(top, -0.2 * bounds[2]))
     axes.set(
         xlim=bounds[:2],
@@ -80,23 +80,25 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
 
 
 def _edges(
-    axes: "Axes", triangles: np.ndarray, bounds: tuple[float, float, float], cell: float
+    axes: "Axes",
+    points: np.ndarray,
+    corners: np.ndarray,
+    bounds: tuple[float, float, float],
+    cell: float,
 ) -> None:
-    """Edges of the triangles (m, 3, 2) in the view; those shorter than `cell` as dark cells."""
+    """Edges of the triangles in the view, each once; those shorter than `cell` as dark cells."""
     low, high, depth = bounds
-    x, z = triangles[:, :, 0], triangles[:, :, 1]
+    x, z = points[corners, 0], points[corners, 1]
     inside = (x.max(axis=1) >= low) & (x.min(axis=1) <= high) & (z.min(axis=1) <= depth)
-    corners = triangles[inside]
-    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2)
-    along = ends[:, 1] - ends[:, 0]
-    # every inner edge comes twice, once in each direction: keep the one that runs to the right
-    rightward = (along[:, 0] > 0.0) | ((along[:, 0] == 0.0) & (along[:, 1] > 0.0))
-    visible = np.hypot(*along.T) >= cell
-    lines = ends[rightward & visible]
+    pairs = np.sort(np.stack([corners[inside], np.roll(corners[inside], -1, axis=1)], axis=-1))
+    edges = np.unique(pairs[..., 0] * len(points) + pairs[..., 1])
+    ends = points[np.column_stack(np.divmod(edges, len(points)))]
+    visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
+    lines = ends[visible]
     # one curve with breaks: a tenth of the size of as many curves
     broken = np.concatenate([lines, np.full((len(lines), 1, 2), np.nan)], axis=1).reshape(-1, 2)
     axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
-    _dark_cells(axes, ends[~visible, 0], bounds, cell)
+    _dark_cells(axes, ends[~visible].mean(axis=1), bounds, cell)
 
 
 def _dark_cells(

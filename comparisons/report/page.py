@@ -24,11 +24,11 @@ UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b
 
 @dataclass(frozen=True)
 class Pictures:
-    """All pictures of a run; None or empty for what does not apply."""
+    """All pictures of a run; empty for what does not apply."""
 
     problem: Picture
     pressure: Picture
-    peak: Picture | None
+    close_up: Picture
     surface: Picture
     fields: list[tuple[float, list[Picture]]]
     near: list[Picture]
@@ -75,17 +75,16 @@ def draw(outcome: Outcome) -> Pictures:
     from comparisons.report.cost_picture import cost_picture
     from comparisons.report.field_pictures import field_pictures, near_surface_pictures
     from comparisons.report.mesh_picture import mesh_pictures
-    from comparisons.report.pressure_pictures import peak_picture, pressure_picture
+    from comparisons.report.pressure_pictures import close_up_picture, pressure_picture
     from comparisons.report.problem_picture import problem_picture
     from comparisons.report.section_pictures import section_pictures
     from comparisons.report.surface_picture import surface_picture
 
-    rough = outcome.problem.scene.profile is not None
     with drawing():
         return Pictures(
             problem=problem_picture(outcome),
             pressure=pressure_picture(outcome),
-            peak=peak_picture(outcome) if rough else None,
+            close_up=close_up_picture(outcome),
             surface=surface_picture(outcome),
             fields=field_pictures(outcome),
             near=near_surface_pictures(outcome),

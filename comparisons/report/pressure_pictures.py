@@ -1,18 +1,19 @@
 """Pressures over the profile, in the manner of Bailey and Sayles (1991), figure 1.
 
 Above the pressures of both models over the Hertz curve, below them on the same x the deformed
-surfaces; once over the whole contact, once around the highest peak, where the nodes of the
-piecewise-linear pressures can be told apart.
+surfaces; once over the whole contact, once around the highest peak or the edge, where the nodes
+of the piecewise-linear pressures can be told apart.
 """
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.exact.hertz import HertzContact
 from comparisons.level import Level
 from comparisons.outcome import Outcome
+from comparisons.problem import Problem
 from comparisons.report.numbers import Scale, percent, scale_of, significant, with_unit
+from comparisons.report.sheet import load_text
 from comparisons.report.style import (
     BODY,
     COLUMN,
@@ -33,8 +34,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PEAK_HATS = 14  # pressure elements to either side of the highest peak, at least
-PEAK_REACH = 0.1  # half-widths to either side of it, at most
+LEFT = 0.8  # inches left of the panels
+CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
+CLOSE_REACH = 0.1  # half-widths to either side, at most
 
 
 def reference_level(outcome: Outcome) -> Level:
@@ -66,23 +68,25 @@ def pressure_picture(outcome: Outcome) -> Picture:
     )
 
 
-def peak_picture(outcome: Outcome) -> Picture:
-    """The ground around the highest pressure."""
+def close_up_picture(outcome: Outcome) -> Picture:
+    """The ground around the highest pressure; of a smooth body, the contact's edge."""
     level = reference_level(outcome)
-    centre = _peak_position(level)
-    patch = level.patches[np.argmin(np.abs(level.patches.mean(axis=1) - centre))]
-    inside = level.patches[(level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)]
-    patch = inside[0] if len(inside) else patch
-    most = max(PEAK_REACH * outcome.problem.hertz.half_width, PEAK_HATS * level.grid.pitch)
-    reach = np.clip(0.75 * np.ptp(patch), PEAK_HATS * level.grid.pitch, most)
+    pitch = level.grid.pitch
+    if outcome.problem.scene.profile is None:
+        centre, reach, place = level.patches[-1, 1], CLOSE_HATS * pitch, "the right-hand edge"
+    else:
+        centre, place = _peak_position(level), "the highest peak"
+        holding = (level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)
+        most = max(CLOSE_REACH * outcome.problem.hertz.half_width, CLOSE_HATS * pitch)
+        reach = np.clip(0.75 * np.ptp(level.patches[holding]), CLOSE_HATS * pitch, most)
+    at = f"x = {with_unit(float(centre), 'm')}"
     across = (centre - reach, centre + reach)
-    place = with_unit(centre, "m")
     return Picture(
         source=data_uri(_drawn(outcome, across, COLUMN, 5.6, nodes=True)),
-        alternative=f"Pressures of the models around the highest peak at x = {place}.",
+        alternative=f"Pressures of the models around {place}, {at}.",
         caption=(
-            f"Around the highest peak, x = {place}: the pressures are piecewise linear between "
-            f"the marked nodes, {with_unit(level.grid.pitch, 'm', 3)} apart."
+            f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
+            f"{with_unit(pitch, 'm', 3)} apart."
         ),
     )
 
@@ -103,7 +107,7 @@ def _drawn(
 ) -> "Figure":
     """Pressures, their difference where there are two models, and surfaces."""
     drawn = figure(width, height)
-    left, right = 0.72 / width, 1.0 - 0.12 / width
+    left, right = LEFT / width, 1.0 - 0.12 / width
     comparing = len(outcome.runs) > 1
     heights = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
     bottom, top, space = 0.46 / height, 1.0 - 0.24 / height, 0.16 / height
@@ -119,6 +123,7 @@ def _drawn(
         _difference(panels[1], outcome, across, unit)
     _surfaces(panels[-1], outcome, across, unit)
     for panel in panels:
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (width * (right - left)), 0.5)
         panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
     for panel in panels[:-1]:
         panel.tick_params(labelbottom=False)
@@ -168,17 +173,17 @@ def _pressures(
     if problem.scene.hardness is not None:
         cap = problem.scene.hardness / p0
         axes.axhline(cap, color="#777777", linestyle="-.", linewidth=0.9, label="hardness")
-    _legend(axes, problem.hertz)
+    _legend(axes, problem)
 
 
-def _legend(axes: "Axes", hertz: HertzContact) -> None:
+def _legend(axes: "Axes", problem: Problem) -> None:
     """The load and the lines' names, above the curves; on a narrow picture in two rows."""
     narrow = axes.figure.get_figwidth() < 0.75 * WIDE
     axes.set_ylim(0.0, (1.34 if narrow else 1.17) * axes.dataLim.y1)
     axes.set_ylabel("p/p₀")
     load = (
-        f"P = {with_unit(hertz.load_per_length, 'N/m')},  "
-        f"p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  a = {with_unit(hertz.half_width, 'm')}"
+        f"P = {load_text(problem)},  p₀ = {with_unit(problem.hertz.peak_pressure, 'Pa')},  "
+        f"a = {with_unit(problem.hertz.half_width, 'm')}"
     )
     axes.text(0.008, 0.97, load, transform=axes.transAxes, va="top")
     axes.legend(
@@ -248,7 +253,7 @@ def _surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit:
         axes.plot(place / unit.factor, upper / up.factor - base, **style)
         axes.plot(place / unit.factor, lower / up.factor - base, **style)
     axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
-    axes.text(0.5, 0.05, "body", transform=axes.transAxes, ha="center", va="bottom")
+    axes.text(0.01, 0.05, "body", transform=axes.transAxes, va="bottom")
     axes.set_ylim(low, high)
     axes.set_ylabel(f"height [{up.name}]")
     axes.grid(False)

@@ -7,6 +7,7 @@ import numpy as np
 from analytic.material import Material
 from comparisons.outcome import Outcome
 from comparisons.report.numbers import given, plain, scale_of, with_unit
+from comparisons.report.sheet import load_text
 from comparisons.report.style import (
     BODY,
     COLUMN,
@@ -44,7 +45,7 @@ def problem_picture(outcome: Outcome) -> Picture:
         source=data_uri(drawn),
         alternative=(
             f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {ground} by "
-            f"{with_unit(outcome.problem.hertz.load_per_length, 'N/m')}"
+            f"{load_text(outcome.problem)}"
             f"{', sliding with friction ' + friction if friction else ''}; {_body_in_words(scene)}."
         ),
         caption=(
@@ -83,7 +84,7 @@ def _to_scale(axes: "Axes", outcome: Outcome) -> None:
         _base(axes, half, below, scene.base == "frictionless")
     _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
     note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
-    load = f"P = {with_unit(hertz.load_per_length, 'N/m')}"
+    load = f"P = {load_text(outcome.problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
     axes.text(-0.03 * view, 0.42 * view, _roller_in_words(scene), ha="right", **note)
     # words stand in the body where it is large, else under it

@@ -2,6 +2,7 @@
 
 from analytic.material import Material
 from comparisons.outcome import Outcome
+from comparisons.problem import Problem
 from comparisons.report.numbers import given, plain, significant, with_unit
 from comparisons.scene import ProfileInfo, ResolvedScene
 
@@ -35,7 +36,7 @@ def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
 
 
 def _geometry(scene: ResolvedScene) -> Rows:
-    rows = [("roller, radius of relative curvature R", given(scene.roller_radius, "m"))]
+    rows = [("radius of relative curvature R", given(scene.roller_radius, "m"))]
     if scene.thickness is None:
         rows.append(("body, thickness", "unbounded"))
     else:
@@ -104,6 +105,12 @@ def _load(outcome: Outcome) -> Rows:
             f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}",
         ),
     ]
+
+
+def load_text(problem: Problem) -> str:
+    """Load per length, in the digits of the scene where the scene gives it."""
+    write = given if problem.scene.load.kind == "load_per_length" else with_unit
+    return write(problem.hertz.load_per_length, "N/m")
 
 
 def _groups(outcome: Outcome) -> Rows:

@@ -158,6 +158,12 @@ def finish() -> Callable[..., Outcome]:
 
 
 @pytest.fixture(scope="session")
+def smooth_tables() -> dict:
+    """A scene of smooth steel with a field, as tables."""
+    return SMOOTH
+
+
+@pytest.fixture(scope="session")
 def smooth_outcome() -> Outcome:
     return finished_run(SMOOTH)
 

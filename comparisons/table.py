@@ -1,0 +1,110 @@
+"""The short table of a run for the terminal: figures, verdict, where the files are, time."""
+
+from typing import TYPE_CHECKING
+
+from comparisons.outcome import Outcome
+from comparisons.report.comparison_rows import comparison_rows, figure_rows
+from comparisons.report.headline import headline
+from comparisons.report.numbers import with_unit
+from comparisons.report.words import LABELS
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+    from rich.text import Text
+
+# Short enough for 80 columns; the report says them in full.
+SHORT = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "contact_ratio": "contact ratio",
+    "pressure_l2": "pressure, L2",
+    "tau1_max": "tau1 max",
+    "tau1_max_depth": "tau1 max depth",
+    "txz_max_abs": "|txz| max",
+    "tau1_field_near": "tau1 near, L2",
+    "tau1_field_deep": "tau1 deep, L2",
+}
+STYLES = {
+    "agree": "cyan",
+    "differ": "bold red",
+    "indistinct": "yellow",
+    "holds": "bold cyan",
+    "fails": "bold red",
+    "not converged": "bold red",
+}
+PLAIN = str.maketrans({"µ": "u", "−": "-", "–": "-", "₀": "0", "×": "x"})  # any terminal shows it
+
+
+def summary(outcome: Outcome) -> "RenderableType":
+    """Table, verdict, files and times; readable at 80 columns and without colour."""
+    from rich.console import Group
+    from rich.text import Text
+
+    said = headline(outcome)
+    verdict = Text()
+    verdict.append(said.kind.upper(), style=STYLES.get(said.kind, "bold"))
+    verdict.append(f"  {said.sentence.translate(PLAIN)}")
+    table = _comparison(outcome) if outcome.comparisons else _figures(outcome)
+    title = Text(outcome.problem.scene.title, style="bold")
+    return Group(title, "", table, "", verdict, "", _facts(outcome))
+
+
+def _comparison(outcome: Outcome) -> "Table":
+    table = _table("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%")
+    table.add_column("verdict", no_wrap=True)
+    for row in comparison_rows(outcome):
+        cells = (
+            SHORT[row.quantity],
+            row.friction,
+            row.half_plane,
+            row.finite_element,
+            row.difference,
+            row.uncertainty,
+            row.tolerance,
+        )
+        table.add_row(*map(_cell, cells), _cell(row.verdict, STYLES.get(row.verdict, "")))
+    return table
+
+
+def _figures(outcome: Outcome) -> "Table":
+    table = _table("mu", "value", "of Hertz", "uncert.\n%")
+    for row in figure_rows(outcome):
+        cells = (SHORT[row.quantity], row.friction, row.value, row.in_hertz, row.uncertainty)
+        table.add_row(*map(_cell, cells))
+    return table
+
+
+def _table(*columns: str) -> "Table":
+    """An empty table of a quantity and columns of numbers."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
+    table.add_column("quantity", no_wrap=True)
+    for column in columns:
+        table.add_column(column, justify="right", no_wrap=column != "mu", overflow="fold")
+    return table
+
+
+def _cell(text: str, style: str = "") -> "Text":
+    from rich.text import Text
+
+    return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
+
+
+def _facts(outcome: Outcome) -> "Table":
+    from rich.table import Table
+    from rich.text import Text
+
+    times = ", ".join(
+        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3).translate(PLAIN)}"
+        for name, run in outcome.runs.items()
+    )
+    facts = Table.grid(padding=(0, 2))
+    facts.add_column(no_wrap=True)
+    facts.add_column(overflow="fold")
+    facts.add_row("time", times)
+    facts.add_row("report", Text(str(outcome.directory / "report.html")))
+    facts.add_row("figures", Text(str(outcome.directory / "result.json")))
+    return facts

@@ -1,0 +1,96 @@
+"""The terminal's table: every figure in 80 columns, in a pipe, on any terminal."""
+
+import io
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from rich.console import Console
+
+from comparisons.outcome import Outcome
+from comparisons.quantities import QUANTITIES
+from comparisons.table import SHORT, summary
+
+UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "": 1.0}
+
+
+def printed(outcome: Outcome, width: int = 80, encoding: str = "utf-8") -> str:
+    """What goes into a file or a pipe."""
+    stream = io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+    Console(file=stream, width=width).print(summary(outcome))
+    stream.seek(0)
+    return stream.read()
+
+
+def rows(text: str) -> dict[tuple[str, str], str]:
+    """Lines of figures by the quantity's short name and its friction."""
+    found = {}
+    for line in text.splitlines():
+        name = next((s for s in sorted(SHORT.values(), key=len)[::-1] if line.startswith(s)), None)
+        if name and "L2 " not in line[: len(name)]:
+            rest = line[len(name) :].replace("|", " ").split()
+            frictions = [rest.pop(0)]
+            while frictions[-1].endswith(","):
+                frictions.append(rest.pop(0))
+            for friction in frictions:
+                found[name, friction.strip(",")] = " ".join(rest)
+    return found
+
+
+def test_every_quantity_has_a_short_name():
+    assert set(SHORT) == set(QUANTITIES)
+    assert len(set(SHORT.values())) == len(SHORT)
+
+
+def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Outcome):
+    text = printed(wavy_outcome)
+    assert "\x1b" not in text
+    assert "…" not in text
+    assert max(map(len, text.splitlines())) <= 80
+    assert "indistinct" in text  # the longest verdict
+    lines = rows(text)
+    compared = wavy_outcome.result["comparison"]
+    assert len(lines) == sum(map(len, compared.values()))
+    for quantity, entries in compared.items():
+        for entry in entries:
+            words = lines[SHORT[quantity], f"{entry['friction']:g}"].split()
+            assert (words[-1] if entry["verdict"] else None) == entry["verdict"]
+            if entry["half_plane"] is not None:
+                unit = words[1] if words[1] in UNITS else ""
+                assert float(words[0]) * UNITS[unit] == pytest.approx(entry["half_plane"], rel=1e-3)
+                words = words[4 if unit else 2 :]
+            expected = 100.0 * entry["difference"]
+            assert float(words[0]) == pytest.approx(expected, rel=0.051, abs=1e-4)
+
+
+def test_the_same_figures_stand_in_a_wide_pipe(wavy_outcome: Outcome):
+    assert rows(printed(wavy_outcome, 160)) == rows(printed(wavy_outcome, 80))
+
+
+def test_a_terminal_without_unicode_shows_it_too(wavy_outcome: Outcome):
+    assert rows(printed(wavy_outcome, encoding="ascii")) == rows(printed(wavy_outcome))
+
+
+def test_verdict_time_and_files_follow_the_table(smooth_outcome: Outcome):
+    text = " ".join(printed(smooth_outcome).split())
+    figures, _, rest = text.partition("tau1 deep, L2")
+    assert figures
+    assert "HOLDS The half-plane holds here" in rest
+    # three levels of 0.4683 s and of 3 s
+    assert "half-plane 1.40 s, finite elements 9.00 s" in rest
+    assert "results/made/report.html" in rest
+    assert "results/made/result.json" in rest
+
+
+def test_one_model_is_shown_without_a_comparison(finish: Callable[..., Outcome], smooth_tables):
+    text = printed(finish(smooth_tables, ("half_plane",)))
+    assert "NOT COMPARED" in text
+    assert "verdict" not in text
+    assert ("peak pressure", "0") in rows(text)
+    assert "fin" not in text
+
+
+def test_titles_are_not_taken_for_markup(smooth_outcome: Outcome):
+    scene = replace(smooth_outcome.problem.scene, title="[red]Roller[/red] [/] and more")
+    outcome = replace(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
+    assert printed(outcome).startswith("[red]Roller[/red] [/] and more\n")
