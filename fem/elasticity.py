@@ -45,6 +45,11 @@ class Support:
     base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
     sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
 
+    As a stand-in for a half-plane a square block bonded and fixed all round is the best of the
+    blocks of its size: Hertz's largest shear stress comes out 0.22 % high at a depth of 400
+    half-widths and 0.9 % at 100, against 0.41 and 1.6 % with free sides (0.38 and 1.5 % with
+    rollers) and 0.31 and 1.2 % when it is twice as wide; the pressure changes by 1e-4.
+
     With a frictionless base and free sides the bottom point nearest to the middle is held
     horizontally; a load with a horizontal resultant has no equilibrium then.
     """

@@ -16,7 +16,8 @@ from scipy.sparse import csr_matrix
 
 from meshes.block import BlockMesh
 
-# Points closer than this part of an extent are the same point.
+# Closer than this part of the block, or of the edge or hat in question, is in the same place. The
+# smallest elements of a block are 1e-6 of it.
 SAME_POINT = 1e-9
 
 # A direction that varies along the surface is integrated with it: with a linear direction the
@@ -49,21 +50,12 @@ class BoundaryPoints:
 
 
 def boundary_points(mesh: BlockMesh) -> BoundaryPoints:
-    """Mesh points on the flat block's four sides; a corner belongs to both of its sides.
-
-    Only points on boundary edges count, so that no inner point of a very fine mesh is taken for
-    one on the boundary.
-    """
-    vertex = mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    middle = mesh.triangles[:, 3:6].reshape(-1)
-    uses = np.bincount(middle, minlength=len(mesh.points))
-    outer = uses[middle] == 1
-    edge = np.column_stack([vertex[outer], middle[outer]])
-    x, z = mesh.points[edge, 0], mesh.points[edge, 1]
+    """Mesh points on the flat block's four sides; a corner belongs to both of its sides."""
+    x, z = mesh.points.T
     half, depth = mesh.spec.half_width, mesh.spec.depth
 
     def side(distance: np.ndarray, extent: float) -> np.ndarray:
-        return np.unique(edge[np.all(np.abs(distance) <= SAME_POINT * extent, axis=1)])
+        return np.flatnonzero(np.abs(distance) <= SAME_POINT * extent)
 
     return BoundaryPoints(
         top=side(z, depth),

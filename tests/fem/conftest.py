@@ -172,9 +172,16 @@ def dense_contact(matrix: np.ndarray, gap: np.ndarray, weights: np.ndarray, load
 class Pressed:
     """A half-plane's stand-in and a rigid cylinder that would press it on half-width 1, peak 1."""
 
-    def __init__(self, edges: int, growth: float = 0.2, extent: float = 4000.0, **held) -> None:
+    def __init__(
+        self,
+        edges: int,
+        growth: float = 0.2,
+        half_width: float = 4000.0,
+        depth: float = 4000.0,
+        **held,
+    ) -> None:
         self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
-        spec = BlockSpec(extent, extent, np.array([[-1.2, 1.2]]), 1.0 / edges, growth)
+        spec = BlockSpec(half_width, depth, np.array([[-1.2, 1.2]]), 1.0 / edges, growth)
         self.body = elastic_body(build_block(spec), Material(1.0 - 0.3**2, 0.3), Support(**held))
         pitch = 1.0 / edges
         reach = int(1.1 * edges)

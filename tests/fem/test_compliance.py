@@ -50,7 +50,9 @@ def test_matrix_is_symmetric_and_positive_definite(fine):
 
 
 def test_apply_is_the_matrix_and_counts(fine):
+    before = fine.applications
     matrix = fine.matrix()
+    assert fine.applications == before + COUNT
     before = fine.applications
     pressure = np.random.default_rng(5).uniform(size=COUNT)
     np.testing.assert_allclose(fine.apply(pressure), matrix @ pressure, rtol=1e-11)

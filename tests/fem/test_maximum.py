@@ -87,3 +87,14 @@ def test_the_window_limits_the_search(body):
 def test_an_unstressed_body_has_a_largest_value_of_zero(body):
     nothing = np.zeros(len(body.points))
     assert maximum(body, field(nothing), tau1).value == 0.0
+
+
+@pytest.mark.parametrize(
+    ("sides", "extra"), [("fixed", 0.0087), ("rollers", 0.0147), ("free", 0.0161)]
+)
+def test_a_block_of_100_half_widths_stands_for_a_half_plane(pressed, sides, extra):
+    """Square, bonded below: what the held or free sides add to the largest shear stress."""
+    case = pressed(40, 0.15, 50.0, 100.0, sides=sides)
+    found = maximum(case.body, case.stress(0.0), tau1)
+    assert found.value / case.hertz.tau1_max - 1.0 == pytest.approx(extra, abs=1.5e-3)
+    assert case.pressure.max() == pytest.approx(1.0, abs=5e-4)

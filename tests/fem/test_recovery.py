@@ -5,7 +5,7 @@ import numpy as np
 from analytic.material import Material
 from fem.elasticity import Support, elastic_body
 from fem.recovery import element_stress, recovered_stress
-from fem.triangle import NODES
+from fem.triangle import GAUSS, NODES, jacobians, slopes
 
 MATERIAL = Material(3.0, 0.3)
 
@@ -30,6 +30,27 @@ def test_linear_stresses_are_recovered_exactly_everywhere(structured_block):
     np.testing.assert_allclose(recovered_stress(body, moved), exact, atol=1e-7)
     elements = element_stress(body, moved, NODES)
     np.testing.assert_allclose(elements, exact[body.mesh.triangles], atol=1e-12)
+
+
+def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block):
+    """Virtual work of the elements' stresses: the load at free points, the reactions at held."""
+    body = body_of(structured_block, 12)
+    load = np.zeros(body.mesh.points.shape)
+    load[body.surface.point] = np.random.default_rng(8).normal(size=(len(body.surface.x), 2))
+    load[body.held] = 0.0
+    stress = element_stress(body, body.solve(load), GAUSS)
+    nodes = body.points[body.mesh.triangles]
+    jacobian = jacobians(nodes, GAUSS)
+    slope = np.einsum("qad,mqdc->mqac", slopes(GAUSS), np.linalg.inv(jacobian))
+    weight = np.abs(np.linalg.det(jacobian)) / 6.0
+    sx, sz, txz = np.moveaxis(stress, -1, 0)
+    tensor = np.stack([np.stack([sx, txz], axis=-1), np.stack([txz, sz], axis=-1)], axis=-1)
+    force = np.zeros_like(load)
+    np.add.at(force, body.mesh.triangles, np.einsum("mq,mqac,mqcd->mad", weight, slope, tensor))
+    np.testing.assert_allclose(force[~body.held], load[~body.held], atol=1e-12)
+    np.testing.assert_allclose(
+        force[body.held].reshape(-1, 2).sum(axis=0), -load.sum(axis=0), atol=1e-11
+    )
 
 
 def test_the_smallest_block_still_has_stresses(structured_block):
