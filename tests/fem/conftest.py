@@ -178,13 +178,16 @@ class Pressed:
         growth: float = 0.2,
         half_width: float = 4000.0,
         depth: float = 4000.0,
+        poisson: float = 0.3,
         **held,
     ) -> None:
         self.hertz = hertz_from_peak_pressure(1.0, 0.5, 1.0)
-        spec = BlockSpec(half_width, depth, np.array([[-1.2, 1.2]]), 1.0 / edges, growth)
-        self.body = elastic_body(build_block(spec), Material(1.0 - 0.3**2, 0.3), Support(**held))
+        spec = BlockSpec(half_width, depth, np.array([[-1.4, 1.4]]), 1.0 / edges, growth)
+        self.body = elastic_body(
+            build_block(spec), Material(1.0 - poisson**2, poisson), Support(**held)
+        )
         pitch = 1.0 / edges
-        reach = int(1.1 * edges)
+        reach = edges + 8
         self.x = pitch * np.arange(-reach, reach + 1)
         self.compliance = FiniteElementCompliance(self.body, self.x[0], pitch, len(self.x))
         gap = pitch * (self.x**2 + pitch**2 / 6.0)
