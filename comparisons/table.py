@@ -52,7 +52,7 @@ def summary(outcome: Outcome) -> "RenderableType":
 
 def _comparison(outcome: Outcome) -> "Table":
     table = _table("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%")
-    table.add_column("verdict", no_wrap=True)
+    table.add_column("verdict", overflow="fold")
     for row in comparison_rows(outcome):
         cells = (
             SHORT[row.quantity],
@@ -81,9 +81,10 @@ def _table(*columns: str) -> "Table":
     from rich.table import Table
 
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    table.add_column("quantity", no_wrap=True)
+    # where a terminal is too narrow, cells break: cut short they would be other numbers
+    table.add_column("quantity", overflow="fold")
     for column in columns:
-        table.add_column(column, justify="right", no_wrap=column != "mu", overflow="fold")
+        table.add_column(column, justify="right", overflow="fold")
     return table
 
 

@@ -1,5 +1,6 @@
 """The verdict in one sentence, with the number that decides it."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -58,8 +59,8 @@ def headline(outcome: Outcome) -> Headline:
         row = max(unclear, key=lambda row: (row.uncertainty or float("inf")) / row.tolerance)
         return Headline(
             "undecided",
-            f"The half-plane cannot be judged here: the {_said(row, several)}; an uncertainty above the tolerance asks for "
-            "refinement, not for a conclusion.",
+            f"The half-plane cannot be judged here: the {_said(row, several)}; an uncertainty "
+            "above the tolerance asks for refinement, not for a conclusion.",
         )
     nearest = _said(_by_distance(judged)[0], several)
     return Headline(
@@ -72,11 +73,11 @@ def _all_judged(judged: list[Comparison]) -> str:
     return (
         "the one judged figure agrees"
         if len(judged) == 1
-        else (f"all {len(judged)} judged figures agree")
+        else f"all {len(judged)} judged figures agree"
     )
 
 
-def _by_distance(rows) -> list[Comparison]:
+def _by_distance(rows: Iterable[Comparison]) -> list[Comparison]:
     """Farthest outside, or nearest to, its tolerance first."""
     return sorted(rows, key=lambda row: -abs(row.difference) / row.tolerance)
 

@@ -11,6 +11,7 @@ from html.parser import HTMLParser
 import pytest
 
 from comparisons.outcome import Outcome
+from comparisons.report.comparison_rows import comparison_rows
 from comparisons.report.headline import headline
 from comparisons.report.page import render
 from comparisons.verdict import Comparison
@@ -239,6 +240,18 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page: Page, wavy_out
                 else:
                     assert number(text) == pytest.approx(value, rel=0.51 * 10.0 ** (1 - digits))
             assert verdict == (row["verdict"] or "")
+
+
+def test_rows_are_joined_only_where_every_figure_is_the_same(wavy_outcome: Outcome):
+    def frictions(outcome: Outcome) -> list[str]:
+        return [row.friction for row in comparison_rows(outcome) if row.quantity == "peak_pressure"]
+
+    assert frictions(wavy_outcome) == ["0, 0.1"]
+    for change in ({"uncertainty": 0.5}, {"verdict": "differ"}, {"difference": 0.4}):
+        last = replace(wavy_outcome.comparisons[-9], **change)
+        assert (last.quantity, last.friction) == ("peak_pressure", 0.1)
+        rows = (*wavy_outcome.comparisons[:-9], last, *wavy_outcome.comparisons[-8:])
+        assert frictions(replace(wavy_outcome, comparisons=rows)) == ["0", "0.1"]
 
 
 def test_figures_are_also_given_over_those_of_hertz(wavy_page: Page, wavy_outcome: Outcome):

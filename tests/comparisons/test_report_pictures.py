@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import RegularGridInterpolator
 
 from analytic.exact.hertz import hertz_stress
 from comparisons.outcome import Outcome
@@ -156,6 +157,25 @@ def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
         assert difference == pytest.approx(-difference[::-1])
         assert difference[-1] < 0.5 * one[-1]
         assert shown[0].get_cmap().name != shown[2].get_cmap().name
+
+
+def test_fields_and_their_difference_are_those_of_the_run(
+    wavy: dict[str, list], wavy_outcome: Outcome
+):
+    hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
+    one, other = (
+        run.finest.stress(0.0).field.tau1 / hertz.peak_pressure
+        for run in wavy_outcome.runs.values()
+    )
+    figure = wavy["field_pictures"][0]
+    shown = [axes.images[0] for axes in figure.axes if axes.images]
+    for image, values in zip(shown, (one, other, one - other), strict=True):
+        pixels = np.asarray(image.get_array())
+        rows, columns = ((np.arange(n) + 0.5) / n for n in pixels.shape)
+        at = RegularGridInterpolator((window.z / hertz.half_width, window.x), values)
+        x = window.x[0] + columns * np.ptp(window.x)
+        expected = at(tuple(np.meshgrid(rows, x, indexing="ij")))
+        assert pixels == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_field_stands_the_right_way_up_on_depths_that_are_not_even():

@@ -1,6 +1,8 @@
 """The terminal's table: every figure in 80 columns, in a pipe, on any terminal."""
 
 import io
+import re
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -65,6 +67,13 @@ def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Outcome)
 
 def test_the_same_figures_stand_in_a_wide_pipe(wavy_outcome: Outcome):
     assert rows(printed(wavy_outcome, 160)) == rows(printed(wavy_outcome, 80))
+
+
+def test_a_narrow_terminal_breaks_figures_but_cuts_none(wavy_outcome: Outcome):
+    def letters(width: int) -> Counter:
+        return Counter(re.sub(r"[\s─]", "", printed(wavy_outcome, width)))
+
+    assert letters(50) == letters(160)
 
 
 def test_a_terminal_without_unicode_shows_it_too(wavy_outcome: Outcome):
