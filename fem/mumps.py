@@ -98,15 +98,14 @@ def _factorised(matrix, spare: int):
     options["mat_mumps_icntl_7"] = ORDERING
     options["mat_mumps_icntl_14"] = spare
     ksp = PETSc.KSP().create(matrix.comm)
-    ksp.setOptionsPrefix(PREFIX)
     ksp.setOperators(matrix)
     ksp.setType(PETSc.KSP.Type.PREONLY)
-    ksp.setFromOptions()
     pc = ksp.getPC()
     pc.setType(PETSc.PC.Type.CHOLESKY)
     pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
     pc.setFactorSetUpSolverType()
     factor = pc.getFactorMatrix()
+    factor.setOptionsPrefix(PREFIX)
     try:
         ksp.setUp()
     except PETSc.Error as error:

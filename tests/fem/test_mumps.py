@@ -1,0 +1,56 @@
+"""The symmetric factorisation: right answers, clear failures, more room where it is needed."""
+
+import numpy as np
+import pytest
+
+from fem import mumps
+from fem.mumps import FemError, SymmetricFactor
+
+
+def petsc(dense):
+    from petsc4py import PETSc
+
+    matrix = PETSc.Mat().createDense(dense.shape, array=dense, comm=PETSc.COMM_SELF)
+    return matrix.convert("aij")
+
+
+@pytest.fixture
+def positive():
+    root = np.random.default_rng(4).normal(size=(30, 30))
+    return root @ root.T + np.eye(30)
+
+
+def test_solves_one_and_many(positive):
+    factor = SymmetricFactor(petsc(positive))
+    load = np.random.default_rng(5).normal(size=(30, 3))
+    np.testing.assert_allclose(positive @ factor.solve(load), load, atol=1e-10)
+    np.testing.assert_allclose(positive @ factor.solve(load[:, 1]), load[:, 1], atol=1e-10)
+    assert factor.solves == 4
+    assert factor.seconds > 0.0
+
+
+def test_a_singular_matrix_is_refused_in_one_line(positive):
+    positive[:, 7] = positive[7, :] = 0.0
+    with pytest.raises(FemError, match=r"could not factor 30 unknowns: the matrix is singular"):
+        SymmetricFactor(petsc(positive))
+
+
+def test_too_little_room_is_answered_by_more(positive, monkeypatch):
+    given, factorise = [], mumps._factorised
+
+    def short_of_room(matrix, spare):
+        given.append(spare)
+        solver, factor, info = factorise(matrix, spare)
+        return solver, factor, -9 if spare < 4 * mumps.SPARE_ROOM else info
+
+    monkeypatch.setattr(mumps, "_factorised", short_of_room)
+    factor = SymmetricFactor(petsc(positive))
+    assert given == [mumps.SPARE_ROOM, 2 * mumps.SPARE_ROOM, 4 * mumps.SPARE_ROOM]
+    np.testing.assert_allclose(positive @ factor.solve(np.ones(30)), 1.0, atol=1e-10)
+
+
+def test_never_enough_room_ends_in_an_error(positive, monkeypatch):
+    factorise = mumps._factorised
+    monkeypatch.setattr(mumps, "_factorised", lambda m, spare: (*factorise(m, spare)[:2], -9))
+    with pytest.raises(FemError, match=r"INFOG\(1\) = -9"):
+        SymmetricFactor(petsc(positive))
