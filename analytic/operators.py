@@ -13,8 +13,12 @@ from typing import Protocol
 
 import numpy as np
 import scipy.fft
+import scipy.linalg
 
 from analytic.elements import hat_galerkin
+
+
+RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
 
 
 class ComplianceOperator(Protocol):
@@ -105,3 +109,31 @@ class SumOfBodies:
         """Mutual weighted displacement (n,) [m^2] of the surfaces."""
         pairs = zip(self.bodies, self.factors, strict=True)
         return sum(factor * body.apply(pressure) for body, factor in pairs)
+
+
+class DenseCompliance:
+    """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+
+    def __init__(self, matrix: np.ndarray) -> None:
+        self.matrix = 0.5 * (matrix + matrix.T)
+        self.count = len(matrix)
+        # hats finer than a body's elements leave it rank-deficient where nothing touches
+        ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
+        self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
+        return self.matrix @ pressure
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+        """The inverse but for a small ridge, close while every element is in contact."""
+        return scipy.linalg.cho_solve(self._factor, displacement)
+
+    def coarsened(self) -> "DenseCompliance":
+        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
+        inner = 2 * np.arange(self.count // 2) + 1
+        spread = np.zeros((self.count, len(inner)))
+        for offset, share in ((-1, 0.5), (0, 1.0), (1, 0.5)):
+            inside = inner + offset < self.count
+            spread[(inner + offset)[inside], np.flatnonzero(inside)] = share
+        return DenseCompliance(spread.T @ self.matrix @ spread)

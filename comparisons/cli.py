@@ -81,8 +81,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         status = job() if callable(job) else job or ExitStatus.DONE
         sys.stdout.flush()
         return int(status)
-    except KeyboardInterrupt:
-        return _end(ExitStatus.INTERRUPTED, "interrupted")
+    except KeyboardInterrupt as stop:
+        return _end(ExitStatus.INTERRUPTED, "; ".join(["interrupted", *map(str, stop.args)]))
     except BrokenPipeError:
         # nobody reads on; the interpreter's last flush must not fail again
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -113,7 +113,9 @@ def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
     if as_json:
         print(json.dumps(outcome.result, indent=2, ensure_ascii=False, allow_nan=False))
     else:
-        _show(outcome.table())
+        from comparisons.table import summary
+
+        _show(summary(outcome))
     return outcome.exit_status
 
 

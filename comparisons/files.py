@@ -23,14 +23,22 @@ OWN_FILES = (
 
 
 def check_writable(out: Path) -> None:
-    """Raise InputError if `out` cannot become, or is not, a folder that can be written."""
+    """Raise InputError unless `out` is, or can be made, a folder to write in.
+
+    Permission bits do not tell (of root, of a read-only file system), so a folder is made and
+    removed where the first new one would be.
+    """
     place = out
-    while not place.exists() and not place.is_symlink():
+    while not os.path.lexists(place) and place != place.parent:
         place = place.parent
     if not place.is_dir():
         raise InputError(f"{out}: cannot be written: {place} is not a folder; allowed is a folder")
-    if not os.access(place, os.W_OK | os.X_OK):
-        raise InputError(f"{out}: cannot be written: no permission for {place}")
+    try:
+        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
+    except OSError as error:
+        raise InputError(
+            f"{out}: cannot be written: {place} ({error.strerror}); allowed is a folder that can"
+        ) from error
 
 
 @contextmanager

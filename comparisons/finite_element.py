@@ -14,7 +14,7 @@ import numpy as np
 from analytic.contact import solve_contact
 from analytic.defect import solve_with_model
 from analytic.gap import HatGrid
-from analytic.operators import HalfPlane, SumOfBodies
+from analytic.operators import DenseCompliance, HalfPlane, SumOfBodies
 from analytic.patches import contact_patches
 from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.level import Level, MeshField, StressResult, Window
@@ -36,6 +36,8 @@ MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
 FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
 COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
 STEEPEST_GROWTH = 0.5
+LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
+MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
 MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
 TAPER_HATS = 40.0  # surface edges over which real roughness fades outside the refined ground
 UNBOUNDED_SIDES = "free"  # of a block that stands for a half-plane
@@ -62,7 +64,7 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     reach = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
-        reach = max(reach, 1.5 * depth)
+        reach = np.abs(problem.extent).max() + LAYER_REACH * depth
     if scene.width is not None:
         reach = 0.5 * scene.width
     edge = refinement.pitch / EDGES_PER_HAT
@@ -117,6 +119,13 @@ def finite_element_level(
             ]
             operator = SumOfBodies(*compliances, factors=_factors(problem, bodies))
             solution = solve_with_model(operator, model, average, grid.weights, constraints, start)
+            if not solution.converged and grid.count <= MOST_DENSE:
+                # far from a half-plane (a thin layer) the model leads nowhere: take C itself
+                pairs = zip(compliances, operator.factors, strict=True)
+                matrix = sum(factor * compliance.matrix() for compliance, factor in pairs)
+                solution = solve_contact(
+                    DenseCompliance(matrix), average, grid.weights, constraints, solution.pressure
+                )
         touching = grid.x[solution.pressure > 0.0]
         missed = reaches_unrefined(bodies[0].mesh.spec.intervals, touching, reach=grid.pitch)
         if len(missed) == 0:

@@ -3,8 +3,6 @@
 from dataclasses import replace
 from fractions import Fraction
 
-import numpy as np
-
 from analytic.contact import solve_contact
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches

@@ -115,8 +115,8 @@ def _assumptions(problem: Problem) -> tuple[str, ...]:
         listed.append("the roughness is in the gap: the pressure acts along the mean normal")
     else:
         listed.append(
-            "finite elements: the pressure acts on the real, undeformed boundary along the roller's "
-            "normal; stresses within an asperity's height of it are those of unflattened asperities"
+            "finite elements: the pressure acts on the real, undeformed boundary along the "
+            "roller's normal; next to it stresses are those of asperities that do not flatten"
         )
     if scene.hardness is not None:
         listed.append("plastic flow is a cap on the pressure (hardness)")

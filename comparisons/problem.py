@@ -88,7 +88,8 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
         extent=(-1.5 * hertz.half_width, 1.5 * hertz.half_width),
         pitches=(),
     )
-    if scene.profile is not None or np.isfinite(problem.constraints().hardness):
+    plain = scene.profile is None and scene.width is None and scene.hardness is None
+    if not plain:
         problem = replace(problem, extent=_reach(problem))
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)

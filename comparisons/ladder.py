@@ -1,0 +1,121 @@
+"""Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
+
+from collections.abc import Callable
+from time import perf_counter
+
+from comparisons.checkpoint import Checkpoint
+from comparisons.compare import uncertainties
+from comparisons.level import Level, ModelRun, Window
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.result import peak_memory
+from comparisons.stages import Listener, Stages, silent
+
+SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
+MOST_LEVELS = 8
+GROWTH_OF_COST = 3.0  # time and memory of a level over those of the one before, at most
+
+
+def refined(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    checkpoint: Checkpoint,
+    listener: Listener,
+) -> tuple[dict[str, ModelRun], str]:
+    """The runs of the plan's models, and why their refinement stopped.
+
+    Levels that `checkpoint` has from a run that was stopped are not computed again.
+    """
+    began = perf_counter()
+    levels: dict[str, list[Level]] = {name: [] for name in plan.models}
+    halved: Level | None = None
+    planned = len(problem.pitches)
+    for count in range(1, MOST_LEVELS + 1):
+        before = perf_counter()
+        pitch = problem.pitches[0] / 2.0 ** (count - 1)
+        for name, done in levels.items():
+            done.append(
+                _kept(
+                    checkpoint,
+                    f"{name}-{count}",
+                    lambda name=name, pitch=pitch, count=count: _solve(
+                        name, problem, plan, pitch, planned - count, window, listener
+                    ),
+                )
+            )
+        if count == 1 and plan.domain_check:
+            listener("finite elements: far boundary at half the distance")
+            halved = _kept(
+                checkpoint,
+                "finite_element-halved",
+                lambda: _solve(
+                    "finite_element", problem, plan, pitch, planned - 1, window, silent, 0.5
+                ),
+            )
+        if count < planned:
+            continue
+        runs = {
+            name: ModelRun(name, tuple(done), halved if name == "finite_element" else None)
+            for name, done in levels.items()
+        }
+        open_questions = unresolved(problem, runs)
+        if not open_questions:
+            return runs, "every judged quantity is resolved"
+        left_open = f"{', '.join(open_questions)} not resolved to a third of the tolerance"
+        spent = _spent(problem, perf_counter() - before, perf_counter() - began)
+        if spent is not None:
+            return runs, f"{left_open}: {spent}"
+    return runs, f"{left_open} after {MOST_LEVELS} levels"
+
+
+def unresolved(problem: Problem, runs: dict[str, ModelRun]) -> list[str]:
+    """Judged quantities whose discretisation uncertainty is above its share of the tolerance."""
+    names = set()
+    for run_of_model in runs.values():
+        for friction in problem.scene.friction:
+            for name, doubt in uncertainties(run_of_model, problem, friction).items():
+                tolerance = problem.scene.tolerance.get(name)
+                if tolerance and doubt.discretisation > SHARE_OF_TOLERANCE * tolerance:
+                    names.add(name)
+    return sorted(names)
+
+
+def _spent(problem: Problem, last: float, total: float) -> str | None:
+    """Why one more level would exceed the budget, or None."""
+    budget = problem.scene.budget
+    if total + GROWTH_OF_COST * last > budget.time:
+        return f"a finer level would exceed {budget.time:g} s (budget.time)"
+    if GROWTH_OF_COST * peak_memory() > budget.memory:
+        return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
+    return None
+
+
+def _kept(checkpoint: Checkpoint, name: str, solve: Callable[[], Level]) -> Level:
+    level = checkpoint.load(name)
+    if level is None:
+        level = solve()
+        checkpoint.save(name, level)
+    return level
+
+
+def _solve(
+    name: str,
+    problem: Problem,
+    plan: Plan,
+    pitch: float,
+    coarser: int,
+    window: Window | None,
+    listener: Listener,
+    share_of_block: float = 1.0,
+) -> Level:
+    """One level of one model; what the other model alone needs is not imported."""
+    if name == "half_plane":
+        from comparisons.half_plane import half_plane_level
+
+        return half_plane_level(problem, plan, pitch, window, Stages(listener))
+    from comparisons.finite_element import Refinement, finite_element_level
+
+    block = share_of_block * problem.scene.finite_element.block
+    refinement = Refinement(pitch, coarser, block)
+    return finite_element_level(problem, plan, refinement, window, Stages(listener))
