@@ -17,7 +17,6 @@ import scipy.linalg
 
 from analytic.elements import hat_galerkin
 
-
 RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
 
 

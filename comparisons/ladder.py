@@ -1,6 +1,5 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
-from collections.abc import Callable
 from time import perf_counter
 
 from comparisons.checkpoint import Checkpoint
@@ -34,25 +33,22 @@ def refined(
     for count in range(1, MOST_LEVELS + 1):
         before = perf_counter()
         pitch = problem.pitches[0] / 2.0 ** (count - 1)
+        coarser = planned - count
         for name, done in levels.items():
-            done.append(
-                _kept(
-                    checkpoint,
-                    f"{name}-{count}",
-                    lambda name=name, pitch=pitch, count=count: _solve(
-                        name, problem, plan, pitch, planned - count, window, listener
-                    ),
-                )
-            )
+            kept = f"{name}-{count}"
+            level = checkpoint.load(kept)
+            if level is None:
+                level = _solve(name, problem, plan, pitch, coarser, window, listener)
+                checkpoint.save(kept, level)
+            done.append(level)
         if count == 1 and plan.domain_check:
             listener("finite elements: far boundary at half the distance")
-            halved = _kept(
-                checkpoint,
-                "finite_element-halved",
-                lambda: _solve(
-                    "finite_element", problem, plan, pitch, planned - 1, window, silent, 0.5
-                ),
-            )
+            halved = checkpoint.load("finite_element-halved")
+            if halved is None:
+                halved = _solve(
+                    "finite_element", problem, plan, pitch, coarser, window, silent, 0.5
+                )
+                checkpoint.save("finite_element-halved", halved)
         if count < planned:
             continue
         runs = {
@@ -89,14 +85,6 @@ def _spent(problem: Problem, last: float, total: float) -> str | None:
     if GROWTH_OF_COST * peak_memory() > budget.memory:
         return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
     return None
-
-
-def _kept(checkpoint: Checkpoint, name: str, solve: Callable[[], Level]) -> Level:
-    level = checkpoint.load(name)
-    if level is None:
-        level = solve()
-        checkpoint.save(name, level)
-    return level
 
 
 def _solve(

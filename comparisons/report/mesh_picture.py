@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-CELL = 0.018  # inches: edges shorter than that make the cell that they lie in dark
+CELL = 0.028  # inches: edges shorter than that make the cell that they lie in dark
 COLOUR = 0.12, 0.31, 0.47
 CONTACT = 1.3  # half-widths to either side
 PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
