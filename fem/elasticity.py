@@ -8,10 +8,8 @@ The stiffness is assembled for Young's modulus 1 and the displacement divided by
 the factor depends on Poisson's ratio and the shape only, and results scale exactly.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
-from typing import Literal, get_args
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -20,12 +18,10 @@ from analytic.material import Material
 from fem import compat
 from fem.locate import Locator
 from fem.mumps import FemError, SymmetricFactor
+from fem.support import Support, held_components
 from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
 from meshes.block import BlockMesh
 from meshes.quality import corner_jacobians, real_points
-
-Base = Literal["bonded", "frictionless"]
-Sides = Literal["free", "rollers", "fixed"]
 
 # dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
 GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
@@ -36,37 +32,6 @@ QUADRATURE = {1: 2, 2: 4}
 
 # A body that can slide is refused a net horizontal load above this part of the whole load.
 HORIZONTAL_BALANCE = 1e-6
-
-
-@dataclass(frozen=True)
-class Support:
-    """How the block is held.
-
-    base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
-    sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
-
-    As a stand-in for a half-plane a square block bonded and fixed all round is the best of the
-    blocks of its size: Hertz's largest shear stress comes out 0.22 % high at a depth of 400
-    half-widths and 0.9 % at 100, against 0.41 and 1.6 % with free sides (0.38 and 1.5 % with
-    rollers) and 0.31 and 1.2 % when it is twice as wide; the pressure changes by 1e-4.
-
-    With a frictionless base and free sides the bottom point nearest to the middle is held
-    horizontally; a load with a horizontal resultant has no equilibrium then.
-    """
-
-    base: Base = "bonded"
-    sides: Sides = "free"
-
-    def __post_init__(self) -> None:
-        if self.base not in get_args(Base):
-            raise ValueError(f"base must be one of {get_args(Base)}, not {self.base!r}")
-        if self.sides not in get_args(Sides):
-            raise ValueError(f"sides must be one of {get_args(Sides)}, not {self.sides!r}")
-
-    @property
-    def can_slide(self) -> bool:
-        """Whether nothing but one pinned point resists a horizontal force."""
-        return self.base == "frictionless" and self.sides == "free"
 
 
 class ElasticBody:
@@ -179,7 +144,7 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
 
     start = perf_counter()
     sides = boundary_points(mesh)
-    held = _held_components(mesh, support, sides)
+    held = held_components(mesh, support, sides)
     degree = 2 if np.any(mesh.shift) else 1
     folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
     if folded.any():
@@ -203,23 +168,6 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
     return ElasticBody(
         mesh, material, support, sides, held, owned, space, matrix, perf_counter() - start
     )
-
-
-def _held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) -> np.ndarray:
-    """(n, 2) whether the support holds a component."""
-    held = np.zeros(mesh.points.shape, dtype=bool)
-    held[sides.bottom, 1] = True
-    if support.base == "bonded":
-        held[sides.bottom, 0] = True
-    flanks = np.union1d(sides.left, sides.right)
-    if support.sides != "free":
-        held[flanks, 0] = True
-    if support.sides == "fixed":
-        held[flanks, 1] = True
-    if support.can_slide:
-        middle = np.argmin(np.abs(mesh.points[sides.bottom, 0]))
-        held[sides.bottom[middle], 0] = True
-    return held
 
 
 def _domain(comm, mesh: BlockMesh, degree: int):
