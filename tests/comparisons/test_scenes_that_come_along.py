@@ -1,0 +1,174 @@
+"""The scenes that come with the project, and measured traces, through both models."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.gap import HatGrid
+from comparisons.compare import figures
+from comparisons.exit_status import ExitStatus
+from comparisons.finite_element import Refinement, _bodies, _factors, block_spec
+from comparisons.half_plane import half_plane_level
+from comparisons.plan import MODELS, make_plan
+from comparisons.problem import problem_of
+from comparisons.resolve import load_scene
+from comparisons.run import run
+from comparisons.scene_file import scene_names
+from comparisons.stages import Stages
+from comparisons.uncertainty import grid_convergence
+
+MEASURED = Path(__file__).parents[3] / "shared" / "profiles"
+
+
+@pytest.mark.parametrize(
+    ("name", "ratio", "peak"),
+    [
+        ("ground-unrun", 0.69, 2.72),
+        ("ground-run-in", 0.87, 1.66),
+        ("ground-polished", 0.987, 1.39),
+    ],
+)
+def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
+    """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
+    problem = problem_of(load_scene(name))
+    plan = make_plan(problem, ("half_plane",))
+    found = []
+    for refinement in range(5):
+        pitch = problem.pitches[0] / 2.0**refinement
+        found.append(figures(half_plane_level(problem, plan, pitch, None, Stages()), problem, 0.0))
+    ratios = grid_convergence([f["contact_ratio"] for f in found], 2.0)
+    peaks = grid_convergence([f["peak_pressure"] for f in found], 2.0)
+    assert ratios.uncertainty < 2e-3 and peaks.uncertainty < 2e-3 * peaks.value
+    assert ratios.limit == pytest.approx(ratio, abs=0.015)
+    assert peaks.limit / problem.hertz.peak_pressure == pytest.approx(peak, rel=0.02)
+
+
+@pytest.fixture(scope="module")
+def unrun(tmp_path_factory):
+    scene = load_scene("ground-unrun")
+    return run(scene, tmp_path_factory.mktemp("unrun") / "out", MODELS)
+
+
+class TestGroundUnrun:
+    def test_holds(self, unrun):
+        assert unrun.exit_status == ExitStatus.DONE
+        assert unrun.result["half_space"]["verdict"] == "holds"
+        assert all(row.verdict == "agree" for row in unrun.comparisons if row.tolerance)
+
+    def test_pressures_agree_on_the_same_hats(self, unrun):
+        pairs = zip(*(unrun.runs[name].levels for name in MODELS), strict=True)
+        differences = [
+            np.linalg.norm(one.solution.pressure - other.solution.pressure)
+            / np.linalg.norm(other.solution.pressure)
+            for one, other in pairs
+        ]
+        assert differences[-1] < 3e-3
+        assert differences[0] > differences[1] > differences[2]
+
+    def test_back_substitutions(self, unrun):
+        for level in unrun.runs["finite_element"].levels:
+            assert level.solution.converged
+            assert 3 <= level.solution.iterations["applications"] <= 8
+
+    def test_asperities_carry_at_least_twice_the_smooth_shear_near_the_surface(self, unrun):
+        """What Bailey and Sayles found on unrun ground surfaces, by both models."""
+        hertz = unrun.problem.hertz
+        for entries in unrun.result["models"].values():
+            stress = entries[0]["stress"]
+            assert stress["tau1_max"] > 2.0 * hertz.tau1_max
+            assert stress["tau1_max_at"][1] < 0.05 * hertz.half_width
+
+    def test_below_half_a_the_field_is_that_of_smooth_bodies(self, unrun):
+        from analytic.exact.hertz import hertz_stress
+
+        deep = unrun.window.z > 0.5 * unrun.problem.hertz.half_width
+        x, z = np.meshgrid(unrun.window.x, unrun.window.z[deep])
+        smooth = hertz_stress(unrun.problem.hertz, x, z).tau1
+        for model in unrun.runs.values():
+            rough = model.finest.stresses[0].field.tau1[deep]
+            assert np.linalg.norm(rough - smooth) / np.linalg.norm(smooth) < 0.05
+
+
+def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
+    """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
+    from analytic.defect import solve_with_model
+    from analytic.operators import HalfPlane, SumOfBodies
+    from analytic.patches import contact_patches
+    from fem.compliance import FiniteElementCompliance
+    from fem.variational_inequality import solve_variational_inequality
+
+    problem = problem_of(load_scene("sinusoid"))
+    plan = make_plan(problem, MODELS)
+    grid: HatGrid = problem.grid(problem.pitches[0])
+    average = grid.average(problem.gap, problem.knots)
+    refinement = Refinement(grid.pitch, 2, 40.0)
+    level = half_plane_level(problem, plan, grid.pitch, None, Stages())
+    patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
+    assert len(patches) >= 5
+    bodies, _ = _bodies(problem, plan, block_spec(problem, refinement, patches), Stages())
+    compliance = FiniteElementCompliance(bodies[0], grid.x[0], grid.pitch, grid.count)
+    factors = _factors(problem, bodies)
+    one = solve_with_model(
+        SumOfBodies(compliance, factors=factors),
+        HalfPlane(grid.count, grid.pitch, problem.modulus),
+        average,
+        grid.weights,
+        problem.constraints(),
+        tolerance=1e-10,
+    )
+    # two equal blocks: the same body twice in one system
+    assert factors == (2.0,)
+    other = solve_variational_inequality(
+        [(bodies[0], compliance.normal), (bodies[0], compliance.normal)],
+        average,
+        grid.weights,
+        problem.hertz.load_per_length,
+    )
+    assert other.reason > 0
+    assert other.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
+    assert grid.weights @ other.pressure == pytest.approx(one.load, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
+def test_other_scenes_agree(name, tmp_path):
+    outcome = run(load_scene(name), tmp_path / "out", MODELS)
+    assert outcome.exit_status == ExitStatus.DONE
+    assert (tmp_path / "out" / "report.html").stat().st_size > 100_000
+
+
+def test_every_scene_is_named_here():
+    assert set(scene_names()) == {
+        "ground-polished",
+        "ground-run-in",
+        "ground-unrun",
+        "self-affine",
+        "sinusoid",
+        "smooth",
+        "smooth-sliding",
+    }
+
+
+@pytest.mark.parametrize(
+    ("trace", "load"),
+    [
+        ("real_stylus_mitutoyo", "3.55 N/um"),
+        ("real_confocal_lay_row", "0.5 N/um"),
+        ("real_stylus_dektak", "0.5 N/um"),
+    ],
+)
+def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
+    path = MEASURED / f"{trace}.csv"
+    if not path.exists():
+        pytest.skip(f"{path.name} is not there: measured by others, it does not come along")
+    scene = tmp_path / "trace.toml"
+    scene.write_text(
+        'roller = {radius = "7.5706 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        f'profile = {{file = "{path}", x_unit = "um", z_unit = "um"}}\n'
+        f'load = {{per_length = "{load}"}}\n'
+        "resolution = {levels = 3}\n"
+    )
+    outcome = run(load_scene(scene), tmp_path / "out", MODELS)
+    assert outcome.exit_status == ExitStatus.DONE
+    assert {row.verdict for row in outcome.comparisons if row.tolerance} == {"agree"}
