@@ -13,6 +13,7 @@ from comparisons.compare import (
 )
 from comparisons.level import ModelRun
 from comparisons.outcome import Outcome
+from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.report.numbers import (
     integer,
@@ -71,7 +72,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
                 continue  # the ratio is the length over a constant
             seen.add(name)
             scale = scale_of([v[name] for v in values], quantity.unit)
-            where = f", friction {plain(friction)}" if quantity.needs_stress else ""
+            where = _where(problem, name, friction)
             rows.append(
                 (
                     quantity.label + where,
@@ -97,7 +98,7 @@ def _of_pair(outcome: Outcome) -> Table:
             if name in seen and not quantity.needs_stress:
                 continue
             seen.add(name)
-            where = f", friction {plain(friction)}" if quantity.needs_stress else ""
+            where = _where(problem, name, friction)
             rows.append(
                 (
                     quantity.label + where,
@@ -106,6 +107,12 @@ def _of_pair(outcome: Outcome) -> Table:
                 )
             )
     return Table("Difference of both models", _head(len(one.levels), False), tuple(rows))
+
+
+def _where(problem: Problem, name: str, friction: float) -> str:
+    """Which friction coefficient a figure belongs to, where there are several."""
+    several = len(problem.scene.friction) > 1 and QUANTITIES[name].needs_stress
+    return f", friction {plain(friction)}" if several else ""
 
 
 def _head(levels: int, halved: bool) -> tuple[str, ...]:

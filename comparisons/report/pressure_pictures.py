@@ -15,19 +15,16 @@ from comparisons.problem import Problem
 from comparisons.report.numbers import Scale, percent, scale_of, significant, with_unit
 from comparisons.report.sheet import load_text
 from comparisons.report.style import (
-    BODY,
     COLUMN,
     DIFFERENCE,
     LINES,
-    OUTLINE,
     REFERENCE,
-    ROLLER,
     WIDE,
     Picture,
     data_uri,
     figure,
 )
-from comparisons.report.surfaces import surfaces_of
+from comparisons.report.surfaces import draw_surfaces
 from comparisons.report.words import LABELS
 
 if TYPE_CHECKING:
@@ -35,6 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 LEFT = 0.8  # inches left of the panels
+FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
 
@@ -121,7 +119,7 @@ def _drawn(
     _pressures(panels[0], outcome, across, unit, nodes)
     if comparing:
         _difference(panels[1], outcome, across, unit)
-    _surfaces(panels[-1], outcome, across, unit)
+    draw_surfaces(panels[-1], outcome, across, unit)
     for panel in panels:
         panel.yaxis.set_label_coords(-0.8 * LEFT / (width * (right - left)), 0.5)
         panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
@@ -170,8 +168,9 @@ def _pressures(
         label="Hertz, smooth",
         **REFERENCE,
     )
-    if problem.scene.hardness is not None:
-        cap = problem.scene.hardness / p0
+    peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
+    cap = np.inf if problem.scene.hardness is None else problem.scene.hardness / p0
+    if cap < FARTHEST_CAP * peak / p0:
         axes.axhline(cap, color="#777777", linestyle="-.", linewidth=0.9, label="hardness")
     _legend(axes, problem)
 
@@ -217,43 +216,3 @@ def _difference(axes: "Axes", outcome: Outcome, across: tuple[float, float], uni
     axes.set_ylim(-1.25 * largest, 1.25 * largest)
     axes.set_ylabel("Δp/p₀")
     axes.locator_params(axis="y", nbins=3)
-
-
-def _surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
-    drawn: dict[str, tuple[np.ndarray, ...]] = {}
-    for name, run in reversed(outcome.runs.items()):
-        found = surfaces_of(outcome.problem, run.finest)
-        pitch = run.finest.grid.pitch
-        near = (found.x >= across[0] - pitch) & (found.x <= across[1] + pitch)
-        x, body, roller = found.x[near], found.body[near], found.roller[near]
-        if drawn:
-            # displacements are known but for a constant: laid on each other at their mean
-            place, level, _ = next(iter(drawn.values()))
-            shift = np.mean(np.interp(x, place, level) - body)
-            body, roller = body + shift, roller + shift
-        drawn[name] = x, body, roller
-    x, body, roller = next(iter(drawn.values()))
-    low, high = body.min(), roller.max()
-    middle, high = 0.5 * (low + high), high + 0.25 * (high - low or 1.0)
-    low -= 0.35 * (high - low)
-    up = scale_of([high - low], "m")
-    base = middle / up.factor
-    few = slice(None, None, 1 + len(x) // int(90 * axes.figure.get_figwidth()))
-    x, body, roller = (
-        x[few] / unit.factor,
-        body[few] / up.factor - base,
-        roller[few] / up.factor - base,
-    )
-    low, high = low / up.factor - base, high / up.factor - base
-    axes.fill_between(x, low, body, **BODY)
-    axes.fill_between(x, roller, high, **ROLLER)
-    for name, (place, lower, upper) in reversed(drawn.items()):
-        style = LINES[name] if len(drawn) > 1 else OUTLINE
-        style = {**style, "linewidth": 0.7 * style["linewidth"]}
-        axes.plot(place / unit.factor, upper / up.factor - base, **style)
-        axes.plot(place / unit.factor, lower / up.factor - base, **style)
-    axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
-    axes.text(0.01, 0.05, "body", transform=axes.transAxes, va="bottom")
-    axes.set_ylim(low, high)
-    axes.set_ylabel(f"height [{up.name}]")
-    axes.grid(False)

@@ -50,7 +50,7 @@ def section_pictures(outcome: Outcome) -> list[Picture]:
 def _picture(outcome: Outcome, column: int, words: str, rough: bool) -> Picture:
     frictions = outcome.problem.scene.friction
     hertz = outcome.problem.hertz
-    row, foot, top = 2.15, 0.46, 0.02
+    row, foot, top = 2.15, 0.46, 0.06
     total = foot + top + row * len(frictions)
     drawn = figure(COLUMN, total)
     depths = [outcome.window.z[-1] / hertz.half_width]
@@ -72,8 +72,14 @@ def _picture(outcome: Outcome, column: int, words: str, rough: bool) -> Picture:
             panel.tick_params(labelleft=False)
         panels[0].set_ylabel("τ₁/p₀")
         panels[0].set_title(f"friction {plain(friction)}")
-        if place == 0:
-            panels[-1].legend(loc="upper right" if rough else "lower right")
+    drawn.legend(
+        *drawn.axes[0].get_legend_handles_labels(),
+        loc="upper right",
+        bbox_to_anchor=(0.985, 1.0),
+        ncols=3,
+        borderaxespad=0.1,
+        columnspacing=1.2,
+    )
     for panel in drawn.axes[-len(depths) :]:
         panel.set_xlabel("z/a")
     at = decimal(outcome.window.x[column] / hertz.half_width)

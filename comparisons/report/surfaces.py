@@ -1,12 +1,19 @@
 """Both bodies' surfaces under load, on one datum, for the pictures."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.level import Level
+from comparisons.outcome import Outcome
 from comparisons.problem import Problem
+from comparisons.report.numbers import Scale, scale_of
+from comparisons.report.style import BODY, LINES, OUTLINE, ROLLER
 from comparisons.write import deformed_height
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True)
@@ -41,3 +48,44 @@ def surfaces_of(problem: Problem, level: Level) -> Surfaces:
         ground=ground,
         parabola=parabola + np.max(ground - parabola),
     )
+
+
+def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
+    """Every model's surfaces under load, filled as those of the last model, over `across` [m]."""
+    drawn: dict[str, tuple[np.ndarray, ...]] = {}
+    for name, run in reversed(outcome.runs.items()):
+        found = surfaces_of(outcome.problem, run.finest)
+        pitch = run.finest.grid.pitch
+        near = (found.x >= across[0] - pitch) & (found.x <= across[1] + pitch)
+        x, body, roller = found.x[near], found.body[near], found.roller[near]
+        if drawn:
+            # displacements are known but for a constant: laid on each other at their mean
+            place, level, _ = next(iter(drawn.values()))
+            shift = np.mean(np.interp(x, place, level) - body)
+            body, roller = body + shift, roller + shift
+        drawn[name] = x, body, roller
+    x, body, roller = next(iter(drawn.values()))
+    low, high = body.min(), roller.max()
+    middle, high = 0.5 * (low + high), high + 0.25 * (high - low or 1.0)
+    low -= 0.35 * (high - low)
+    up = scale_of([high - low], "m")
+    base = middle / up.factor
+    few = slice(None, None, 1 + len(x) // int(90 * axes.figure.get_figwidth()))
+    x, body, roller = (
+        x[few] / unit.factor,
+        body[few] / up.factor - base,
+        roller[few] / up.factor - base,
+    )
+    low, high = low / up.factor - base, high / up.factor - base
+    axes.fill_between(x, low, body, **BODY)
+    axes.fill_between(x, roller, high, **ROLLER)
+    for name, (place, lower, upper) in reversed(drawn.items()):
+        style = LINES[name] if len(drawn) > 1 else OUTLINE
+        style = {**style, "linewidth": 0.7 * style["linewidth"]}
+        axes.plot(place / unit.factor, upper / up.factor - base, **style)
+        axes.plot(place / unit.factor, lower / up.factor - base, **style)
+    axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
+    axes.text(0.01, 0.05, "body", transform=axes.transAxes, va="bottom")
+    axes.set_ylim(low, high)
+    axes.set_ylabel(f"height [{up.name}]")
+    axes.grid(False)

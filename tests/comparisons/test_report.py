@@ -199,6 +199,24 @@ def test_the_finite_element_model_alone_has_its_mesh(finish: Callable[..., Outco
     assert "Only the finite-element model was run" in page.text
 
 
+def test_fields_of_one_model_stand_without_a_difference(
+    finish: Callable[..., Outcome], smooth_tables
+):
+    page = Page(render(finish(smooth_tables, ("half_plane",))))
+    assert count(page, "Principal shear stress") == count(page, "Orthogonal shear stress") == 1
+    assert count(page, "over depth") == 2
+    assert "Largest difference" not in page.text
+    [table] = [table for table in page.tables if "over Hertz" in table[0]]
+    assert [row[0] for row in table[1:]] == [
+        "peak pressure",
+        "contact length",
+        "contact length over Hertz 2a",
+        "largest principal shear stress",
+        "depth of the largest principal shear",
+        "largest orthogonal shear stress",
+    ]
+
+
 def test_every_number_of_the_comparison_is_on_the_page(wavy_page: Page, wavy_outcome: Outcome):
     labels = {
         "peak_pressure": "peak pressure",
