@@ -161,12 +161,12 @@ def cost_table(outcome: Outcome) -> Table:
         level = run.finest
         cells = {
             "time, all levels": with_unit(sum(run.seconds.values()), "s", 3),
-            "time, finest level": with_unit(sum(level.seconds.values()), "s", 3),
-            "unknowns, finest level": integer(level.unknowns),
-            "pressure elements, finest level": integer(level.grid.count),
+            "time, finest level alone": with_unit(sum(level.seconds.values()), "s", 3),
+            "unknowns": integer(level.unknowns),
+            "pressure elements": integer(level.grid.count),
         }
         for kind, count in level.solution.iterations.items():
-            cells[f"{kind} of the contact solver, finest level"] = integer(count)
+            cells[f"contact solver: {kind.replace('_', ' ')}"] = integer(count)
         memory = outcome.result["models"][name][0]["cost"]["peak_memory"]
         cells["peak memory of the process"] = with_unit(memory, "byte", 3)
         for words, text in cells.items():
@@ -174,7 +174,7 @@ def cost_table(outcome: Outcome) -> Table:
     names = list(outcome.runs)
     return Table(
         "",
-        ("", *(LABELS[name] for name in names)),
+        ("on the finest level", *(LABELS[name] for name in names)),
         tuple((words, *(dict(cells).get(n, "") for n in names)) for words, cells in rows.items()),
     )
 
