@@ -15,7 +15,7 @@ Quantity = Callable[[PlaneStress], np.ndarray]
 
 _DIFFERENCE = 1e-4  # of a cell: rounding and curvature spoil the slope by less than 1e-8
 _SLOPE_TOLERANCE = 1e-8  # of the largest value on the grid, a cell
-_VALUE_TOLERANCE = 1e-12
+_VALUE_TOLERANCE = 1e-11
 _ITERATIONS = 50
 
 
@@ -87,12 +87,12 @@ def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarra
     """Rows and columns of the highest points that no neighbour exceeds, highest first, and the
     values that their peaks can reach.
 
-    Between the points a peak rises at most by half of what its neighbourhood falls, twice what
-    a parabola would.
+    Between the points a peak rises at most by a quarter of the fall to its lowest neighbour: a
+    parabola along that line would rise by an eighth.
     """
     highest = values == maximum_filter(values, size=3, mode="nearest")
     fall = values - minimum_filter(values, size=3, mode="nearest")
-    reach = values + 0.5 * fall
+    reach = values + 0.25 * fall
     place = np.flatnonzero(highest & (reach >= values.max()))
     place = place[np.argsort(-values.ravel()[place], kind="stable")[:count]]
     return *np.unravel_index(place, values.shape), reach.ravel()[place]

@@ -16,7 +16,7 @@ from analytic.defect import solve_with_model
 from analytic.gap import HatGrid
 from analytic.operators import DenseCompliance, HalfPlane, SumOfBodies
 from analytic.patches import contact_patches
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.plane_stress import PlaneStress
 from comparisons.level import Level, MeshField, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
@@ -40,7 +40,7 @@ LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements di
 MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
 MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
 TAPER_HATS = 40.0  # surface edges over which real roughness fades outside the refined ground
-UNBOUNDED_SIDES = "free"  # of a block that stands for a half-plane
+UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,8 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     reach = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
-        reach = np.abs(problem.extent).max() + LAYER_REACH * depth
+        share = refinement.block / scene.finite_element.block
+        reach = np.abs(problem.extent).max() + share * LAYER_REACH * depth
     if scene.width is not None:
         reach = 0.5 * scene.width
     edge = refinement.pitch / EDGES_PER_HAT
@@ -247,14 +248,12 @@ def _stresses(
     )
     bounds = (window.x[0], window.x[-1], window.z[-1])
     quantities = {
-        "tau1": lambda sx, sz, txz: PlaneStress(sx, sz, txz).tau1,
-        "txz": lambda sx, sz, txz: np.abs(txz),
-        "von_mises": lambda sx, sz, txz: PlaneStress(sx, sz, txz).von_mises(nu),
+        "tau1": lambda stress: stress.tau1,
+        "txz": lambda stress: np.abs(stress.txz),
+        "von_mises": lambda stress: stress.von_mises(nu),
     }
-    extremes = {}
-    for name, quantity in quantities.items():
-        found = maximum(body, nodal, quantity, bounds)
-        extremes[name] = Extremum(found.value, found.x, found.z)
+    extremes = {
+        name: maximum(body, nodal, quantity, bounds) for name, quantity in quantities.items()
+    }
     x, z = np.meshgrid(window.x, window.z)
-    field = PlaneStress(*evaluate(body, nodal, x, z))
-    return StressResult(friction, extremes, field), PlaneStress(nodal.sx, nodal.sz, nodal.txz)
+    return StressResult(friction, extremes, evaluate(body, nodal, x, z)), nodal

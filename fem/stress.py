@@ -7,23 +7,14 @@ Nomenclature at the surface
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
+from analytic.plane_stress import PlaneStress
 from fem.elasticity import ElasticBody
 from fem.recovery import recovered_stress
 from fem.surface import Direction, straight_down, tangent_of
 from fem.triangle import shapes
-
-
-@dataclass(frozen=True)
-class NodalStress:
-    """sx, sz, txz (n,) [Pa] at the mesh's points, positive in tension, quadratic between."""
-
-    sx: np.ndarray
-    sz: np.ndarray
-    txz: np.ndarray
 
 
 def nodal_stress(
@@ -32,7 +23,7 @@ def nodal_stress(
     pressure_at: Callable[[np.ndarray], np.ndarray],
     friction: float = 0.0,
     direction: Direction = straight_down,
-) -> NodalStress:
+) -> PlaneStress:
     """Stresses at all mesh points under a displacement (n, 2) [m].
 
     `pressure_at`(x [m]) gives the pressure [Pa] that causes it, `friction` times that the sliding
@@ -44,13 +35,11 @@ def nodal_stress(
     stress = recovered_stress(body, displacement)
     point = body.surface.point
     stress[point] = _surface_stress(body, displacement[point], pressure_at, friction, direction)
-    return NodalStress(*stress.T)
+    return PlaneStress(*stress.T)
 
 
-def evaluate(
-    body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """sx, sz, txz [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
+def evaluate(body: ElasticBody, nodal: PlaneStress, x: np.ndarray, z: np.ndarray) -> PlaneStress:
+    """Stresses [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
     inside = element >= 0
@@ -58,7 +47,7 @@ def evaluate(
     found = np.full((3, x.size), np.nan)
     for row, stress in zip(found, (nodal.sx, nodal.sz, nodal.txz), strict=True):
         row[inside] = (stress[node] * share).sum(axis=1)
-    return tuple(found.reshape(3, *x.shape))
+    return PlaneStress(*found.reshape(3, *x.shape))
 
 
 def _surface_stress(

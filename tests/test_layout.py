@@ -22,7 +22,7 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).resolve().parents[1]
-DATA_TYPES = {"analytic.material", "analytic.profile"}
+DATA_TYPES = {"analytic.material", "analytic.plane_stress", "analytic.profile"}
 # What each package may import of ours: whole packages, or single modules.
 MAY_IMPORT = {
     "analytic": {"analytic"},

@@ -8,9 +8,10 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
+from analytic.plane_stress import PlaneStress
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
-from fem.stress import NodalStress, nodal_stress
+from fem.stress import nodal_stress
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 from meshes.second_order import add_midpoints
@@ -202,7 +203,7 @@ class Pressed:
     def displacement(self, friction: float) -> np.ndarray:
         return self.compliance.displacement(self.pressure, friction)
 
-    def stress(self, friction: float) -> NodalStress:
+    def stress(self, friction: float) -> PlaneStress:
         return nodal_stress(self.body, self.displacement(friction), self.pressure_at, friction)
 
 
