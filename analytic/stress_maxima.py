@@ -1,11 +1,10 @@
 """Largest stresses of a field, and where they stand between the points of its grid."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
-from scipy.optimize import minimize
 
 from analytic.plane_stress import Extremum, PlaneStress
 from analytic.stress import Element, stress_at
@@ -13,10 +12,12 @@ from analytic.stress_field import StressField
 
 Quantity = Callable[[PlaneStress], np.ndarray]
 
-_DIFFERENCE = 1e-4  # of a cell: rounding and curvature spoil the slope by less than 1e-8
-_SLOPE_TOLERANCE = 1e-8  # of the largest value on the grid, a cell
-_VALUE_TOLERANCE = 1e-11
-_ITERATIONS = 50
+# The search around a point of the grid: nine points, half a cell apart at first; the parabola
+# through them gives the next centre, and the spacing shrinks. A parabola's top errs by the square
+# of the spacing, and the last one is 8e-4 of a cell.
+_STENCIL = np.array([[i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)])
+_FIRST_STEP, _SHRINKAGE, _ROUNDS = 0.5, 0.4, 8
+_FARTHEST = 1.5  # steps that a centre may move in a round
 
 
 @dataclass(frozen=True)
@@ -36,104 +37,120 @@ def stress_maxima(
     poissons_ratio: float,
     element: Element = "hat",
 ) -> StressMaxima:
-    """The three maxima of the field of these pressures inside its window."""
-
-    def largest(quantity: Quantity) -> Extremum:
-        return field_maximum(quantity, x_nodes, pressure, friction, field, element)
-
-    return StressMaxima(
-        tau1=largest(lambda stress: stress.tau1),
-        txz_abs=largest(lambda stress: np.abs(stress.txz)),
-        von_mises=largest(lambda stress: stress.von_mises(poissons_ratio)),
+    """The three maxima of the field of these pressures inside its window (`field_maxima`)."""
+    quantities = (
+        lambda stress: stress.tau1,
+        lambda stress: np.abs(stress.txz),
+        lambda stress: stress.von_mises(poissons_ratio),
     )
+    return StressMaxima(*field_maxima(quantities, x_nodes, pressure, friction, field, element))
 
 
-def field_maximum(
-    quantity: Quantity,
+def field_maxima(
+    quantities: Sequence[Quantity],
     x_nodes: np.ndarray,
     pressure: np.ndarray,
     friction: float,
     field: StressField,
     element: Element = "hat",
-    starts: int = 8,
-) -> Extremum:
-    """Largest `quantity` [Pa] of the stresses of these pressures inside the field's window.
+    starts: int = 4,
+) -> list[Extremum]:
+    """Largest value [Pa] of each quantity of these pressures' stresses inside the field's window.
 
     The field's highest local maxima, up to `starts` of them, are each followed off the grid by
     `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
     cell where the quantity is smooth, and the value never below the field's own largest. A field
     coarser than the asperities can miss peaks that it does not show.
     """
-    values = quantity(field.stress)
-    rows, columns, reach = _local_maxima(values, starts)
-    best = Extremum(
-        float(values[rows[0], columns[0]]), float(field.x[columns[0]]), float(field.z[rows[0]])
-    )
-    scale = best.value if best.value > 0.0 else 1.0
+    rows, columns, owner = [], [], []
+    for index, quantity in enumerate(quantities):
+        row, column = _local_maxima(quantity(field.stress), starts)
+        rows.append(row)
+        columns.append(column)
+        owner.append(np.full(len(row), index))
+    rows, columns, owner = (np.concatenate(parts) for parts in (rows, columns, owner))
 
-    def relative(x: np.ndarray, z: np.ndarray) -> np.ndarray:
-        return quantity(stress_at(x_nodes, pressure, friction, x, z, element)) / scale
+    def evaluate(place: np.ndarray, owner: np.ndarray) -> np.ndarray:
+        """The quantity of each owner (k,) at its points (k, 9, 2)."""
+        stress = stress_at(x_nodes, pressure, friction, place[..., 0], place[..., 1], element)
+        value = np.empty(place.shape[:2])
+        for index, quantity in enumerate(quantities):
+            mine = owner == index
+            value[mine] = quantity(PlaneStress(stress.sx[mine], stress.sz[mine], stress.txz[mine]))
+        return value
 
-    for row, column, highest in zip(rows, columns, reach, strict=True):
-        if highest < best.value:
-            continue
-        peak, x, z = _climb(relative, (field.x, field.z), (column, row))
-        if peak * scale > best.value:
-            best = Extremum(peak * scale, x, z)
-    return best
+    top, place = _climb(evaluate, field, rows, columns, owner)
+    found = []
+    for index in range(len(quantities)):
+        mine = np.flatnonzero(owner == index)
+        best = mine[np.argmax(top[mine])]
+        found.append(Extremum(float(top[best]), float(place[best, 0]), float(place[best, 1])))
+    return found
 
 
-def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Rows and columns of the highest points that no neighbour exceeds, highest first, and the
-    values that their peaks can reach.
+def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rows and columns of the highest points that no neighbour exceeds, highest first.
 
-    Between the points a peak rises at most by a quarter of the fall to its lowest neighbour: a
-    parabola along that line would rise by an eighth.
+    A point is passed over if its peak cannot reach the highest value: between the points it
+    rises at most by a quarter of the fall to its lowest neighbour, twice what a parabola along
+    that line would.
     """
     highest = values == maximum_filter(values, size=3, mode="nearest")
     fall = values - minimum_filter(values, size=3, mode="nearest")
-    reach = values + 0.25 * fall
-    place = np.flatnonzero(highest & (reach >= values.max()))
+    place = np.flatnonzero(highest & (values + 0.25 * fall >= values.max()))
     place = place[np.argsort(-values.ravel()[place], kind="stable")[:count]]
-    return *np.unravel_index(place, values.shape), reach.ravel()[place]
+    return np.unravel_index(place, values.shape)
 
 
 def _climb(
-    function: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    grids: tuple[np.ndarray, np.ndarray],
-    indices: tuple[int, int],
-) -> tuple[float, float, float]:
-    """The peak of `function` (x, z) uphill from a point of the grid, its x and its z.
+    evaluate: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    field: StressField,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    owner: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Highest values (k,) that are met uphill from points of the grid, and their x, z (k, 2).
 
-    A quasi-Newton search (L-BFGS-B) in widths of the point's cells, bounded by the grid, with
-    central differences whose five points are one call; at the grid's sides they are one-sided.
+    A climb ends early when a quarter of what its last nine points differ by does not lift it to
+    the top of another one of the same owner.
     """
-    origin = np.array([grid[index] for grid, index in zip(grids, indices, strict=True)])
+    grids, indices = (field.x, field.z), (columns, rows)
+    centre = np.column_stack([g[i] for g, i in zip(grids, indices, strict=True)])
+    width = np.column_stack([_cells(g, i) for g, i in zip(grids, indices, strict=True)])
     low, high = (np.array([grid[end] for grid in grids]) for end in (0, -1))
-    width = np.array([_cell(grid, index) for grid, index in zip(grids, indices, strict=True)])
-    cross = _DIFFERENCE * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
+    top, best = np.full(len(centre), -np.inf), centre.copy()
+    step = _FIRST_STEP * width
+    # values on the stencil to the coefficients of 1, u, v, u^2, uv, v^2 by least squares
+    u, v = _STENCIL.T
+    fit = np.linalg.pinv(np.column_stack([np.ones(9), u, v, u**2, u * v, v**2]))
+    going = np.arange(len(centre))
+    for _ in range(_ROUNDS):
+        at, h = centre[going], step[going]
+        # a stencil across the window's side is moved in as a whole
+        middle = np.clip(at, np.minimum(low + h, high), np.maximum(high - h, low))
+        place = np.clip(middle[:, None] + _STENCIL * h[:, None], low, high)
+        value = evaluate(place, owner[going])
+        first = np.arange(len(going)), value.argmax(axis=1)
+        better = value[first] > top[going]
+        top[going] = np.where(better, value[first], top[going])
+        best[going[better]] = place[first][better]
+        _, along_u, along_v, uu, uv, vv = fit @ (value - value.mean(axis=1, keepdims=True)).T
+        # the top of the parabola where it has one, else the best point so far
+        bend = 4.0 * uu * vv - uv**2
+        peaked = (bend > 0.0) & (uu < 0.0)
+        move = np.column_stack([uv * along_v - 2 * vv * along_u, uv * along_u - 2 * uu * along_v])
+        move = move / np.where(peaked, bend, 1.0)[:, None]
+        vertex = middle + np.clip(move, -_FARTHEST, _FARTHEST) * h
+        centre[going] = np.clip(np.where(peaked[:, None], vertex, best[going]), low, high)
+        step *= _SHRINKAGE
+        leader = np.array([top[owner == mine].max() for mine in owner[going]])
+        going = going[top[going] + 0.25 * np.ptp(value, axis=1) >= leader]
+    return top, best
 
-    def value_and_slope(place: np.ndarray) -> tuple[float, np.ndarray]:
-        points = np.clip(origin + (place + cross) * width, low, high)
-        values = -function(points[:, 0], points[:, 1])
-        steps = (points[[1, 3], [0, 1]] - points[[2, 4], [0, 1]]) / width
-        rise = values[[1, 3]] - values[[2, 4]]
-        return float(values[0]), rise / np.where(steps > 0.0, steps, 1.0)
 
-    found = minimize(
-        value_and_slope,
-        np.zeros(2),
-        jac=True,
-        method="L-BFGS-B",
-        bounds=list(zip((low - origin) / width, (high - origin) / width, strict=True)),
-        options={"ftol": _VALUE_TOLERANCE, "gtol": _SLOPE_TOLERANCE, "maxiter": _ITERATIONS},
-    )
-    place = np.clip(origin + found.x * width, low, high)
-    return -float(found.fun), float(place[0]), float(place[1])
-
-
-def _cell(grid: np.ndarray, index: int) -> float:
-    """Distance between the neighbours of a point, or 1 on a grid of one point."""
+def _cells(grid: np.ndarray, indices: np.ndarray) -> np.ndarray:
+    """Half the distances between the neighbours of points, or 1 on a grid of one point."""
     if len(grid) == 1:
-        return 1.0
-    return float(grid[min(index + 1, len(grid) - 1)] - grid[max(index - 1, 0)])
+        return np.ones(len(indices))
+    after, before = np.minimum(indices + 1, len(grid) - 1), np.maximum(indices - 1, 0)
+    return (grid[after] - grid[before]) / (after - before)

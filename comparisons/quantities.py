@@ -37,10 +37,10 @@ QUANTITIES: dict[str, Quantity] = {
     "tau1_max_depth": Quantity("depth of the largest principal shear", "m", 2.0, needs_stress=True),
     "txz_max_abs": Quantity("largest orthogonal shear stress", "Pa", 2.0, needs_stress=True),
     "tau1_field_near": Quantity(
-        "tau1 above 0.1 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
+        "tau1 down to 0.1 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
     ),
     "tau1_field_deep": Quantity(
-        "tau1 below 0.5 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
+        "tau1 deeper than 0.5 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
     ),
 }
 

@@ -144,9 +144,16 @@ def pint_factor(unit: str, dimension: Dimension, given: str) -> Decimal:
     if registry.get_root_units(parsed)[1] != _root(dimension):
         raise UnitError(f"is {describe(given)}, {_phrase(parsed)}")
     try:
-        return Decimal(registry.Quantity(Decimal(1), parsed).to(dimension.si_unit).magnitude)
+        none, one = (
+            Decimal(registry.Quantity(Decimal(count), parsed).to(dimension.si_unit).magnitude)
+            for count in (0, 1)
+        )
     except (ArithmeticError, TypeError) as error:
         raise UnitError(f"is {describe(given)}, which cannot be converted") from error
+    # 0 dB is 1: a logarithm or a shifted scale has no factor, though some pints convert it
+    if none != 0:
+        raise UnitError(f"is {describe(given)}, which cannot be converted")
+    return one
 
 
 def _unknown(unit: str, dimension: Dimension) -> str:

@@ -11,7 +11,8 @@ class Comparison:
     """One quantity at one friction coefficient; figures in SI, the last three relative.
 
     half_plane, finite_element   the models' values; None for a norm of the difference
-    difference                   (half-plane - finite element) / finite element, or the norm
+    difference                   (half-plane - finite element) / finite element, or the norm;
+                                 None where the finite elements' value vanishes
     uncertainty                  of the difference, numerical: both models' together
     tolerance                    None: not judged
     verdict                      None: not judged
@@ -53,8 +54,9 @@ def half_space_verdict(
 
     def named(items: list[Comparison]) -> str:
         return ", ".join(
-            f"{c.quantity} {c.difference:+.2%} at friction {c.friction:g} (tolerance "
-            f"{c.tolerance:.2g})"
+            f"{c.quantity} "
+            + ("without a reference" if c.difference is None else f"{c.difference:+.2%}")
+            + f" at friction {c.friction:g} (tolerance {c.tolerance:.2g})"
             for c in items
         )
 

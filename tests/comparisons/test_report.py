@@ -226,8 +226,8 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page: Page, wavy_out
         "txz_max_abs": "largest orthogonal shear stress",
         "tau1_max_depth": "depth of the largest principal shear",
         "pressure_l2": "pressures, relative L2 difference",
-        "tau1_field_near": "tau1 above 0.1 a, relative L2 difference",
-        "tau1_field_deep": "tau1 below 0.5 a, relative L2 difference",
+        "tau1_field_near": "tau1 down to 0.1 a, relative L2 difference",
+        "tau1_field_deep": "tau1 deeper than 0.5 a, relative L2 difference",
     }
     [table] = [table for table in wavy_page.tables if table[0][-1] == "verdict"]
     shown = {}

@@ -1,5 +1,6 @@
 """Units against pint's own tables, exact factors, and whatever a user may type."""
 
+import re
 import subprocess
 import sys
 from decimal import Decimal
@@ -124,9 +125,20 @@ def test_what_is_no_length(text, problem):
         to_si(text, LENGTH)
 
 
-def test_logarithmic_units_do_not_convert():
-    with pytest.raises(UnitError, match="cannot be converted"):
-        to_si("1 dB", DIMENSIONLESS)
+@pytest.mark.parametrize("text", ["1 dB", "0 dB", "-3 decibel", "2 Np", "1 octave", "1 decade"])
+def test_logarithmic_units_do_not_convert(text):
+    with pytest.raises(UnitError, match=f'is "{text}", which cannot be converted'):
+        to_si(text, DIMENSIONLESS)
+
+
+@pytest.mark.parametrize("text", ["1 mm dB", "1 dB*mm", "1 dB^2", "1 dBm/mW", "1 m degC/K"])
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+def test_products_with_a_unit_that_has_no_factor_are_refused(text, dimension):
+    if text == "1 m degC/K" and dimension is LENGTH:
+        assert to_si(text, dimension) == 1.0  # to pint a difference of temperatures
+        return
+    with pytest.raises(UnitError, match=f'^is "{re.escape(text)}"'):
+        to_si(text, dimension)
 
 
 def test_vanishing_numbers_are_zero():

@@ -53,3 +53,10 @@ def test_agreement_does_not_prove_what_neither_model_shows():
 
 def test_nothing_judged_decides_nothing():
     assert half_space_verdict([row(verdict=None, tolerance=None)], {})[0] == "undecided"
+
+
+def test_a_difference_without_a_reference_leaves_it_open():
+    """A depth that is zero by the finite elements has no relative difference."""
+    verdict, why = half_space_verdict([row(), row("tau1_max_depth", None, "indistinct")], {})
+    assert verdict == "undecided"
+    assert "tau1_max_depth without a reference" in why
