@@ -138,10 +138,11 @@ def pint_factor(unit: str, dimension: Dimension, given: str) -> Decimal:
     registry = _registry()
     try:
         parsed = registry.parse_units(unit)
+        # not dimensions: to pint a byte, a radian and a bare number are all dimensionless
+        root = registry.get_root_units(parsed)[1]
     except (AttributeError, ValueError, TypeError, ArithmeticError, SyntaxError) as error:
         raise UnitError(f"is {describe(given)}, and {_unknown(unit, dimension)}") from error
-    # root units, not dimensions: to pint a byte, a radian and a bare number are all dimensionless
-    if registry.get_root_units(parsed)[1] != _root(dimension):
+    if root != _root(dimension):
         raise UnitError(f"is {describe(given)}, {_phrase(parsed)}")
     try:
         none, one = (
