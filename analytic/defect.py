@@ -15,16 +15,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact import (
-    KKT_TOLERANCE,
-    SET_TOLERANCE,
-    Constraints,
-    ContactSolution,
-    ModelOperator,
-    contact_residuals,
-    solve_contact,
-)
-from analytic.operators import ComplianceOperator
+from analytic.contact import KKT_TOLERANCE, ContactSolution, assessed, solve_contact
+from analytic.equilibrium import SET_TOLERANCE, Constraints
+from analytic.operators import ComplianceOperator, ModelOperator
 
 MAX_STEPS = 40
 
@@ -50,16 +43,15 @@ def solve_with_model(
     model_applications = trial.iterations["applications"]
     best = None
     for step in range(1, MAX_STEPS + 1):
-        solution = _assess(displacement, pressure, gap, weights, constraints, tolerance)
+        approach = _approach(displacement, pressure, gap, weights, constraints)
+        counts = {"steps": step, "applications": step, "model_applications": model_applications}
+        solution = assessed(
+            displacement, pressure, gap, weights, approach, constraints, counts, tolerance
+        )
         if best is None or solution.residuals.worst < best.residuals.worst:
             best, since_best = solution, 0
         else:
             since_best += 1
-        counts = {
-            "steps": step,
-            "applications": step,
-            "model_applications": model_applications,
-        }
         if solution.converged or since_best == 4:
             break
         defect = displacement - model.apply(pressure)
@@ -69,7 +61,7 @@ def solve_with_model(
         image = operator.apply(trial.pressure) - displacement
         # w'(q - p) is zero where the load is prescribed; taking the approach off anyway keeps
         # its round-off, times a large constant, out of the slope
-        slope = direction @ (gap + displacement - solution.approach * weights)
+        slope = direction @ (gap + displacement - approach * weights)
         curvature = direction @ image
         length = np.clip(-slope / curvature, 0.0, 1.0) if curvature > 0.0 else 1.0
         pressure = pressure + length * direction
@@ -77,29 +69,16 @@ def solve_with_model(
     return replace(best, iterations=counts)
 
 
-def _assess(
+def _approach(
     displacement: np.ndarray,
     pressure: np.ndarray,
     gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
-    tolerance: float,
-) -> ContactSolution:
-    """Residuals of an iterate on the operator itself; the approach closes the mean gap."""
-    approach = constraints.approach
-    if approach is None:
-        free = (pressure > 0.0) & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
-        carriers = np.where(free, pressure, 0.0) if free.any() else pressure
-        approach = carriers @ (gap + displacement) / (carriers @ weights)
-    actual, residuals = contact_residuals(
-        displacement, pressure, gap, weights, approach, constraints
-    )
-    return ContactSolution(
-        pressure=pressure,
-        gap=actual,
-        approach=float(approach),
-        load=float(weights @ pressure),
-        residuals=residuals,
-        iterations={},
-        converged=bool(residuals.worst <= tolerance),
-    )
+) -> float:
+    """The approach as prescribed, or the one that closes the mean gap of the free nodes [m]."""
+    if constraints.approach is not None:
+        return constraints.approach
+    free = (pressure > 0.0) & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
+    carriers = np.where(free, pressure, 0.0) if free.any() else pressure
+    return float(carriers @ (gap + displacement) / (carriers @ weights))

@@ -26,6 +26,16 @@ class ComplianceOperator(Protocol):
     def apply(self, pressure: np.ndarray) -> np.ndarray: ...
 
 
+class ModelOperator(ComplianceOperator, Protocol):
+    """A compliance that also offers an approximate inverse and a coarser version of itself."""
+
+    count: int
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
+
+    def coarsened(self) -> "ModelOperator": ...
+
+
 class HalfPlane:
     """Compliance of a half-plane to hat pressures, exact log-kernel coefficients, applied by FFT.
 

@@ -10,7 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.contact import Constraints, solve_contact
+from analytic.contact import solve_contact
+from analytic.equilibrium import Constraints
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.gap import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants

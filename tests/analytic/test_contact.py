@@ -7,8 +7,9 @@ from hypothesis import strategies as st
 from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
-from analytic import contact
-from analytic.contact import Constraints, ContactError, contact_residuals, solve_contact
+from analytic import active_set
+from analytic.contact import ContactError, contact_residuals, solve_contact
+from analytic.equilibrium import Constraints, EquilibriumProblem
 from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
 from analytic.operators import HalfPlane
@@ -139,7 +140,7 @@ def test_single_exchanges_reach_the_same_solution(seed, monkeypatch):
     constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 8e-6)
     fast = pressed(grid, gap, constraints)
-    monkeypatch.setattr(contact, "MAX_EXCHANGES", 0)
+    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
     slow = pressed(grid, gap, constraints)
     assert slow.converged
     assert slow.iterations["exchanges"] > fast.iterations["exchanges"]
@@ -147,17 +148,17 @@ def test_single_exchanges_reach_the_same_solution(seed, monkeypatch):
 
 
 def test_single_exchanges_lower_the_energy_at_every_step(monkeypatch):
-    monkeypatch.setattr(contact, "MAX_EXCHANGES", 0)
+    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
     grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), rough_gap(5)
     operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(gap)
     energies = []
-    original = contact._Problem.equilibrium
+    original = EquilibriumProblem.equilibrium
 
     def watched(problem, start, sides, tolerance):
         energies.append(start @ (0.5 * operator.apply(start) + average))
         return original(problem, start, sides, tolerance)
 
-    monkeypatch.setattr(contact._Problem, "equilibrium", watched)
+    monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
     solve_contact(operator, average, grid.weights, Constraints(load=0.3 * LOAD))
     assert len(energies) > 20
     steps = np.diff(energies[1:])

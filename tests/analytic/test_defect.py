@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from analytic.contact import Constraints, solve_contact
+from analytic.contact import solve_contact
 from analytic.defect import solve_with_model
+from analytic.equilibrium import Constraints
 from analytic.gap import HatGrid, roller_gap
 from analytic.operators import HalfPlane, SumOfBodies
 

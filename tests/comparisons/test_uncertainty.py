@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic.contact import Constraints, solve_contact
+from analytic.contact import solve_contact
+from analytic.equilibrium import Constraints
 from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
 from analytic.operators import HalfPlane

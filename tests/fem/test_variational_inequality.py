@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic.contact import Constraints
 from analytic.defect import solve_with_model
+from analytic.equilibrium import Constraints
 from analytic.material import Material
 from analytic.operators import HalfPlane
 from fem.compliance import FiniteElementCompliance
