@@ -7,12 +7,11 @@ from comparisons.compare import uncertainties
 from comparisons.level import Level, ModelRun, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
-from comparisons.result import peak_memory
 from comparisons.stages import Listener, Stages, silent
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 MOST_LEVELS = 8
-GROWTH_OF_COST = 3.0  # time and memory of a level over those of the one before, at most
+GROWTH_OF_TIME = 3.5  # of a level over the one before, at most
 
 
 def refined(
@@ -59,7 +58,8 @@ def refined(
         if not open_questions:
             return runs, "every judged quantity is resolved"
         left_open = f"{', '.join(open_questions)} not resolved to a third of the tolerance"
-        spent = _spent(problem, perf_counter() - before, perf_counter() - began)
+        seconds = perf_counter() - began + GROWTH_OF_TIME * (perf_counter() - before)
+        spent = _spent(problem, runs, planned - count - 1, seconds)
         if spent is not None:
             return runs, f"{left_open}: {spent}"
     return runs, f"{left_open} after {MOST_LEVELS} levels"
@@ -77,13 +77,19 @@ def unresolved(problem: Problem, runs: dict[str, ModelRun]) -> list[str]:
     return sorted(names)
 
 
-def _spent(problem: Problem, last: float, total: float) -> str | None:
-    """Why one more level would exceed the budget, or None."""
+def _spent(problem: Problem, runs: dict[str, ModelRun], coarser: int, seconds: float) -> str | None:
+    """Why one more level, which would end after `seconds`, exceeds the budget; or None."""
     budget = problem.scene.budget
-    if total + GROWTH_OF_COST * last > budget.time:
+    if seconds > budget.time:
         return f"a finer level would exceed {budget.time:g} s (budget.time)"
-    if GROWTH_OF_COST * peak_memory() > budget.memory:
-        return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
+    if "finite_element" in runs:
+        from comparisons.finite_element import Refinement, expected_memory
+
+        finest = runs["finite_element"].finest
+        block = problem.scene.finite_element.block
+        refinement = Refinement(0.5 * finest.grid.pitch, coarser, block)
+        if expected_memory(problem, refinement, finest.patches) > budget.memory:
+            return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
     return None
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compare
-from comparisons.errors import SceneError
+from comparisons.errors import InputError, SceneError
 from comparisons.ladder import refined
 from comparisons.outcome import Outcome
 from comparisons.plan import Plan, make_plan
@@ -64,7 +64,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         runs, stop = refined(problem, plan, window, checkpoint, listener)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
-    except (ContactError, MeshError):
+    except (ContactError, InputError, MeshError):
         checkpoint.discard()
         raise
     comparisons = ()

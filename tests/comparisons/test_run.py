@@ -267,6 +267,7 @@ class TestRefusals:
             ({"resolution": {"pitch": 1e-12}}, "pressure elements at the finest"),
             ({"resolution": {"pitch": 1e-2}}, "allowed is at most"),
             ({"body": {"width": 1e-3}}, "reaches the end of the body"),
+            ({"budget": {"memory": 1e7}}, "budget.memory"),
             (
                 {
                     "profile": {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
@@ -292,6 +293,13 @@ class TestRefusals:
         assert "budget.time" in outcome.result["refinement"]
         verdicts = {row.quantity: row.verdict for row in outcome.comparisons}
         assert verdicts["peak_pressure"] == "indistinct"
+
+    def test_a_level_that_would_not_fit_is_not_begun(self, tmp_path):
+        """Room for the three planned levels and none for a fourth."""
+        tables = changed(SMOOTH, budget={"memory": 1.5e8}, tolerance={"peak_pressure": 1e-6})
+        outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+        assert "budget.memory" in outcome.result["refinement"]
+        assert len(outcome.runs["finite_element"].levels) == 3
 
     def test_an_interrupt_ends_soon_and_says_how_to_go_on(self, tmp_path):
         command = [sys.executable, "-m", "comparisons.cli", "run", "ground-unrun", "--out"]
