@@ -42,6 +42,6 @@ def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
         elif abs(load - before) <= SETTLED * load:
             return problem_of(scene, load)
     raise SceneError(
-        f"{scene.name}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
+        f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
         "load (per_length) instead"
     )

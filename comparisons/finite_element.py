@@ -118,7 +118,7 @@ def finite_element_level(
     expected, allowed = expected_memory(problem, refinement, ground), scene.budget.memory
     if expected > allowed:
         raise SceneError(
-            f"{scene.name}: budget.memory: is {allowed:.3g} bytes, but finite elements on "
+            f"{scene.source}: budget.memory: is {allowed:.3g} bytes, but finite elements on "
             f"pressures of {grid.pitch:.3g} m need about {expected:.2g}; allowed is a larger "
             "budget, or coarser pressures (resolution.pitch)"
         )

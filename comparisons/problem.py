@@ -120,7 +120,7 @@ def _reach(problem: Problem) -> tuple[float, float]:
     while True:
         low, high = max(start, -reach), min(stop, reach)
         if not low < 0.0 < high:
-            raise SceneError(f"{scene.name}: load.position: the roller's centre lies off the body")
+            raise SceneError(f"{scene.source}: load.position: the roller's centre lies off the body")
         grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
         problem = replace(problem, extent=(low, high))
         touching = scout(problem, grid)
@@ -128,7 +128,7 @@ def _reach(problem: Problem) -> tuple[float, float]:
             break
         if low == start or high == stop:
             raise SceneError(
-                f"{scene.name}: load: the contact reaches the end of the "
+                f"{scene.source}: load: the contact reaches the end of the "
                 f"{'trace' if scene.profile is not None else 'body'} ({touching[0]:.4g} m to "
                 f"{touching[1]:.4g} m of {low:.4g} m to {high:.4g} m); allowed is a load, a radius "
                 "and a position that keep it inside"
@@ -171,13 +171,13 @@ def _check_count(problem: Problem) -> None:
     coarsest, finest = problem.pitches[0], problem.pitches[-1]
     if high - low < FEWEST_ELEMENTS * coarsest:
         raise SceneError(
-            f"{scene.name}: resolution.pitch: is {coarsest:g} m; allowed is at most "
+            f"{scene.source}: resolution.pitch: is {coarsest:g} m; allowed is at most "
             f"{(high - low) / FEWEST_ELEMENTS:.3g} m for a contact of {high - low:.3g} m"
         )
     if high - low > MOST_ELEMENTS * finest:
         allowed = (high - low) / MOST_ELEMENTS * 2.0 ** (len(problem.pitches) - 1)
         raise SceneError(
-            f"{scene.name}: resolution.pitch: {coarsest:g} m needs {(high - low) / finest:.3g} "
+            f"{scene.source}: resolution.pitch: {coarsest:g} m needs {(high - low) / finest:.3g} "
             f"pressure elements at the finest of {len(problem.pitches)} levels; allowed is at "
             f"least {allowed:.3g} m, {MOST_ELEMENTS:g} elements"
         )

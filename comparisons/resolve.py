@@ -31,7 +31,8 @@ def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
     """
     path = find_scene(name_or_path)
     name = path.stem.strip(". ") or "scene"
-    return resolve_tables(read_toml(path), name=name, folder=path.parent, source=str(path))
+    source = os.fspath(name_or_path)  # as it was asked for: that is how to ask for it again
+    return resolve_tables(read_toml(path), name=name, folder=path.parent, source=source)
 
 
 def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> ResolvedScene:

@@ -40,7 +40,7 @@ def run(
             problem = _problem(scene, models, listener)
         return solve(problem, make_plan(problem, models), out, listener)
     except (ContactError, MeshError) as error:
-        raise SceneError(f"{scene.name}: {error}") from error
+        raise SceneError(f"{scene.source}: {error}") from error
 
 
 def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) -> Problem:
@@ -48,7 +48,7 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) 
         return problem_of(scene)
     if "finite_element" not in models:
         raise SceneError(
-            f"{scene.name}: load.approach: takes finite elements to find its load; "
+            f"{scene.source}: load.approach: takes finite elements to find its load; "
             "allowed with the half-plane alone is per_length or hertz_peak_pressure"
         )
     from comparisons.approach import problem_of_approach

@@ -17,7 +17,7 @@ from comparisons.errors import SceneError
 from comparisons.quantities import QUANTITIES
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.scene import Budget, Extent, FiniteElementSettings, Load, Resolution
-from comparisons.scene_file import scene_names
+from comparisons.scene_file import SCENES, scene_names
 from comparisons.scene_schema import SECTIONS, ToleranceTable
 
 STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
@@ -225,7 +225,7 @@ def test_written_out_tables_of_a_scene_that_comes_along(name):
     again = resolve_tables(
         json.loads(json.dumps(scene.tables)),
         name=name,
-        folder=Path(scene.source).parent,
+        folder=SCENES,
         source="record.json",
     )
     assert again == scene
