@@ -120,7 +120,7 @@ def _reach(problem: Problem) -> tuple[float, float]:
     while True:
         low, high = max(start, -reach), min(stop, reach)
         if not low < 0.0 < high:
-            raise SceneError(f"{scene.source}: load.position: the roller's centre lies off the body")
+            raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
         grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
         problem = replace(problem, extent=(low, high))
         touching = scout(problem, grid)
