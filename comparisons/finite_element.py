@@ -54,11 +54,13 @@ class Refinement:
     pitch    of the pressure elements [m]
     coarser  number of levels that the third is finer; negative for finer ones still
     block    width and depth of an unbounded body, in half-widths
+    halved   hold an unbounded body at half its width and depth, on the same mesh
     """
 
     pitch: float
     coarser: int
     block: float
+    halved: bool = False
 
 
 def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:
@@ -68,8 +70,7 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     reach = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
-        share = refinement.block / scene.finite_element.block
-        reach = np.abs(problem.extent).max() + share * LAYER_REACH * depth
+        reach = np.abs(problem.extent).max() + LAYER_REACH * depth
     if scene.width is not None:
         reach = 0.5 * scene.width
     edge = refinement.pitch / EDGES_PER_HAT
@@ -126,7 +127,8 @@ def finite_element_level(
     if approach is not None:
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
     for _ in range(MOST_MESHES):
-        bodies, held = _bodies(problem, plan, block_spec(problem, refinement, ground), stages)
+        spec = block_spec(problem, refinement, ground)
+        bodies, held = _bodies(problem, plan, spec, refinement.halved, stages)
         with stages.stage("contact", "finite elements: contact"):
             direction = _roller_slope(problem)
             compliances = [
@@ -177,7 +179,7 @@ def finite_element_level(
 
 
 def _bodies(
-    problem: Problem, plan: Plan, spec: BlockSpec, stages: Stages
+    problem: Problem, plan: Plan, spec: BlockSpec, halved: bool, stages: Stages
 ) -> tuple[tuple[ElasticBody, ...], int]:
     """The rough body, and the roller's block where it needs its own; bytes of their factors."""
     scene = problem.scene
@@ -186,8 +188,12 @@ def _bodies(
         mesh = flat
         if scene.finite_element.geometry == "rough" and scene.profile is not None:
             mesh = roughen(flat, _boundary(problem, spec))
+    within = (
+        0.5 * spec.half_width if halved and scene.width is None else np.inf,
+        0.5 * spec.depth if halved and scene.thickness is None else np.inf,
+    )
     sides = "free" if scene.width is not None else UNBOUNDED_SIDES
-    wanted = [(mesh, scene.body, Support(base=scene.base or "bonded", sides=sides))]
+    wanted = [(mesh, scene.body, Support(scene.base or "bonded", sides, within))]
     if scene.roller is not None and not plan.shared_factor:
         unbounded = scene.thickness is None and scene.width is None
         block = flat
@@ -195,7 +201,9 @@ def _bodies(
             depth = scene.finite_element.block * problem.hertz.half_width
             with stages.stage("mesh", "finite elements: mesh of the roller"):
                 block = build_block(replace(spec, half_width=0.5 * depth, depth=depth, window=None))
-        wanted.append((block, scene.roller, Support(base="bonded", sides=UNBOUNDED_SIDES)))
+        beyond = 0.5 if halved else np.inf
+        within = beyond * block.spec.half_width, beyond * block.spec.depth
+        wanted.append((block, scene.roller, Support("bonded", UNBOUNDED_SIDES, within)))
     bodies, held = [], 0
     for block, material, support in wanted:
         with stages.stage("assembly", "finite elements: assembly"):

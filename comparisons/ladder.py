@@ -45,7 +45,7 @@ def refined(
             halved = checkpoint.load("finite_element-halved")
             if halved is None:
                 halved = _solve(
-                    "finite_element", problem, plan, pitch, coarser, window, silent, 0.5
+                    "finite_element", problem, plan, pitch, coarser, window, silent, halved=True
                 )
                 checkpoint.save("finite_element-halved", halved)
         if count < planned:
@@ -101,7 +101,7 @@ def _solve(
     coarser: int,
     window: Window | None,
     listener: Listener,
-    share_of_block: float = 1.0,
+    halved: bool = False,
 ) -> Level:
     """One level of one model; what the other model alone needs is not imported."""
     if name == "half_plane":
@@ -110,6 +110,5 @@ def _solve(
         return half_plane_level(problem, plan, pitch, window, Stages(listener))
     from comparisons.finite_element import Refinement, finite_element_level
 
-    block = share_of_block * problem.scene.finite_element.block
-    refinement = Refinement(pitch, coarser, block)
+    refinement = Refinement(pitch, coarser, problem.scene.finite_element.block, halved)
     return finite_element_level(problem, plan, refinement, window, Stages(listener))

@@ -18,6 +18,8 @@ class Support:
 
     base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
     sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
+    within  (x, z) [m]: points with |x| or z beyond are held altogether, which makes a smaller
+            body of the same mesh; infinite where the block goes on to its own boundary
 
     As a stand-in for a half-plane a square block bonded and fixed all round is the best of its
     size: Hertz's largest shear stress comes out 0.22 % high at a depth of 400 half-widths and
@@ -30,12 +32,15 @@ class Support:
 
     base: Base = "bonded"
     sides: Sides = "free"
+    within: tuple[float, float] = (np.inf, np.inf)
 
     def __post_init__(self) -> None:
         if self.base not in get_args(Base):
             raise ValueError(f"base must be one of {get_args(Base)}, not {self.base!r}")
         if self.sides not in get_args(Sides):
             raise ValueError(f"sides must be one of {get_args(Sides)}, not {self.sides!r}")
+        if not min(self.within) > 0.0:
+            raise ValueError(f"within must be two positive lengths, not {self.within}")
 
     @property
     def can_slide(self) -> bool:
@@ -54,6 +59,7 @@ def held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) ->
         held[flanks, 0] = True
     if support.sides == "fixed":
         held[flanks, 1] = True
+    held[(np.abs(mesh.points) > support.within).any(axis=1)] = True
     if support.can_slide:
         middle = np.argmin(np.abs(mesh.points[sides.bottom, 0]))
         held[sides.bottom[middle], 0] = True

@@ -106,7 +106,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     level = half_plane_level(problem, plan, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
-    bodies, _ = _bodies(problem, plan, block_spec(problem, refinement, patches), Stages())
+    bodies, _ = _bodies(problem, plan, block_spec(problem, refinement, patches), False, Stages())
     compliance = FiniteElementCompliance(bodies[0], grid.x[0], grid.pitch, grid.count)
     factors = _factors(problem, bodies)
     one = solve_with_model(

@@ -154,6 +154,25 @@ def test_supports_hold_what_they_say(small):
             assert (sides != "fixed") == (np.abs(moved[flank, 1]).min() > 0.0)
 
 
+def test_a_body_held_within_is_the_smaller_body(structured_block):
+    """The middle of a block, held at half its extent, is a block of half its size."""
+    line = np.linspace(-2.0, 2.0, 17)
+    large = structured_block(line, np.linspace(0.0, 2.0, 9))
+    small = structured_block(line[4:13], np.linspace(0.0, 1.0, 5))
+    held = elastic_body(large, MATERIAL, Support("bonded", "fixed", within=(0.99, 0.99)))
+    alone = elastic_body(small, MATERIAL, Support("bonded", "fixed"))
+    places = {tuple(p): i for i, p in enumerate(np.round(large.points, 9))}
+    same = np.array([places[tuple(p)] for p in np.round(small.points, 9)])
+    load = np.random.default_rng(3).normal(size=small.points.shape)
+    wider = np.zeros(large.points.shape)
+    wider[same] = load
+    moved = held.solve(wider)
+    np.testing.assert_allclose(moved[same], alone.solve(load), atol=1e-12)
+    assert not np.any(np.delete(moved, same, axis=0))
+    with pytest.raises(ValueError, match="within"):
+        Support(within=(0.0, 1.0))
+
+
 def test_a_body_that_can_slide_refuses_a_net_horizontal_load(small):
     body = elastic_body(small(), MATERIAL, Support("frictionless", "free"))
     load = pressed(body)
