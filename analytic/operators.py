@@ -5,17 +5,23 @@ zero one pitch beyond the ends. An operator C maps them to the Galerkin averages
 displacement, (C p)_i = integral phi_i u_z dx [m^2], u_z [m] positive into the body. C is
 symmetric. The contact solver knows nothing else of the body.
 
+The half-plane also comes with the uniform strips of Webster and Sayles, p_i over its own pitch and
+the displacement taken at the middle of the strip, (C p)_i = h u_z(x_i): their method as published,
+for comparison.
+
     h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
     phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
 """
 
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import scipy.fft
 import scipy.linalg
 
-from analytic.elements import hat_galerkin
+from analytic.elements import hat_galerkin, strip_displacement
+
+Element = Literal["hat", "strip"]
 
 RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
 
@@ -37,7 +43,7 @@ class ModelOperator(ComplianceOperator, Protocol):
 
 
 class HalfPlane:
-    """Compliance of a half-plane to hat pressures, exact log-kernel coefficients, applied by FFT.
+    """Compliance of a half-plane, exact log-kernel coefficients, applied by FFT.
 
     u_z(x) = -(2 / (pi E*)) integral p(s) ln(|x - s| / L) ds (Johnson 1985, eq. 2.25).
     The plane-strain half-plane leaves displacements undefined up to a constant; the datum L is
@@ -45,14 +51,21 @@ class HalfPlane:
     operator positive definite and scale with the unit of length.
     With E* of two bodies the displacement is the sum of both.
 
-    count    number of hats          pitch    h [m]
+    count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
     datum    L [m]; default the support (count + 1) h
+    element  "hat" (Galerkin) or "strip" (uniform, collocated)
     """
 
     def __init__(
-        self, count: int, pitch: float, modulus: float, datum: float | None = None
+        self,
+        count: int,
+        pitch: float,
+        modulus: float,
+        datum: float | None = None,
+        element: Element = "hat",
     ) -> None:
+        self.element = element
         self.count = count
         self.pitch = pitch
         self.modulus = modulus
@@ -64,7 +77,8 @@ class HalfPlane:
 
     def coefficients(self) -> np.ndarray:
         """First column (n,) of the symmetric Toeplitz matrix D_ij [m^2/Pa] of this operator."""
-        log_integral = hat_galerkin(np.arange(self.count, dtype=float))
+        kernel = hat_galerkin if self.element == "hat" else strip_displacement
+        log_integral = kernel(np.arange(self.count, dtype=float))
         scale = 2.0 * self.pitch**2 / (np.pi * self.modulus)
         return -scale * (log_integral + np.log(self.pitch / self.datum))
 
@@ -78,8 +92,9 @@ class HalfPlane:
         return self._convolve(displacement, self._inverse_symbol)
 
     def coarsened(self) -> "HalfPlane":
-        """The same half-plane on hats twice as wide, centred on nodes 1, 3, 5, …"""
-        return HalfPlane(self.count // 2, 2.0 * self.pitch, self.modulus, self.datum)
+        """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        half = self.count // 2
+        return HalfPlane(half, 2.0 * self.pitch, self.modulus, self.datum, self.element)
 
     def _convolve(self, values: np.ndarray, transfer: np.ndarray) -> np.ndarray:
         spectrum = scipy.fft.rfft(values, self._length)
@@ -94,14 +109,16 @@ class HalfPlane:
         return circulant
 
     def _symbol(self) -> np.ndarray:
-        """2 / (E* |k|) seen through hats, summed over the aliases of each wavenumber [m^2/Pa]."""
+        """2 / (E* |k|) seen through the elements, summed over each wavenumber's aliases [m^2/Pa].
+
+        A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc.
+        """
         cycles = np.arange(self._length // 2 + 1) / self._length
         cycles[0] = 0.5 / self._length  # the mean has no finite compliance; any positive value does
         aliased = cycles[:, None] + np.arange(-3, 4)
         wavenumber = 2.0 * np.pi * np.abs(aliased) / self.pitch
-        return self.pitch * np.sum(
-            2.0 / (self.modulus * wavenumber) * np.sinc(aliased) ** 4, axis=1
-        )
+        shape = np.sinc(aliased) ** (4 if self.element == "hat" else 1)
+        return self.pitch * np.sum(2.0 / (self.modulus * wavenumber) * shape, axis=1)
 
 
 class SumOfBodies:

@@ -89,6 +89,23 @@ class TestHertz:
         )
 
 
+def test_uniform_strips_converge_to_hertz():
+    """The method as published: collocated strips, of first order at the contact's edge."""
+    errors = []
+    for elements in (120, 240, 480, 960):
+        reach = 1.5 * HERTZ.half_width
+        grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
+        operator = HalfPlane(grid.count, grid.pitch, MODULUS, element="strip")
+        gap = grid.pitch * roller_gap(RADIUS)(grid.x)
+        solution = solve_contact(operator, gap, grid.weights, Constraints(load=LOAD))
+        assert solution.converged
+        exact = HERTZ.pressure(grid.x)
+        errors.append(np.linalg.norm(solution.pressure - exact) / np.linalg.norm(exact))
+    assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.1)
+    assert errors[-1] < 1e-3
+    assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
+
+
 def rough_gap(seed: int, amplitude: float = 0.4e-6):
     """Roller over a seeded sum of waves from 20 um to 200 um."""
     rng = np.random.default_rng(seed)

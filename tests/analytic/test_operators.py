@@ -34,9 +34,21 @@ def test_coefficients_are_the_averages_of_the_displacement_under_a_hat():
     assert operator.coefficients() == pytest.approx(np.array(column), rel=1e-6)
 
 
+def test_strips_are_the_influence_coefficients_of_webster_and_sayles():
+    """Deflection at the middle of each strip under unit pressure on one (Johnson, eq. 2.30a)."""
+    operator = HalfPlane(5, PITCH, MODULUS, element="strip")
+    points, weights = leggauss(60)
+    for offset in range(1, 5):
+        source = 0.5 * points * PITCH
+        log = np.log(np.abs(offset * PITCH - source) / operator.datum)
+        deflection = -2.0 / (np.pi * MODULUS) * np.sum(0.5 * PITCH * weights * log)
+        assert operator.coefficients()[offset] == pytest.approx(PITCH * deflection, rel=1e-12)
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("count", [3, 50, 400])
-def test_operator_and_preconditioner_are_positive_definite(count):
-    operator = HalfPlane(count, PITCH, MODULUS)
+def test_operator_and_preconditioner_are_positive_definite(count, element):
+    operator = HalfPlane(count, PITCH, MODULUS, element=element)
     columns = np.eye(count)
     approximate_inverse = np.array([operator.precondition(column) for column in columns])
     asymmetry = np.abs(approximate_inverse - approximate_inverse.T).max()
