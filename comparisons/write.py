@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.plane_stress import PlaneStress
+from comparisons.deformed import deformed_height
 from comparisons.files import published
 from comparisons.level import Level, ModelRun
 from comparisons.outcome import Outcome
@@ -32,19 +33,6 @@ def write_files(outcome: Outcome, listener: Listener) -> None:
         from comparisons.report.page import render
 
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
-
-
-def deformed_height(problem: Problem, level: Level) -> np.ndarray:
-    """Heights (n,) [m] of the rough body's surface under load, averaged over each hat.
-
-    Zero displacement at the mean of the grid's two ends: a datum that both models have.
-    """
-    height = np.zeros(level.grid.count)
-    if problem.scene.profile is not None:
-        height = level.grid.average(problem.scene.profile.spline(), problem.knots)
-        height = height / level.grid.weights
-    ends = level.displacement[[0, -1]].mean()
-    return height - (level.displacement - ends)
 
 
 def write_contact(path: Path, problem: Problem, level: Level) -> None:

@@ -26,50 +26,42 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 PICTURE = Path(__file__).parent / "ground-unrun.png"
-PIXELS = 192  # to the inch: twice those of a page that is read at 800 pixels
+PIXELS = 192  # to the inch: twice what 800 pixels across need
 WIDTH, LEFT, RIGHT = 8.35, 0.72, 0.12  # inches
-PRESSURE, DIFFERENCES, SURFACES, SHEAR = 2.1, 0.55, 1.0, 2.0  # inches: heights of the panels
-TOP, SPACE, TITLE, FOOT, BAR, LABEL = 0.08, 0.14, 0.32, 0.44, 0.1, 0.26
+# Inches from panel to panel, and of the panel: pressures, differences, surfaces, shear, its bar.
+PANELS = ((0.08, 2.1), (0.14, 0.55), (0.14, 1.0), (0.32, 2.0), (0.44, 0.1))
+FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
 
 def overview(outcome: Outcome) -> "Figure":
     """The picture of a run of both models with [stress]; to be called inside `drawing()`."""
-    hertz, window = outcome.problem.hertz, outcome.window
-    height = TOP + PRESSURE + DIFFERENCES + SURFACES + 2 * SPACE + TITLE + SHEAR + FOOT + BAR
-    height += LABEL
-    drawn = figure(WIDTH, height)
-    edge = height - TOP
-    panels = []
-    for tall, above in (
-        (PRESSURE, 0.0),
-        (DIFFERENCES, SPACE),
-        (SURFACES, SPACE),
-        (SHEAR, TITLE),
-        (BAR, FOOT),
-    ):
+    half_width, window = outcome.problem.hertz.half_width, outcome.window
+    wide, height = WIDTH - LEFT - RIGHT, FOOT + sum(map(sum, PANELS))
+    drawn, edge, panels = figure(WIDTH, height), height, []
+    for above, tall in PANELS:
         edge -= above + tall
-        wide = WIDTH - LEFT - RIGHT
-        panels.append(drawn.add_axes((LEFT / WIDTH, edge / height, wide / WIDTH, tall / height)))
+        box = (LEFT / WIDTH, edge / height, wide / WIDTH, tall / height)
+        panels.append(drawn.add_axes(box))
     pressures, differences, surfaces, shear, bar = panels
     _pressures(pressures, outcome)
     _differences(differences, outcome)
-    reach = REACH * hertz.half_width
-    draw_surfaces(surfaces, outcome, (-reach, reach), Scale(hertz.half_width, "a"))
+    across = (-REACH * half_width, REACH * half_width)
+    draw_surfaces(surfaces, outcome, across, Scale(half_width, "a"))
     _shear(shear, bar, outcome)
-    for panel in (pressures, differences, surfaces, shear):
+    for panel in panels[:-1]:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (WIDTH - LEFT - RIGHT), 0.5)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / wide, 0.5)
         panel.tick_params(labelbottom=panel is shear)
     shear.set_xlabel("x/a")
-    shear.set_ylim(window.z[-1] / hertz.half_width, 0.0)
+    shear.set_ylim(window.z[-1] / half_width, 0.0)
     return drawn
 
 
 def save(outcome: Outcome, path: Path) -> None:
     """Write the picture of a finished run as PNG."""
     with drawing():
-        overview(outcome).savefig(path, dpi=PIXELS, metadata={"Software": None})
+        overview(outcome).savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
 
 
 def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:

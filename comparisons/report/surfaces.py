@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.deformed import deformed_height
 from comparisons.level import Level
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
 from comparisons.report.numbers import Scale, scale_of
 from comparisons.report.style import BODY, LINES, OUTLINE, ROLLER
-from comparisons.write import deformed_height
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
