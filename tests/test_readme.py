@@ -1,0 +1,344 @@
+"""The README against the project: its commands, scene, files, links, table and bounds.
+
+The scene of five lines is run as it stands, on a small profile made here. `ground-unrun` is solved
+by the half-plane, whose column must be the README's; `tests/comparisons` runs it by both models.
+"""
+
+import ast
+import io
+import re
+import shlex
+import tomllib
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons import run as run_module
+from comparisons.cli import RESULTS, main
+from comparisons.compare import figures
+from comparisons.exit_status import ExitStatus
+from comparisons.files import OWN_FILES
+from comparisons.half_plane import half_plane_level
+from comparisons.outcome import Outcome
+from comparisons.plan import MODELS, make_plan
+from comparisons.problem import problem_of
+from comparisons.quantities import QUANTITIES
+from comparisons.report import overview
+from comparisons.report.style import drawing
+from comparisons.resolve import load_scene
+from comparisons.result import (
+    BOUNDARY_PER_SLOPE_SQUARED,
+    STRAIN_PER_PRESSURE_OVER_MODULUS,
+    TILT_PER_A_OVER_RADIUS,
+)
+from comparisons.scene_file import scene_names
+from comparisons.stages import Stages
+from comparisons.table import SHORT
+from comparisons.window import window_of
+
+PROJECT = Path(__file__).resolve().parents[1]
+README = (PROJECT / "README.md").read_text(encoding="utf-8")
+FENCED = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+COMMANDS = [command for kind, text in FENCED if kind == "console" for command in text.splitlines()]
+IN_UNITS = {"GPa": 1e9, "um": 1e-6}
+
+
+def fenced(kind: str) -> str:
+    """The one fenced block of a kind."""
+    [text] = [text for found, text in FENCED if found == kind]
+    return text
+
+
+def rows(heading: str) -> list[list[str]]:
+    """Cells of the table whose first column is called `heading`."""
+    lines = iter(README.splitlines())
+    for line in lines:
+        if line.startswith(f"| {heading} |"):
+            break
+    next(lines)
+    found = []
+    for line in lines:
+        if not line.startswith("|"):
+            return found
+        found.append([cell.strip() for cell in line.strip("|").split(" | ")])
+    return found
+
+
+def in_ticks(text: str) -> list[str]:
+    return re.findall(r"`([^`]+)`", text)
+
+
+@dataclass(frozen=True)
+class Call:
+    """A command that was run: its status, what it printed, and the run behind it."""
+
+    status: int
+    printed: str
+    outcome: Outcome | None
+
+
+def call(arguments: list[str], folder: Path) -> Call:
+    """`crosscheck` with these arguments, in a folder."""
+    outcomes, original = [], run_module.run
+
+    def watched(*given: object) -> Outcome:
+        outcomes.append(original(*given))
+        return outcomes[-1]
+
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:
+        patch.chdir(folder)
+        patch.setattr(run_module, "run", watched)
+        status = main(arguments)
+    return Call(status, printed.getvalue(), outcomes[0] if outcomes else None)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """The README's own scene, and a small profile where it looks for one."""
+    folder = tmp_path_factory.mktemp("readme")
+    (folder / "mine.toml").write_text(fenced("toml"))
+    x = np.linspace(-1200.0, 1200.0, 121)
+    height = 0.2 * np.cos(x / 32.0) + 0.1 * np.sin(x / 53.0)
+    table = np.column_stack([x, height])
+    trace = folder / tomllib.loads(fenced("toml"))["profile"]["file"]
+    np.savetxt(trace, table, delimiter=",", header="x_um,height_um", comments="")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def mine(folder) -> Call:
+    [command] = [command for command in COMMANDS if command.endswith("run mine.toml")]
+    return call(shlex.split(command)[1:], folder)
+
+
+@pytest.fixture(scope="module")
+def unrun() -> dict[float, dict[str, float]]:
+    """Figures of the half-plane on the README's first scene, by friction coefficient."""
+    problem = problem_of(load_scene("ground-unrun"))
+    plan = make_plan(problem, ("half_plane",))
+    level = half_plane_level(problem, plan, problem.pitches[-1], window_of(problem), Stages())
+    return {friction: figures(level, problem, friction) for friction in problem.scene.friction}
+
+
+def test_commands_are_the_two_and_the_one_for_a_profile():
+    assert COMMANDS == [
+        "./crosscheck run ground-unrun",
+        "./crosscheck test",
+        "./crosscheck run mine.toml",
+    ]
+
+
+def test_first_command_runs_both_models_and_fills_the_folder_that_is_named(monkeypatch, tmp_path):
+    calls = []
+
+    def noted(scene: object, *rest: object) -> Outcome:
+        calls.append((scene.name, *rest[:2]))
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run_module, "run", noted)
+    monkeypatch.chdir(tmp_path)
+    assert main(shlex.split(COMMANDS[0])[1:]) == ExitStatus.INTERRUPTED
+    assert calls == [("ground-unrun", RESULTS / "ground-unrun", MODELS)]
+    assert f"In `{RESULTS / 'ground-unrun'}`" in README
+
+
+def test_test_command_is_the_launchers():
+    """Which runs pytest on the whole suite: see `test_launcher`. Here it would not end."""
+    launcher = (PROJECT / "crosscheck").read_text()
+    assert f'if [ "${{1-}}" = {shlex.split(COMMANDS[1])[1]} ]; then' in launcher
+    assert "-m pytest" in launcher
+
+
+def test_commands_in_passing_work(tmp_path):
+    """What the doctor finds is tested with it: each of its trials takes seconds."""
+    assert set(re.findall(r"`\./crosscheck ([^`]+)`", README)) == {"scenes", "doctor"}
+    for arguments in (["scenes"], ["doctor", "--help"]):
+        done = call(arguments, tmp_path)
+        assert done.status == ExitStatus.DONE and done.printed
+
+
+def test_own_scene_has_five_lines_and_works(mine):
+    assert len(fenced("toml").splitlines()) == 5
+    assert mine.status == ExitStatus.DONE
+    assert "HOLDS" in mine.printed
+    assert all(run.finest.solution.converged for run in mine.outcome.runs.values())
+
+
+def test_files_are_those_that_a_run_leaves(mine, folder):
+    named = {
+        name.replace("<model>", model)
+        for [cell, _] in rows("file")
+        for name in in_ticks(cell)
+        for model in MODELS
+    }
+    out = folder / mine.outcome.directory
+    left = {str(path.relative_to(out)) for path in out.rglob("*") if path.is_file()}
+    assert named == left == set(OWN_FILES)
+
+
+def test_columns_and_arrays_are_those_that_the_files_hold(mine, folder):
+    import meshio
+
+    said = {cell: text for [cell, text] in rows("file")}
+    out = folder / mine.outcome.directory
+    for model in MODELS:
+        header = (out / model / "contact.csv").read_text().splitlines()[0]
+        assert said["`<model>/contact.csv`"].split(", ") == header.split(",")
+        arrays = meshio.read(out / model / "stress.vtu").point_data
+        listed = said["`<model>/stress.vtu`"].split(" [Pa]")[0].split(", ")
+        assert [name for name in arrays if "(" not in name] == listed
+
+
+def test_links_lead_somewhere():
+    links = re.findall(r"\]\(([^)]+)\)", README)
+    assert len(links) > 5
+    for link in links:
+        if link.startswith("#"):
+            assert re.search(rf"^## {link[1:]}$", README, re.MULTILINE | re.IGNORECASE), link
+        else:
+            assert (PROJECT / link).exists(), link
+
+
+def test_scenes_are_those_that_come_along():
+    assert sorted(name for [cell, _] in rows("scene") for name in in_ticks(cell)) == scene_names()
+
+
+def test_exit_statuses_are_the_programs():
+    assert [int(number) for [number, _] in rows("exit status")] == [
+        ExitStatus.DONE,
+        ExitStatus.OUTSIDE_TOLERANCE,
+        ExitStatus.BAD_INPUT,
+        ExitStatus.NOT_CONVERGED,
+    ]
+
+
+def test_packages_are_listed_in_the_order_of_their_imports():
+    packages = ["analytic", "meshes", "fem", "comparisons"]
+    assert [re.match(r"\[`(\w+)`\]", cell)[1] for [cell, _] in rows("package")] == packages
+
+
+def shown_rows() -> list[tuple[str, list[str], list[str]]]:
+    """Rows of the table that is shown: quantity in result.json, frictions, other cells."""
+    names = {label: name for name, label in SHORT.items()}
+    lines = fenced("text").split("─\n")[1].split("\n\n")[0].splitlines()
+    found = []
+    for line in lines:
+        label, frictions, *cells = re.split(r"\s{2,}", line.strip())
+        found.append((names[label], frictions.split(", "), cells))
+    return found
+
+
+def test_shown_table_has_every_quantity_and_the_look_of_a_run(mine):
+    shown = fenced("text")
+    assert {name for name, _, _ in shown_rows()} == set(QUANTITIES)
+    head = shown.split("─")[0].split()
+    assert head == mine.printed.split("─")[0].split("\n\n", 1)[1].split()
+    assert shown.splitlines()[-3].startswith("HOLDS  The half-plane holds here: ")
+
+
+def test_shown_half_plane_is_within_the_uncertainty_that_is_shown(unrun):
+    checked = 0
+    for name, frictions, cells in shown_rows():
+        if QUANTITIES[name].of_pair:
+            continue
+        number, *unit = cells[0].split()
+        shown = float(number) * (IN_UNITS[unit[0]] if unit else 1.0)
+        uncertainty = float(next(c for c in cells[3:] if re.fullmatch(r"[\d.]+", c))) / 100.0
+        for friction in frictions:
+            found = unrun[float(friction)][name]
+            assert found == pytest.approx(shown, rel=uncertainty), name
+            checked += 1
+    assert checked == 12
+
+
+def test_shown_verdicts_follow_from_the_figures_beside_them():
+    judged = [cells for _, _, cells in shown_rows() if cells[-1] == "agree"]
+    assert len(judged) == 4
+    for _, _, difference, _, tolerance, _ in judged:
+        assert abs(float(difference)) <= float(tolerance)
+
+
+def numbers_in(test: str) -> set[float]:
+    """Every number in the source of a test, decorators and all."""
+    path, *names = test.split("::")
+    node = ast.parse((PROJECT / path).read_text())
+    for name in names:
+        [node] = [n for n in node.body if getattr(n, "name", None) == name]
+    return {
+        n.value
+        for n in ast.walk(node)
+        if isinstance(n, ast.Constant) and isinstance(n.value, float | int)
+    }
+
+
+@pytest.mark.parametrize("row", rows("figure"), ids=lambda row: row[0])
+def test_bounds_are_those_of_the_tests_that_are_named(row):
+    _, _, found, bound, test = row
+    assert 0.0 < float(found) < float(bound)
+    assert float(bound) in numbers_in(*in_ticks(test))
+
+
+def test_a_bound_that_no_test_has_is_seen():
+    [test] = in_ticks(rows("figure")[0][-1])
+    assert 1.5e-15 not in numbers_in(test)
+    with pytest.raises(ValueError):
+        numbers_in(f"{test}_no_more")
+
+
+def test_effects_that_are_left_out_have_the_factors_that_are_named():
+    assert "(a quarter of a/R)" in README and TILT_PER_A_OVER_RADIUS == 1 / 4
+    assert "(a fifth of peak pressure over E)" in README
+    assert STRAIN_PER_PRESSURE_OVER_MODULUS == 1 / 5
+    assert "(its mean square, for pressures)" in README and BOUNDARY_PER_SLOPE_SQUARED == 1
+
+
+def size_of(picture: Path) -> tuple[int, int]:
+    """Pixels across and down of a PNG."""
+    head = picture.read_bytes()[:24]
+    assert head.startswith(b"\x89PNG\r\n\x1a\n")
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+class TestPicture:
+    def test_is_the_readmes_and_twice_800_pixels_across(self):
+        [link] = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", README)
+        assert (PROJECT / link).samefile(overview.PICTURE)
+        assert size_of(overview.PICTURE)[0] == pytest.approx(1600, abs=10)
+
+    def test_is_made_anew_by_one_call(self, mine, folder, monkeypatch, tmp_path):
+        asked = []
+        monkeypatch.setattr(
+            run_module, "run", lambda scene, *_: asked.append(scene.name) or mine.outcome
+        )
+        overview.remake(str(folder / "mine.toml"), tmp_path / "new.png")
+        assert asked == ["mine"]
+        assert size_of(tmp_path / "new.png") == size_of(overview.PICTURE)
+
+    def test_holds_the_figures_of_the_run(self, mine):
+        hertz, window = mine.outcome.problem.hertz, mine.outcome.window
+        with drawing():
+            pressures, differences, surfaces, shear, _ = overview.overview(mine.outcome).axes
+        drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
+        half_plane, finite_element = (mine.outcome.runs[name].finest for name in MODELS)
+        for label, level in (("half-plane", half_plane), ("finite elements", finite_element)):
+            assert drawn[label][:, 0] * hertz.half_width == pytest.approx(level.grid.x)
+            assert drawn[label][:, 1] * hertz.peak_pressure == pytest.approx(
+                level.solution.pressure
+            )
+        assert np.max(drawn["Hertz, smooth"][:, 1]) == pytest.approx(1.0)
+        difference = half_plane.solution.pressure - finite_element.solution.pressure
+        assert differences.lines[0].get_ydata() * hertz.peak_pressure == pytest.approx(difference)
+        assert len(surfaces.lines) == 4
+        field = finite_element.stress(mine.outcome.problem.scene.friction[-1]).field.tau1
+        [image] = shear.images
+        assert np.max(image.get_array()) == pytest.approx(
+            np.max(field) / hertz.peak_pressure, rel=0.02
+        )
+        low, high = shear.get_ylim()
+        assert (low, high) == (window.z[-1] / hertz.half_width, 0.0)
+        assert {panel.get_xlim() for panel in (pressures, differences, surfaces, shear)} == {
+            (-overview.REACH, overview.REACH)
+        }
