@@ -66,14 +66,15 @@ class Refinement:
 def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:
     """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
     scene, half_width = problem.scene, problem.hertz.half_width
+    edge = refinement.pitch / EDGES_PER_HAT
     depth = refinement.block * half_width
     reach = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
-        reach = np.abs(problem.extent).max() + LAYER_REACH * depth
+        # whole edges: the rounding of a predicted contact must not make another mesh
+        reach = edge * np.ceil((np.abs(problem.extent).max() + LAYER_REACH * depth) / edge)
     if scene.width is not None:
         reach = 0.5 * scene.width
-    edge = refinement.pitch / EDGES_PER_HAT
     intervals = refined_intervals(
         patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
     )

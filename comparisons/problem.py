@@ -28,6 +28,7 @@ MOST_HATS = 6000  # on the contact at the third level; more only where refinemen
 FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
 FIRST_TOUCH_POINTS = 100_001
+FIGURES = 4  # decimal, of the pressure elements on a half-width at the third level
 MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
 
 
@@ -161,6 +162,8 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
     finest = max(finest, (problem.extent[1] - problem.extent[0]) / MOST_HATS)
+    # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
+    finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
     return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
 
 
