@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from analytic.plane_stress import PlaneStress
 from analytic.stress_elements import FrictionStress, hat_at, strip_between
+from analytic.threads import for_each
 
 Element = Literal["hat", "strip"]
 
@@ -52,12 +53,14 @@ def friction_stress_at(
     nodes, load = x_nodes[loaded], pressure[loaded]
     parts = np.zeros((4, x.size))
     step = max(1, _BLOCK // max(1, len(loaded)))
-    for first in range(0, x.size, step):
-        here = slice(first, first + step)
+
+    def add_up(here: slice) -> None:
         part = _unit(x.ravel()[here, None], z.ravel()[here, None], nodes, pitch, element)
         normal = part.normal
         for row, values in enumerate((normal.sx, normal.sz, normal.txz, part.traction_sx)):
             parts[row, here] = values @ load
+
+    for_each(add_up, (slice(i, i + step) for i in range(0, x.size, step)))
     parts = parts.reshape(4, *x.shape)
     return FrictionStress(PlaneStress(*parts[:3]), parts[3])
 

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from analytic.plane_stress import PlaneStress
 from analytic.stress import Element, check_element, uniform_pitch
 from analytic.stress_elements import FrictionStress, hat_at, strip_between
+from analytic.threads import for_each
 
 _BLOCK = 2**15  # values of one kernel at a time
 
@@ -145,11 +146,13 @@ def _convolve(
     spectrum = rfft(source, size)
     points = slice(len(source) - 1, len(offsets), stride)
     levels = max(1, _BLOCK // size)
-    for start in range(0, len(depths), levels):
-        block = slice(start, start + levels)
+
+    def convolve(block: slice) -> None:
         for row, kernel in enumerate(_kernels(offsets, depths[block], subdivisions, element)):
             convolution = irfft(rfft(kernel, size) * spectrum, size)
             parts[row, block] = convolution[:, points]
+
+    for_each(convolve, (slice(i, i + levels) for i in range(0, len(depths), levels)))
 
 
 def _kernels(

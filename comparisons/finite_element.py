@@ -272,7 +272,7 @@ def _stresses(
         friction,
         _roller_slope(problem) if body.curved else straight_down,
     )
-    bounds = (window.x[0], window.x[-1], window.z[-1])
+    bounds = (-window.reach, window.reach, window.z[-1])
     quantities = {
         "tau1": lambda stress: stress.tau1,
         "txz": lambda stress: np.abs(stress.txz),

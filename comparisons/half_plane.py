@@ -1,7 +1,6 @@
 """The half-plane model of a scene on one level of refinement."""
 
 from dataclasses import replace
-from fractions import Fraction
 
 from analytic.contact import solve_contact
 from analytic.operators import HalfPlane
@@ -12,6 +11,7 @@ from comparisons.level import Level, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.stages import Stages
+from comparisons.window import search_window
 
 
 def half_plane_level(
@@ -44,21 +44,23 @@ def _stresses(
     problem: Problem, plan: Plan, level: Level, window: Window
 ) -> tuple[StressResult, ...]:
     """Fields on the window and extremes off the grid, one set for each friction coefficient."""
-    x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
-    # the window's spacing is the pitch times or over a power of two
-    ratio = Fraction((window.x[1] - window.x[0]) / pitch).limit_denominator(1024)
-    fields = friction_field(
-        x,
-        pressure,
-        (window.x[0], window.x[-1]),
-        window.z,
-        subdivisions=ratio.denominator,
-        stride=ratio.numerator,
+    x, pressure = level.grid.x, level.solution.pressure
+    shown, searched = (
+        friction_field(
+            x,
+            pressure,
+            (points.x[0], points.x[-1]),
+            points.z,
+            subdivisions=points.subdivisions(level.grid.pitch),
+            stride=points.stride(level.grid.pitch),
+        )
+        for points in (window, search_window(problem, window))
     )
     results = []
     for friction in problem.scene.friction:
-        field = fields.at(friction)
-        found = stress_maxima(x, pressure, friction, field, problem.scene.body.poissons_ratio)
+        found = stress_maxima(
+            x, pressure, friction, searched.at(friction), problem.scene.body.poissons_ratio
+        )
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
-        results.append(StressResult(friction, extremes, field.stress))
+        results.append(StressResult(friction, extremes, shown.at(friction).stress))
     return tuple(results)

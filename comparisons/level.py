@@ -12,10 +12,27 @@ from meshes.block import BlockMesh
 
 @dataclass(frozen=True)
 class Window:
-    """Points of the common field: every x (k,) [m] at every depth z (m,) [m], z from 0 on."""
+    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
+
+    reach   [m] extremes are searched at |x| <= reach, whatever the density of x
+
+    The spacing in x is the pitch of every level's pressure elements times or over a power of two.
+    """
 
     x: np.ndarray
     z: np.ndarray
+    reach: float
+
+    def stride(self, pitch: float) -> int:
+        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
+        return 2 ** max(0, self._octaves(pitch))
+
+    def subdivisions(self, pitch: float) -> int:
+        """Parts into which x divides a pitch [m], 1 where x is coarser."""
+        return 2 ** max(0, -self._octaves(pitch))
+
+    def _octaves(self, pitch: float) -> int:
+        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ MOST_HATS = 6000  # on the contact at the third level; more only where refinemen
 FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
 FIRST_TOUCH_POINTS = 100_001
-FIGURES = 4  # decimal, of the pressure elements on a half-width at the third level
+FIGURES = 6  # decimal, of the pressure elements on a half-width at the third level
 MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
 
 

@@ -195,7 +195,7 @@ class Several(FieldType):
 
 @dataclass(frozen=True)
 class Grid(FieldType):
-    """[columns, rows] of a field of points, at least 2 each and at most `most` in all."""
+    """[columns, rows] of a field of points, at least 3 each and at most `most` in all."""
 
     most: int
 
@@ -207,7 +207,7 @@ class Grid(FieldType):
         for number in given:
             if isinstance(number, bool) or not isinstance(number, int):
                 raise self.wrong(f"holds {describe(number)}")
-            if number < 2:
+            if number < 3:
                 raise self.wrong(f"holds {number}")
         columns, rows = given
         if columns * rows > self.most:
@@ -216,6 +216,6 @@ class Grid(FieldType):
 
     def allowed(self) -> str:
         return (
-            "a list of two whole numbers [along x, along z], at least 2 each "
+            "a list of two whole numbers [along x, along z], at least 3 each "
             f"and at most {self.most} points in all"
         )
