@@ -1,12 +1,11 @@
 """Finished levels of an unfinished run, on disk, so that a run that was stopped goes on.
 
-The folder stands beside the run's own and goes when the run has ended. A level is kept as one
-.npz file: its arrays, and a JSON text that says how they make up the level. What it is good for
-is told by a key, the hash of everything that shapes a level: scene, profile, models, versions,
-and the program's own text.
+The folder is hidden in the run's own, or beside it while there is none, and goes when the run
+has ended. A level is kept as one .npz file: its arrays, and a JSON text that says how they make
+up the level. What it is good for is told by a key, the hash of everything that shapes a level:
+scene, profile, models, versions, and the program's own text.
 """
 
-import contextlib
 import hashlib
 import json
 import os
@@ -20,8 +19,10 @@ import numpy as np
 from analytic.contact import ContactSolution, Residuals
 from analytic.gap import HatGrid
 from analytic.plane_stress import Extremum, PlaneStress
+from comparisons.files import ATTEMPTS, unfinished
 from comparisons.level import Level, MeshField, StressResult
 from comparisons.plan import Plan
+from comparisons.rank import is_first
 from comparisons.record import digest, versions
 from comparisons.scene import ResolvedScene
 from meshes.block import BlockMesh, BlockSpec
@@ -49,7 +50,7 @@ class Checkpoint:
     """Levels of the run that carries out `plan` for `scene` and writes `out`."""
 
     def __init__(self, out: Path, scene: ResolvedScene, plan: Plan) -> None:
-        self.folder = out.parent / f".{out.name}.unfinished"
+        self.folder = unfinished(out)
         self.key = _key(scene, plan)
 
     def load(self, name: str) -> Level | None:
@@ -65,18 +66,29 @@ class Checkpoint:
             return None  # absent, or cut short: it is computed again
 
     def save(self, name: str, level: Level) -> None:
-        """Keep a level; whole or not at all."""
+        """Keep a level; whole or not at all.
+
+        Another run into the same folder may end, and remove it, at any moment; a level that is
+        lost to that is computed again if it is ever needed.
+        """
+        if not is_first():
+            return
         arrays: dict[str, np.ndarray] = {}
         outline = {"key": self.key, "level": _encoded(level, arrays)}
-        self.folder.mkdir(parents=True, exist_ok=True)
-        part = self.folder / f"{name}.part.npz"
-        np.savez(part, outline=np.array(json.dumps(outline)), **arrays)
-        os.replace(part, self.folder / f"{name}.npz")
+        part = self.folder / f"{name}.{os.getpid()}.part.npz"
+        for _ in range(ATTEMPTS):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            try:
+                np.savez(part, outline=np.array(json.dumps(outline)), **arrays)
+                os.replace(part, self.folder / f"{name}.npz")
+                return
+            except FileNotFoundError:
+                continue
 
     def discard(self) -> None:
         """Remove what is kept."""
-        with contextlib.suppress(FileNotFoundError):
-            shutil.rmtree(self.folder)
+        if is_first():
+            shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def _key(scene: ResolvedScene, plan: Plan) -> str:

@@ -12,7 +12,7 @@ import sys
 import traceback
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -21,6 +21,7 @@ import typer
 
 from comparisons.errors import InputError, one_line
 from comparisons.exit_status import ExitStatus
+from comparisons.rank import is_first
 from comparisons.stages import Listener, silent
 
 Job = Callable[[], int]
@@ -72,10 +73,20 @@ def doctor() -> Job:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line (default: the process's own) and return the exit status."""
+    """Run the command line (default: the process's own) and return the exit status.
+
+    Of several processes under mpirun the first alone is heard.
+    """
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers, not to this reader
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if is_first():
+        return _carry_out(arguments)
+    with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):
+        return _carry_out(arguments)
+
+
+def _carry_out(arguments: list[str]) -> int:
     try:
         job = app(arguments or ["--help"], prog_name="crosscheck", standalone_mode=False)
         status = job() if callable(job) else job or ExitStatus.DONE

@@ -1,5 +1,11 @@
-"""Writing a run's folder so that every file appears whole or not at all."""
+"""Writing a run's folder so that every file appears whole or not at all.
 
+What is not finished lives inside the folder where that exists, so that neither its parent has to
+be writable nor a file to move to another file system; else beside it, so that the folder appears
+with the results and not before.
+"""
+
+import contextlib
 import os
 import shutil
 import tempfile
@@ -20,17 +26,37 @@ OWN_FILES = (
     "finite_element/stress.vtu",
     "finite_element/mesh.msh",
 )
+OWN_FOLDERS = ("half_plane", "finite_element")
+ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
+
+
+def unfinished(out: Path) -> Path:
+    """The folder of a run's finished levels while the run into `out` has not ended."""
+    beside = out.parent / f".{out.name}.unfinished"
+    # one from before `out` was made is still good
+    return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
 def check_writable(out: Path) -> None:
-    """Raise InputError unless `out` is, or can be made, a folder to write in.
-
-    Permission bits do not tell (of root, of a read-only file system), so a folder is made and
-    removed where the first new one would be.
-    """
+    """Raise InputError unless `out` is, or can be made, a folder to write a run in."""
     place = out
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
+    _check_folder(out, place)
+    for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
+        if os.path.lexists(folder):
+            _check_folder(out, folder)
+    for name in OWN_FILES:
+        if (out / name).is_dir():
+            raise InputError(f"{out}: cannot be written: {out / name} is a folder; allowed is none")
+
+
+def _check_folder(out: Path, place: Path) -> None:
+    """Raise InputError, which names `out`, unless `place` is a folder to write in.
+
+    Permission bits do not tell (of root, of a read-only file system), so a folder is made there
+    and removed.
+    """
     if not place.is_dir():
         raise InputError(f"{out}: cannot be written: {place} is not a folder; allowed is a folder")
     try:
@@ -48,20 +74,33 @@ def published(out: Path) -> Iterator[Path]:
     If the block fails or is interrupted nothing in `out` changes.
     """
     check_writable(out)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix=f".{out.name}-", dir=out.parent))
+    if out.is_dir():
+        scratch = Path(tempfile.mkdtemp(prefix=".part-", dir=out))
+    else:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        scratch = Path(tempfile.mkdtemp(prefix=f".{out.name}.part-", dir=out.parent))
     try:
         yield scratch
         made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
-        out.mkdir(exist_ok=True)
         for name in made:
-            (out / name).parent.mkdir(exist_ok=True)
-            os.replace(scratch / name, out / name)
+            _move(scratch / name, out / name)
         for name in OWN_FILES:
             if Path(name) not in made:
                 (out / name).unlink(missing_ok=True)
-        for folder in ("half_plane", "finite_element"):
-            if (out / folder).is_dir() and not any((out / folder).iterdir()):
+        for folder in OWN_FOLDERS:
+            with contextlib.suppress(OSError):  # absent, or holds something
                 (out / folder).rmdir()
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _move(source: Path, target: Path) -> None:
+    """Put a file in its place, in a folder that another run may remove while it is empty."""
+    for attempt in range(ATTEMPTS):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        try:
+            os.replace(source, target)
+            return
+        except FileNotFoundError:
+            if attempt == ATTEMPTS - 1:
+                raise

@@ -10,12 +10,15 @@ from comparisons.files import published
 from comparisons.level import Level, ModelRun
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
+from comparisons.rank import is_first
 from comparisons.record import as_json
 from comparisons.stages import Listener
 
 
 def write_files(outcome: Outcome, listener: Listener) -> None:
-    """Write everything into the run's folder; whole files, all at the end."""
+    """Write everything into the run's folder; whole files, all at the end, by one process."""
+    if not is_first():
+        return
     listener("writing results")
     with published(outcome.directory) as folder:
         for name, run in outcome.runs.items():

@@ -1,11 +1,16 @@
 """Publishing a run's folder: whole files or none."""
 
 import os
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
 from comparisons.errors import InputError
-from comparisons.files import check_writable, published
+from comparisons.files import check_writable, published, unfinished
+
+NOBODY = 65534
 
 
 def fill(folder, names, text="new"):
@@ -42,6 +47,7 @@ def test_a_failure_changes_nothing(tmp_path, error):
         raise error
     assert (out / "result.json").read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["results"]
+    assert [p.name for p in out.iterdir()] == ["result.json"]
 
 
 def test_a_file_in_the_way_is_refused(tmp_path):
@@ -52,8 +58,99 @@ def test_a_file_in_the_way_is_refused(tmp_path):
     assert (tmp_path / "taken").read_text() == "mine"
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_folder_without_permission_is_refused(tmp_path):
-    tmp_path.chmod(0o500)
-    with pytest.raises(InputError, match="no permission"):
-        check_writable(tmp_path / "results")
+@pytest.fixture
+def unprivileged():
+    """A new folder, and for the test a user whom permission bits hold back."""
+    with tempfile.TemporaryDirectory() as folder:
+        user = os.geteuid()
+        if user == 0:
+            os.chown(folder, NOBODY, NOBODY)
+            os.seteuid(NOBODY)
+        try:
+            yield Path(folder)
+        finally:
+            os.seteuid(user)
+            os.chmod(folder, 0o700)
+
+
+def test_a_folder_without_permission_is_refused(unprivileged):
+    unprivileged.chmod(0o500)
+    with pytest.raises(InputError, match=r"results: cannot be written: .*Permission denied"):
+        check_writable(unprivileged / "results")
+
+
+def test_a_sub_folder_without_permission_is_refused(unprivileged):
+    (unprivileged / "half_plane").mkdir(mode=0o500)
+    with pytest.raises(InputError, match=r"half_plane \(Permission denied"):
+        check_writable(unprivileged)
+
+
+def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
+    """As of a mount point, where a rename from outside would fail as well."""
+    out = unprivileged / "results"
+    out.mkdir()
+    unprivileged.chmod(0o500)
+    check_writable(out)
+    with published(out) as scratch:
+        assert scratch.parent == unfinished(out).parent == out
+        fill(scratch, ["result.json", "half_plane/contact.csv"])
+    assert sorted(p.name for p in out.iterdir()) == ["half_plane", "result.json"]
+
+
+def test_where_unfinished_levels_are(tmp_path):
+    out = tmp_path / "results"
+    beside = tmp_path / ".results.unfinished"
+    assert unfinished(out) == beside
+    out.mkdir()
+    assert unfinished(out) == out / ".unfinished"
+    beside.mkdir()
+    assert unfinished(out) == beside
+
+
+@pytest.mark.parametrize("name", ["half_plane", "finite_element", ".unfinished"])
+def test_a_file_where_a_sub_folder_is_needed_is_refused(tmp_path, name):
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(InputError, match=f"{name} is not a folder; allowed is a folder"):
+        check_writable(tmp_path)
+    assert (tmp_path / name).read_text() == "mine"
+
+
+def test_a_folder_where_a_file_is_needed_is_refused(tmp_path):
+    (tmp_path / "result.json").mkdir()
+    with pytest.raises(InputError, match=r"result\.json is a folder"):
+        check_writable(tmp_path)
+
+
+def test_a_sub_folder_that_another_run_removes_is_made_again(tmp_path, monkeypatch):
+    move = os.replace
+    removed = []
+
+    def replace(source, target):
+        if not removed:
+            removed.append(target.parent)
+            target.parent.rmdir()
+        move(source, target)
+
+    monkeypatch.setattr(os, "replace", replace)
+    with published(tmp_path / "out") as scratch:
+        fill(scratch, ["half_plane/contact.csv"])
+    assert removed == [tmp_path / "out" / "half_plane"]
+    assert (tmp_path / "out" / "half_plane" / "contact.csv").read_text() == "new"
+
+
+def test_runs_at_once_into_one_folder(tmp_path):
+    """One keeps removing the folder that the other needs; each file is whole in the end."""
+    out = tmp_path / "out"
+
+    def publish(name):
+        for _ in range(40):
+            with published(out) as scratch:
+                fill(scratch, [name, "result.json"], name)
+        return True
+
+    names = ["half_plane/contact.csv", "finite_element/contact.csv"]
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(publish, names)) == [True, True]
+    assert (out / "result.json").read_text() in names
+    assert {p.name for p in out.iterdir()} <= {"result.json", "half_plane", "finite_element"}
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
