@@ -13,6 +13,9 @@ from pydantic_core import core_schema
 from comparisons.scene import Extent
 from comparisons.units import LENGTH, Dimension, UnitError, describe, to_si, unit_in_si
 
+# Of a number in SI, but for 0. Products of some of them still fit a double.
+SMALLEST, LARGEST = 1e-30, 1e30
+
 
 class FieldType(ABC):
     """A field type that pydantic calls through `read`."""
@@ -32,9 +35,22 @@ class FieldType(ABC):
         return core_schema.no_info_plain_validator_function(self.read)
 
 
+def _of_sane_size(given: object, dimension: Dimension) -> float:
+    """As `to_si`; raises UnitError as well for a size that nothing can be computed with."""
+    value = to_si(given, dimension)
+    if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+        raise UnitError(
+            f"is {describe(given)}, whose size is not from {SMALLEST:g} to {LARGEST:g} in SI"
+        )
+    return value
+
+
 @dataclass(frozen=True)
 class Number(FieldType):
-    """A finite float in SI, of one dimension, within bounds in SI: above < v, at_least <= v, …"""
+    """A float in SI, of one dimension, within bounds in SI: above < v, at_least <= v, …
+
+    It is 0, or of a size from SMALLEST to LARGEST.
+    """
 
     dimension: Dimension
     above: float | None = None
@@ -44,7 +60,7 @@ class Number(FieldType):
 
     def read(self, given: object) -> float:
         try:
-            value = to_si(given, self.dimension)
+            value = _of_sane_size(given, self.dimension)
         except UnitError as error:
             raise self.wrong(str(error)) from error
         if (
@@ -162,7 +178,7 @@ class ExtentField(FieldType):
     def read(self, given: object) -> Extent:
         in_half_widths = not isinstance(given, str)
         try:
-            value = to_si(given, LENGTH)
+            value = _of_sane_size(given, LENGTH)
         except UnitError as error:
             raise self.wrong(str(error)) from error
         if not value > 0.0:

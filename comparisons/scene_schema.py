@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar
 
 from pydantic import model_validator
 
+from comparisons.quantities import QUANTITIES
 from comparisons.scene import Extent
 from comparisons.scene_fields import (
     Choice,
@@ -73,9 +74,7 @@ class LoadTable(Table):
     per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
     hertz_peak_pressure: Pressure | None = None
     approach: Length | None = None
-    friction: Annotated[
-        tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))
-    ] = (0.0,)
+    friction: Frictions = (0.0,)
     position: Annotated[float, Number(LENGTH)] | None = None
 
     KINDS: ClassVar[tuple[str, ...]] = ("per_length", "hertz_peak_pressure", "approach")
@@ -166,6 +165,19 @@ class SceneTables(Table):
             )
         return self
 
+    @model_validator(mode="after")
+    def _judged_stress_is_asked_for(self) -> "SceneTables":
+        if self.stress is None:
+            for name in _of_stress():
+                if name in self.tolerance.model_fields_set:
+                    raise FieldError(
+                        f"tolerance.{name}",
+                        "needs a [stress] section; allowed is "
+                        + ", ".join(sorted(set(QUANTITIES) - set(_of_stress())))
+                        + " without one",
+                    )
+        return self
+
 
 SECTIONS: dict[str, type[Table]] = {
     "roller": RollerTable,
@@ -185,7 +197,16 @@ def plain_tables(scene: SceneTables) -> dict:
 
     Reading the result as a scene gives the same scene. JSON and TOML can hold it.
     """
-    return _plain(scene)
+    plain = _plain(scene)
+    if scene.stress is None:  # defaults that have nothing to judge
+        for name in _of_stress():
+            plain["tolerance"].pop(name, None)
+    return plain
+
+
+def _of_stress() -> list[str]:
+    """Compared quantities that there are with [stress] alone."""
+    return [name for name, quantity in QUANTITIES.items() if quantity.needs_stress]
 
 
 def _plain(value: object) -> object:

@@ -1,11 +1,19 @@
 """What a run spends its time on: seconds by stage, told to whoever watches."""
 
+import resource
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
 Listener = Callable[[str], None]
+
+
+def peak_memory() -> int:
+    """Largest resident memory of this process so far [bytes]."""
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes * (1 if sys.platform == "darwin" else 1024)
 
 
 def silent(stage: str) -> None:
@@ -28,7 +36,3 @@ class Stages:
             yield
         finally:
             self.seconds[name] = self.seconds.get(name, 0.0) + perf_counter() - begin
-
-    def child(self) -> "Stages":
-        """Empty collector that tells the same listener."""
-        return Stages(self.listener)

@@ -103,6 +103,14 @@ VALUES = [
     ("roller.radius", "inf", "is inf, which is not finite; allowed"),
     ("roller.radius", "1" + "0" * 400, "is 1.000e+400, which is not finite"),
     ("roller.radius", '"1e400 mm"', 'is "1e400 mm", which is not finite'),
+    # sizes
+    ("load.per_length", "1e300", "is 1.000e+300, whose size is not from 1e-30 to 1e+30 in SI; a"),
+    ("load.per_length", "1e-300", "is 1e-300, whose size is not from 1e-30 to 1e+30 in SI; all"),
+    ("roller.radius", "1e-320", "is 1e-320, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
+    ("roller.radius", '"1e-25 um"', 'is "1e-25 um", whose size is not from 1e-30 to 1e+30 in SI'),
+    ("load.position", "-1.1e30", "is -1.100e+30, whose size is not from 1e-30 to 1e+30 in SI"),
+    ("load.friction", "1e-31", "is 1e-31, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
+    ("stress.depth", "1e31", "is 1.000e+31, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
     # units
     ("roller.radius", '"8.2"', 'is "8.2", which has no unit; allowed is a length'),
     ("roller.radius", '"8.2 GPa"', 'is "8.2 GPa", a pressure; allowed is a length'),
@@ -142,6 +150,11 @@ VALUES = [
     ("stress.depth", "0", "is 0; allowed is a number of half-widths above 0 or a length"),
     ("stress.depth", '"1 a"', 'is "1 a", a time; allowed is a number of half-widths'),
     ("stress.half_range", '"-1 mm"', 'is "-1 mm"; allowed is a number of half-widths'),
+    (
+        "stress.points",
+        "[200, 2]",
+        "holds 2; allowed is a list of two whole numbers [along x, along z], at least 3 each",
+    ),
     ("stress.points", "[1, 200]", "holds 1; allowed is a list of two whole numbers"),
     ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of two"),
     ("stress.points", "600", "is 600; allowed is a list of two"),
@@ -160,6 +173,12 @@ VALUES = [
 
 # changes, and how the line goes on after "scene.toml: "
 COMBINATIONS = [
+    (
+        {"tolerance.tau1_max": "0.02"},
+        "tolerance.tau1_max: needs a [stress] section; allowed is contact_length, contact_ratio, "
+        "peak_pressure, pressure_l2 without one",
+    ),
+    ({"tolerance.tau1_field_deep": '"5 %"'}, "tolerance.tau1_field_deep: needs a [stress] section"),
     ({"tolerence.tau1_max": "0.1"}, "tolerence: is no known section; the nearest is [tolerance]"),
     (
         {"body.youngs_modulus": None, "body.young_modulus": "1"},

@@ -219,6 +219,15 @@ def test_written_out_tables_give_the_scene_again(tables):
     assert again.tables == scene.tables
 
 
+def test_tolerances_of_stresses_are_written_out_with_stress_alone():
+    tolerances = resolved(BARE).tables["tolerance"]
+    assert tolerances == {"peak_pressure": 0.02, "contact_length": 0.02}
+    with_stress = resolved({**BARE, "stress": {}}).tables["tolerance"]
+    assert with_stress == {**tolerances, "tau1_max": 0.02}
+    with pytest.raises(SceneError, match=r"tolerance\.tau1_max: needs a \[stress\] section"):
+        resolved({**BARE, "tolerance": {"tau1_max": 0.02}})
+
+
 @pytest.mark.parametrize("name", scene_names())
 def test_written_out_tables_of_a_scene_that_comes_along(name):
     scene = load_scene(name)
