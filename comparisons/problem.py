@@ -28,7 +28,9 @@ MOST_HATS = 6000  # on the contact at the third level; more only where refinemen
 FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
 FIRST_TOUCH_POINTS = 100_001
-FIGURES = 6  # decimal, of the pressure elements on a half-width at the third level
+FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
+NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
+LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
 MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
 
 
@@ -52,6 +54,25 @@ class Problem:
     knots: np.ndarray | None
     extent: tuple[float, float]
     pitches: tuple[float, ...]
+
+    @property
+    def reference_pitch(self) -> float:
+        """Pitch of the third level [m], which element sizes and depths refer to."""
+        return self.pitches[0] / 4.0
+
+    def coarser(self, pitch: float) -> int:
+        """Levels from a pitch to the third; negative for finer ones."""
+        return round(np.log2(pitch / self.reference_pitch))
+
+    @property
+    def block(self) -> float:
+        """Width and depth [m] of the block that stands for an unbounded body.
+
+        In half-widths of the smooth contact, or of a wider reach of pressures: a light load
+        on a rough surface touches far beyond its Hertz contact.
+        """
+        half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
+        return self.scene.finite_element.block * half_width
 
     @cached_property
     def first_touch(self) -> float:
@@ -107,7 +128,7 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
 
 
 def _reach(problem: Problem) -> tuple[float, float]:
-    """Outermost contact with a margin [m], by a coarse half-plane solution on a wide stretch."""
+    """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
     scene, half_width = problem.scene, problem.hertz.half_width
     start, stop = -np.inf, np.inf
     relief = 0.0
@@ -116,40 +137,51 @@ def _reach(problem: Problem) -> tuple[float, float]:
         relief = float(np.ptp(scene.profile.height))
     if scene.width is not None:
         start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    if not start < 0.0 < stop:
+        raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
     # ground this far out is lower than the roller even if the highest peak stood there
     reach = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
     while True:
         low, high = max(start, -reach), min(stop, reach)
-        if not low < 0.0 < high:
-            raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
-        grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
-        problem = replace(problem, extent=(low, high))
-        touching = scout(problem, grid)
-        if touching[0] > low + 2.0 * grid.pitch and touching[1] < high - 2.0 * grid.pitch:
-            break
+        touching = (low, high)
+        if scene.hardness is None or problem.hertz.load_per_length < scene.hardness * (high - low):
+            touching, slack = scout(problem, low, high)
+            if touching[0] > low + slack and touching[1] < high - slack:
+                break
         if low == start or high == stop:
-            raise SceneError(
-                f"{scene.source}: load: the contact reaches the end of the "
-                f"{'trace' if scene.profile is not None else 'body'} ({touching[0]:.4g} m to "
-                f"{touching[1]:.4g} m of {low:.4g} m to {high:.4g} m); allowed is a load, a radius "
-                "and a position that keep it inside"
-            )
+            raise SceneError(_too_wide(scene, touching, (low, high)))
         reach *= 2.0
-    margin = MARGIN * half_width + 4.0 * grid.pitch
+    # a contact far smaller than the stretch it was looked for on is looked at again, closer
+    while high - low > NARROW * (touching[1] - touching[0] + slack):
+        around = max(touching[1] - touching[0], slack)
+        low, high = max(low, touching[0] - around), min(high, touching[1] + around)
+        touching, slack = scout(problem, low, high)
+    margin = MARGIN * half_width + 2.0 * slack
     return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
 
 
-def scout(problem: Problem, grid: HatGrid) -> tuple[float, float]:
-    """First and last contact [m] of the half-plane on a grid."""
-    operator = HalfPlane(grid.count, grid.pitch, problem.modulus)
+def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
+    body = "trace" if scene.profile is not None else "body"
+    capped = "" if scene.hardness is None else " at this hardness (body.hardness)"
+    return (
+        f"{scene.source}: load: the contact{capped} reaches the end of the {body} "
+        f"({touching[0]:.4g} m to {touching[1]:.4g} m of {ends[0]:.4g} m to {ends[1]:.4g} m); "
+        "allowed is a load, a radius and a position that keep it inside"
+    )
+
+
+def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
+    """First and last contact [m] of the half-plane between `low` and `high`, by SCOUT_HATS
+    pressures; and how near to the ends [m] that is too near."""
+    grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
     solution = solve_contact(
-        operator,
+        HalfPlane(grid.count, grid.pitch, problem.modulus),
         grid.average(problem.gap, problem.knots),
         grid.weights,
         problem.constraints(),
     )
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return float(patches[0, 0]), float(patches[-1, 1])
+    return (float(patches[0, 0]), float(patches[-1, 1])), 2.0 * grid.pitch
 
 
 def _pitches(problem: Problem) -> tuple[float, ...]:
