@@ -33,7 +33,10 @@ STYLES = {
     "fails": "bold red",
     "not converged": "bold red",
 }
-PLAIN = str.maketrans({"µ": "u", "−": "-", "–": "-", "₀": "0", "×": "x"})  # any terminal shows it
+# Any terminal shows these.
+PLAIN = str.maketrans(
+    {"µ": "u", "−": "-", "–": "-", "₀": "0", "₁": "1", "×": "x", "τ": "tau", "ν": "nu", "β": "beta"}
+)
 
 
 def summary(outcome: Outcome) -> "RenderableType":
@@ -55,7 +58,7 @@ def _comparison(outcome: Outcome) -> "Table":
     table.add_column("verdict", overflow="fold")
     for row in comparison_rows(outcome):
         cells = (
-            SHORT[row.quantity],
+            f"{SHORT[row.quantity]}\n{row.note}".strip(),
             row.friction,
             row.half_plane,
             row.finite_element,

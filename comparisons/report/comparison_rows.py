@@ -7,7 +7,10 @@ from comparisons.outcome import Outcome
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.report.numbers import Scale, given_percent, percent, plain, scale_of
+from comparisons.report.words import label
 from comparisons.verdict import Comparison
+
+AT_HARDNESS = 1e-9  # relative: a pressure so close to the hardness is held there
 
 
 @dataclass(frozen=True)
@@ -16,7 +19,9 @@ class ComparisonRow:
 
     half_plane, finite_element   with unit; empty for the norm of a difference
     in_hertz                     the same two in units of the Hertz contact's
+    difference                   in the digits that the uncertainty supports
     verdict                      "" where nothing was judged
+    note                         what to know before the figures are taken for evidence
     """
 
     quantity: str
@@ -29,6 +34,7 @@ class ComparisonRow:
     uncertainty: str
     tolerance: str
     verdict: str
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,7 +78,7 @@ def figure_rows(outcome: Outcome) -> list[FigureRow]:
         rows.append(
             FigureRow(
                 quantity=name,
-                label=QUANTITIES[name].label,
+                label=label(name),
                 friction=_listed(frictions),
                 value=scale_of([value], QUANTITIES[name].unit).text(value),
                 in_hertz=_in_hertz(problem, name, value),
@@ -98,7 +104,7 @@ def _row(problem: Problem, same: list[Comparison]) -> ComparisonRow:
     scale = scale_of([row.half_plane, row.finite_element], quantity.unit)
     return ComparisonRow(
         quantity=row.quantity,
-        label=quantity.label,
+        label=label(row.quantity),
         friction=_listed([r.friction for r in same]),
         half_plane=_value(scale, row.half_plane),
         finite_element=_value(scale, row.finite_element),
@@ -106,11 +112,22 @@ def _row(problem: Problem, same: list[Comparison]) -> ComparisonRow:
             _in_hertz(problem, row.quantity, row.half_plane),
             _in_hertz(problem, row.quantity, row.finite_element),
         ),
-        difference=percent(row.difference, signed=not quantity.of_pair),
+        difference=percent(
+            row.difference, signed=not quantity.of_pair, uncertainty=row.uncertainty
+        ),
         uncertainty=percent(row.uncertainty),
         tolerance="" if row.tolerance is None else given_percent(row.tolerance),
         verdict=row.verdict or "",
+        note="capped in both" if _capped(problem, row) else "",
     )
+
+
+def _capped(problem: Problem, row: Comparison) -> bool:
+    """Whether the hardness holds the peaks of both models, which makes them equal by itself."""
+    if row.quantity != "peak_pressure" or problem.scene.hardness is None:
+        return False
+    lowest = min(row.half_plane, row.finite_element)
+    return lowest >= (1.0 - AT_HARDNESS) * problem.scene.hardness
 
 
 def _value(scale: Scale, value: float | None) -> str:

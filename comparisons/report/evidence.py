@@ -16,6 +16,7 @@ from comparisons.outcome import Outcome
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.report.numbers import (
+    given_percent,
     integer,
     percent,
     plain,
@@ -23,7 +24,7 @@ from comparisons.report.numbers import (
     significant,
     with_unit,
 )
-from comparisons.report.words import LABELS
+from comparisons.report.words import LABELS, label
 
 RESIDUALS = {
     "load_balance": "load balance",
@@ -75,7 +76,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
             where = _where(problem, name, friction)
             rows.append(
                 (
-                    quantity.label + where,
+                    label(name) + where,
                     *(scale.text(v[name], 5) for v in values),
                     *_doubts(doubts[name], domain=halved is not None),
                 )
@@ -101,7 +102,7 @@ def _of_pair(outcome: Outcome) -> Table:
             where = _where(problem, name, friction)
             rows.append(
                 (
-                    quantity.label + where,
+                    label(name) + where,
                     *(percent(v[name], digits=3) for v in values),
                     *_doubts(doubts[name], domain=other.halved is not None),
                 )
@@ -134,6 +135,31 @@ def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
         percent(doubt.domain) if domain else "",
         percent(doubt.total),
     )
+
+
+def shared_table(outcome: Outcome) -> Table | None:
+    """Estimates of what neither model contains, by quantity; None without, or with one model."""
+    if not outcome.plan.compares:
+        return None
+    estimates = outcome.result["half_space"].get("shared_effects") or {}
+    effects = list(dict.fromkeys(name for sizes in estimates.values() for name in sizes))
+    if not effects:
+        return None
+    tolerance = outcome.problem.scene.tolerance
+    rows = []
+    for name, sizes in estimates.items():
+        cells = [percent(sizes[effect]) if effect in sizes else "" for effect in effects]
+        allowed = tolerance.get(name)
+        rows.append(
+            (
+                label(name),
+                *cells,
+                percent(sum(sizes.values())),
+                "" if allowed is None else given_percent(allowed),
+            )
+        )
+    head = ("", *effects, "together", "tolerance")
+    return Table("What neither model contains (estimates)", head, tuple(rows))
 
 
 def check_table(outcome: Outcome) -> Table:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 WIDTH = COLUMN - 0.85  # inches, of a field
 BANDS = 16  # of colour on the whole scale, about
-COVERED = 99.5  # per cent of a field's points that its scale must cover
+COVERED = 99.5  # per cent of a field's points that its scale covers at least
 NOTHING = 1e-12  # p0: a difference below it is none
 PIXELS = 220  # to the inch
 SMALLEST_POWER = -2  # of ten: smaller ticks are written with the power apart

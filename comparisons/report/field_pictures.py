@@ -7,7 +7,15 @@ import numpy as np
 
 from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.outcome import Outcome
-from comparisons.report.field_layout import WIDTH, colour_bar, cross, fill, layout, round_bands
+from comparisons.report.field_layout import (
+    COVERED,
+    WIDTH,
+    colour_bar,
+    cross,
+    fill,
+    layout,
+    round_bands,
+)
 from comparisons.report.numbers import decimal, plain, significant
 from comparisons.report.style import Picture, data_uri
 from comparisons.report.words import LABELS
@@ -117,11 +125,7 @@ def _picture(
     if len(fields) > 1:
         difference = fields["half_plane"] - fields["finite_element"]
         shown = fill(places[-1], x, z, difference, difference_bands, DIFFERENCE_COLOURS, True)
-        row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
-        largest = (
-            f" Largest difference at a point of the grid: {significant(difference[row, column], 2)}"
-            f" p₀ at x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
-        )
+        largest = f" {_difference_said(x, z, difference, difference_bands[-1])}"
         places[-1].set_title("half-plane − finite elements")
         colour_bar(drawn, bars[1], shown, f"Δ{component.symbol}/p₀", difference_bands)
     places[-1].set_xlabel("x/a")
@@ -130,6 +134,22 @@ def _picture(
         source=data_uri(drawn),
         alternative=f"{words}, friction {plain(friction)}. {'; '.join(found)}.{largest}",
         caption=(f"{words}, friction {plain(friction)}; + marks the largest value.{largest}"),
+    )
+
+
+def _difference_said(x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: float) -> str:
+    """Where the colours of the difference end, why there, and its largest value."""
+    row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
+    largest = difference[row, column]
+    reason = (
+        f", which covers {COVERED:g} % of the points or more, to show what is small"
+        if abs(largest) > end
+        else ""
+    )
+    return (
+        f"The difference's colours end at ±{significant(end, 2)} p₀{reason}; the largest "
+        f"difference at a point of the grid, {significant(largest, 2)} p₀, stands at "
+        f"x = {decimal(x[column])} a, z = {significant(z[row], 2)} a."
     )
 
 

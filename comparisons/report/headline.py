@@ -6,8 +6,16 @@ from typing import Literal
 
 from comparisons.outcome import Outcome
 from comparisons.quantities import QUANTITIES
-from comparisons.report.numbers import given, given_percent, percent, plain, significant, with_unit
-from comparisons.report.words import MODELS
+from comparisons.report.numbers import (
+    given,
+    given_percent,
+    percent,
+    plain,
+    significant,
+    vanishes,
+    with_unit,
+)
+from comparisons.report.words import MODELS, in_words, label
 from comparisons.verdict import Comparison
 
 Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
@@ -65,7 +73,8 @@ def headline(outcome: Outcome) -> Headline:
     nearest = _said(_by_distance(judged)[0], several)
     return Headline(
         "undecided",
-        f"The half-plane cannot be judged here: {why}; nearest to its tolerance, the {nearest}.",
+        f"The half-plane cannot be judged here: {in_words(why)}; nearest to its tolerance, the "
+        f"{nearest}.",
     )
 
 
@@ -87,15 +96,17 @@ def _said(row: Comparison, several: bool) -> str:
     quantity = QUANTITIES[row.quantity]
     where = f" at friction {plain(row.friction)}" if several and quantity.needs_stress else ""
     bounds = f"(tolerance {given_percent(row.tolerance)}, uncertainty {percent(row.uncertainty)})"
+    subject = f"{label(row.quantity)}{where}"
     if row.difference is None:
-        return f"{quantity.label}{where} has no relative difference {bounds}"
+        return f"{subject} has no relative difference {bounds}"
+    size = percent(abs(row.difference), uncertainty=row.uncertainty)
     if quantity.of_pair:
-        return f"{quantity.label}{where} is {percent(row.difference)} {bounds}"
-    if row.difference == 0.0:
-        return f"{quantity.label}{where} is the same in both models {bounds}"
+        return f"{subject} is {size} {bounds}"
+    if vanishes(row.difference, row.uncertainty):
+        within = " within their uncertainty" if row.difference else ""
+        return f"{subject} is the same in both models{within} {bounds}"
     side = "above" if row.difference > 0.0 else "below"
-    size = percent(abs(row.difference))
-    return f"{quantity.label}{where} is {size} {side} the finite elements' {bounds}"
+    return f"{subject} is {size} {side} the finite elements' {bounds}"
 
 
 def _one_model(outcome: Outcome) -> str:

@@ -82,18 +82,45 @@ def decimal(value: float, places: int = 3) -> str:
     return "0" if float(text) == 0.0 else text.replace("-", MINUS)
 
 
-def percent(value: float | None, signed: bool = False, digits: int = 2) -> str:
-    """A ratio in percent with `digits` significant digits; below 1e-6 only a bound."""
+def percent(
+    value: float | None, signed: bool = False, digits: int = 2, uncertainty: float | None = None
+) -> str:
+    """A ratio in percent with `digits` significant digits; below 1e-6 only a bound.
+
+    Digits that an `uncertainty` (a ratio too) does not support are left out: it ends one beyond
+    the uncertainty's leading digit. What rounds to nothing there is zero, without a sign.
+    """
     if value is None or not math.isfinite(value):
         return UNKNOWN
     if value == 0.0:
         return "0 %"
     size = 100.0 * abs(value)
-    sign = MINUS if value < 0.0 else "+" if signed else ""
-    if size < 1e-4:
+    decimals, last = digits - 1 - _leading(size, digits), _last_supported(uncertainty)
+    if last is not None and last < decimals:
+        decimals = last
+    elif size < 1e-4:
         return "< 0.0001 %"
-    decimals = max(0, digits - 1 - math.floor(math.log10(size)))
-    return f"{sign}{size:.{decimals}f} %"
+    size = round(size, decimals)
+    sign = "" if size == 0.0 else MINUS if value < 0.0 else "+" if signed else ""
+    return f"{sign}{size:.{max(0, decimals)}f} %"
+
+
+def vanishes(value: float, uncertainty: float | None) -> bool:
+    """Whether nothing of a ratio is left in the digits that its uncertainty supports."""
+    last = _last_supported(uncertainty)
+    return value == 0.0 or (last is not None and round(100.0 * abs(value), last) == 0.0)
+
+
+def _last_supported(uncertainty: float | None) -> int | None:
+    """Decimals of a percentage down to one beyond its uncertainty's leading digit."""
+    if not uncertainty or not math.isfinite(uncertainty):
+        return None
+    return 1 - _leading(100.0 * uncertainty, 2)
+
+
+def _leading(size: float, digits: int) -> int:
+    """Power of ten of the leading digit, once rounded to `digits` of them."""
+    return int(f"{size:.{digits - 1}e}".partition("e")[2])
 
 
 def given_percent(value: float) -> str:

@@ -12,6 +12,7 @@ from comparisons.report.evidence import (
     convergence_tables,
     cost_table,
     record_rows,
+    shared_table,
 )
 from comparisons.report.headline import headline
 from comparisons.report.sheet import problem_sheet
@@ -62,6 +63,7 @@ def render(outcome: Outcome) -> str:
         skipped=outcome.plan.skipped,
         refinement=outcome.result["refinement"],
         convergence=convergence_tables(outcome),
+        shared=shared_table(outcome),
         checks=check_table(outcome),
         cost=cost_table(outcome),
         record=record_rows(outcome),

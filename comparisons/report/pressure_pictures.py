@@ -97,7 +97,8 @@ def _norm(outcome: Outcome) -> str:
     row = next((c for c in outcome.comparisons if c.quantity == "pressure_l2"), None)
     if row is None or row.difference is None:
         return ""
-    return f"The models differ by {percent(row.difference)} (relative L2 norm). "
+    size = percent(row.difference, uncertainty=row.uncertainty)
+    return f"The models differ by {size} (relative L2 norm). "
 
 
 def _drawn(
@@ -136,7 +137,7 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
         "top", functions=(lambda x: x / half_width, lambda s: s * half_width)
     )
     top.tick_params(pad=1.5)
-    axes.annotate("x/a", (0.0, 1.0), (-8, 4), "axes fraction", "offset points", ha="right")
+    axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
 
 
 def _pressures(

@@ -159,6 +159,36 @@ def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
         assert shown[0].get_cmap().name != shown[2].get_cmap().name
 
 
+def test_the_caption_says_where_the_differences_colours_end(
+    figures_of: Callable, wavy_outcome: Outcome
+):
+    p0, window = wavy_outcome.problem.hertz.peak_pressure, wavy_outcome.window
+
+    def caption(outcome: Outcome) -> tuple[str, float]:
+        figure = figures_of(outcome)["field_pictures"][0]
+        shown = [axes.images[0] for axes in figure.axes if axes.images]
+        with drawing():
+            text = field_pictures.field_pictures(outcome)[0][1][0].caption
+        return text, float(shown[2].norm.boundaries[-1])
+
+    text, end = caption(wavy_outcome)
+    assert f"colours end at ±{end:#.2g} p₀" in text
+
+    run = wavy_outcome.runs["half_plane"]
+    found = run.finest.stress(0.0)
+    sx = found.field.sx.copy()
+    sx[3, 17] += 40.0 * p0  # one place far beyond what the scale must cover
+    field = replace(found.field, sx=sx)
+    finest = replace(run.finest, stresses=(replace(found, field=field), *run.finest.stresses[1:]))
+    runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
+    spiked, spiked_end = caption(replace(wavy_outcome, runs=runs))
+    largest = found.field.tau1[3, 17] / p0
+    assert spiked_end < 1.0
+    assert f"colours end at ±{spiked_end:#.2g} p₀, which covers 99.5 % of the points" in spiked
+    place = f"x = {window.x[17] / wavy_outcome.problem.hertz.half_width:.3f} a".replace("-", "−")
+    assert f"20 p₀, stands at {place}" in spiked and largest < 1.0
+
+
 def test_fields_and_their_difference_are_those_of_the_run(
     wavy: dict[str, list], wavy_outcome: Outcome
 ):

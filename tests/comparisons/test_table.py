@@ -1,6 +1,7 @@
 """The terminal's table: every figure in 80 columns, in a pipe, on any terminal."""
 
 import io
+import math
 import re
 from collections import Counter
 from collections.abc import Callable
@@ -62,7 +63,26 @@ def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Outcome)
                 assert float(words[0]) * UNITS[unit] == pytest.approx(entry["half_plane"], rel=1e-3)
                 words = words[4 if unit else 2 :]
             expected = 100.0 * entry["difference"]
-            assert float(words[0]) == pytest.approx(expected, rel=0.051, abs=1e-4)
+            last = 10.0 ** (math.floor(math.log10(100.0 * entry["uncertainty"])) - 1)
+            shown_to = max(0.51 * last, 0.051 * abs(expected))
+            assert float(words[0]) == pytest.approx(expected, abs=shown_to)
+
+
+def test_a_difference_below_its_uncertainty_is_shown_as_nothing(wavy_outcome: Outcome):
+    changed = replace(wavy_outcome.comparisons[0], difference=-0.000049, uncertainty=0.0038)
+    outcome = replace(wavy_outcome, comparisons=(changed, *wavy_outcome.comparisons[1:]))
+    words = rows(printed(outcome))["peak pressure", "0"].split()
+    assert words[4:6] == ["0.00", "0.38"]
+
+
+def test_peaks_that_the_hardness_holds_are_told(wavy_outcome: Outcome):
+    assert "capped" not in printed(wavy_outcome)
+    hardness = wavy_outcome.problem.scene.hardness
+    changed = replace(wavy_outcome.comparisons[0], half_plane=hardness, finite_element=hardness)
+    outcome = replace(wavy_outcome, comparisons=(changed, *wavy_outcome.comparisons[1:]))
+    text = printed(outcome)
+    assert text.count("\ncapped in both ") == 1
+    assert max(map(len, text.splitlines())) <= 80
 
 
 def test_the_same_figures_stand_in_a_wide_pipe(wavy_outcome: Outcome):
