@@ -94,9 +94,9 @@ def _carry_out(arguments: list[str]) -> int:
         return int(status)
     except KeyboardInterrupt as stop:
         return _end(ExitStatus.INTERRUPTED, "; ".join(["interrupted", *map(str, stop.args)]))
-    except BrokenPipeError:
-        # nobody reads on; the interpreter's last flush must not fail again
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (BrokenPipeError, SystemExit):
+        # nobody reads on: typer and rich make of it an exit with 1, which has another meaning here
+        _drop_output()
         return int(ExitStatus.BROKEN_PIPE)
     except InputError as error:
         return _end(ExitStatus.BAD_INPUT, str(error))
@@ -189,13 +189,24 @@ def _end(status: ExitStatus, message: str) -> int:
 
 
 def _defect(error: Exception) -> ExitStatus:
-    return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
+    if not isinstance(error, OSError):
+        return ExitStatus.DEFECT
+    try:
+        sys.stdout.flush()
+    except OSError:
+        _drop_output()
+    return ExitStatus.CANNOT_WRITE
+
+
+def _drop_output() -> None:
+    """Have what is left of standard output go nowhere: the last flush must not fail again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _account(error: Exception) -> str:
     """An error that is not the user's, and where in the program it came up."""
     if isinstance(error, OSError):
-        return f"{error.filename or 'file'}: {error.strerror or error}"
+        return f"{error.filename or 'output'}: {error.strerror or error}"
     place = traceback.extract_tb(error.__traceback__)[-1]
     return (
         f"internal error: {type(error).__name__}: {error} "

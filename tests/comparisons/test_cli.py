@@ -232,20 +232,42 @@ def test_help_loads_nothing_heavy(arguments):
     assert loaded.isdisjoint(HEAVY)
 
 
-def test_a_reader_that_goes_away():
-    """`crosscheck scenes | head -0`: no traceback, and the status a shell expects."""
+def printing_to(output, arguments: list[str]) -> subprocess.CompletedProcess:
+    """A process with its own buffer before `output`, an open file."""
     buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    return subprocess.run(
+        [sys.executable, "-m", "comparisons.cli", *arguments],
+        cwd=ROOT,
+        env=buffered,
+        stdout=output,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+
+
+HALF_PLANE = ["run", "smooth", "--models", "half-plane", "--out"]
+
+
+@pytest.mark.parametrize("arguments", [["scenes"], ["--help"], HALF_PLANE, [*HALF_PLANE, "--json"]])
+def test_a_reader_that_goes_away(tmp_path, arguments):
+    """`crosscheck … | head -0`: no traceback, and the status a shell expects."""
+    if "--out" in arguments:
+        at = arguments.index("--out") + 1
+        arguments = [*arguments[:at], str(tmp_path / "out"), *arguments[at:]]
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "w") as pipe:
-        done = subprocess.run(
-            [sys.executable, "-m", "comparisons.cli", "scenes"],
-            cwd=ROOT,
-            env=buffered,
-            stdout=pipe,
-            stderr=subprocess.PIPE,
-            text=True,
-            check=False,
-        )
+        done = printing_to(pipe, arguments)
     assert done.returncode == ExitStatus.BROKEN_PIPE
     assert done.stderr == ""
+    if "--out" in arguments:
+        assert (tmp_path / "out" / "result.json").exists()
+
+
+def test_a_full_disc_is_one_line():
+    with Path("/dev/full").open("w") as full:
+        done = printing_to(full, ["scenes"])
+    assert done.returncode == ExitStatus.CANNOT_WRITE
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith("crosscheck: output: No space left on device")
