@@ -32,9 +32,10 @@ def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
         problem = problem_of(scene, load)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
-        refinement = Refinement(pitch, 3 - len(problem.pitches), scene.finite_element.block)
         listener("finite elements: load of the prescribed approach")
-        level = finite_element_level(problem, plan, refinement, None, Stages(), approach=wanted)
+        level = finite_element_level(
+            problem, plan, Refinement(pitch), None, Stages(), approach=wanted
+        )
         before, load = load, level.solution.load
         low, high = problem.extent
         if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:

@@ -70,7 +70,7 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     for name, value in history[-1].items():
         values = [figures_of_level[name] for figures_of_level in history]
         convergence = grid_convergence(values, QUANTITIES[name].formal_order)
-        scale = abs(value) or 1.0
+        scale = abs(value) or QUANTITIES[name].scale(problem.hertz)
         found[name] = Uncertainty(
             iteration=PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst,
             discretisation=convergence.uncertainty / scale,
@@ -105,6 +105,18 @@ def norm_uncertainties(
     return found
 
 
+def discretisations(
+    runs: dict[str, ModelRun], problem: Problem, friction: float, window: Window | None
+) -> dict[str, float]:
+    """Discretisation uncertainty of what is judged: of the difference, or of one model alone."""
+    each = [uncertainties(run, problem, friction) for run in runs.values()]
+    found = {name: sum(u[name].discretisation for u in each) for name in each[0]}
+    if len(runs) == 2:
+        pair = norm_uncertainties(*runs.values(), problem, friction, window)
+        found |= {name: u.discretisation for name, u in pair.items()}
+    return found
+
+
 def compare(
     half_plane: ModelRun,
     finite_element: ModelRun,
@@ -122,7 +134,7 @@ def compare(
     for name in QUANTITIES:
         if name in one:
             first, second = one[name], other[name]
-            difference = _relative(first, second)
+            difference = (first - second) / (abs(second) or QUANTITIES[name].scale(problem.hertz))
             doubt = doubt_one[name].total + doubt_other[name].total
         elif name in doubt_norm:
             first = second = None
@@ -130,10 +142,7 @@ def compare(
         else:
             continue
         tolerance = problem.scene.tolerance.get(name)
-        known = difference is not None and np.isfinite(doubt)
-        verdict = judge(difference, doubt, tolerance) if known and tolerance else None
-        if tolerance and not known:
-            verdict = "indistinct"
+        verdict = judge(difference, doubt, tolerance) if tolerance else None
         listed.append(
             Comparison(
                 quantity=name,
@@ -147,10 +156,3 @@ def compare(
             )
         )
     return listed
-
-
-def _relative(value: float, reference: float) -> float | None:
-    """(value - reference) / reference; None where only the reference vanishes."""
-    if reference == 0.0:
-        return 0.0 if value == 0.0 else None
-    return (value - reference) / reference

@@ -21,7 +21,7 @@ from comparisons.errors import SceneError
 from comparisons.level import Level, MeshField, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
-from comparisons.stages import Stages
+from comparisons.stages import Stages, peak_memory
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody, Support, elastic_body
 from fem.maximum import maximum
@@ -52,14 +52,10 @@ class Refinement:
     """How fine a level is.
 
     pitch    of the pressure elements [m]
-    coarser  number of levels that the third is finer; negative for finer ones still
-    block    width and depth of an unbounded body, in half-widths
     halved   hold an unbounded body at half its width and depth, on the same mesh
     """
 
     pitch: float
-    coarser: int
-    block: float
     halved: bool = False
 
 
@@ -67,7 +63,8 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
     scene, half_width = problem.scene, problem.hertz.half_width
     edge = refinement.pitch / EDGES_PER_HAT
-    depth = refinement.block * half_width
+    coarser = problem.coarser(refinement.pitch)
+    depth = problem.block
     reach = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
@@ -80,19 +77,23 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     )
     if scene.finite_element.geometry == "rough":
         intervals = np.array([[intervals[0, 0], intervals[-1, 1]]])
-    growth = scene.finite_element.growth * COARSER_GROWTH**refinement.coarser
+    growth = scene.finite_element.growth * COARSER_GROWTH**coarser
     window = None
     if scene.stress is not None:
-        size = FIELD_SIZE * half_width * 2.0**refinement.coarser
+        size = FIELD_SIZE * half_width * 2.0**coarser
         across = min(reach, max(scene.stress.half_range.metres(half_width), half_width))
         down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
         window = (-across, across, down, size)
     return BlockSpec(reach, depth, intervals, edge, min(growth, STEEPEST_GROWTH), window)
 
 
-def expected_memory(problem: Problem, refinement: Refinement, patches: np.ndarray) -> float:
-    """Bytes that a level will take, factor, mesh and stresses together."""
-    return BYTES_PER_UNKNOWN * estimate_unknowns(block_spec(problem, refinement, patches))
+def expected_memory(
+    problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray
+) -> float:
+    """Bytes that a level will take, factors, meshes and stresses together."""
+    unknowns = estimate_unknowns(block_spec(problem, refinement, patches))
+    own_block = problem.scene.roller is not None and not plan.shared_factor
+    return BYTES_PER_UNKNOWN * unknowns * (2 if own_block else 1)
 
 
 def finite_element_level(
@@ -117,7 +118,8 @@ def finite_element_level(
     with stages.stage("contact", "finite elements: predicting the contact"):
         guess = solve_contact(model, average, grid.weights, problem.constraints())
     ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
-    expected, allowed = expected_memory(problem, refinement, ground), scene.budget.memory
+    expected = expected_memory(problem, plan, refinement, ground)
+    allowed = scene.budget.memory
     if expected > allowed:
         raise SceneError(
             f"{scene.source}: budget.memory: is {allowed:.3g} bytes, but finite elements on "
@@ -164,7 +166,7 @@ def finite_element_level(
         mesh=body.mesh,
     )
     if window is None:
-        return level
+        return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
         found = [
             _stresses(problem, compliance, grid, solution.pressure, friction, window)
@@ -172,6 +174,7 @@ def finite_element_level(
         ]
     return replace(
         level,
+        peak_memory=peak_memory(),
         stresses=tuple(result for result, _ in found),
         mesh_field=MeshField(
             body.points, body.mesh.triangles, {r.friction: nodal for r, nodal in found}
@@ -199,7 +202,7 @@ def _bodies(
         unbounded = scene.thickness is None and scene.width is None
         block = flat
         if not unbounded:
-            depth = scene.finite_element.block * problem.hertz.half_width
+            depth = problem.block
             with stages.stage("mesh", "finite elements: mesh of the roller"):
                 block = build_block(replace(spec, half_width=0.5 * depth, depth=depth, window=None))
         beyond = 0.5 if halved else np.inf

@@ -10,7 +10,7 @@ from analytic.stress_maxima import stress_maxima
 from comparisons.level import Level, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
-from comparisons.stages import Stages
+from comparisons.stages import Stages, peak_memory
 from comparisons.window import search_window
 
 
@@ -34,10 +34,10 @@ def half_plane_level(
             unknowns=grid.count,
         )
     if window is None:
-        return level
+        return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "half-plane: stresses"):
         stresses = _stresses(problem, plan, level, window)
-    return replace(level, stresses=stresses)
+    return replace(level, stresses=stresses, peak_memory=peak_memory())
 
 
 def _stresses(

@@ -1,9 +1,9 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
-from time import perf_counter
+from itertools import count
 
 from comparisons.checkpoint import Checkpoint
-from comparisons.compare import uncertainties
+from comparisons.compare import discretisations
 from comparisons.level import Level, ModelRun, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
@@ -12,6 +12,8 @@ from comparisons.stages import Listener, Stages, silent
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 MOST_LEVELS = 8
 GROWTH_OF_TIME = 3.5  # of a level over the one before, at most
+NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
+HALVED = "finite_element-halved"
 
 
 def refined(
@@ -23,72 +25,83 @@ def refined(
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.
 
-    Levels that `checkpoint` has from a run that was stopped are not computed again.
+    Levels that `checkpoint` has from a run that was stopped are not computed again, but their
+    time counts.
     """
-    began = perf_counter()
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     halved: Level | None = None
-    planned = len(problem.pitches)
-    for count in range(1, MOST_LEVELS + 1):
-        before = perf_counter()
-        pitch = problem.pitches[0] / 2.0 ** (count - 1)
-        coarser = planned - count
+
+    def solved(name: str, kept: str, pitch: float, tell: Listener, **how: bool) -> Level:
+        level = checkpoint.load(kept)
+        if level is None:
+            level = _solve(name, problem, plan, pitch, window, tell, **how)
+            checkpoint.save(kept, level)
+        return level
+
+    open_questions: dict[str, float] = {}
+    if "half_plane" in levels:  # first, while nothing else is in memory
+        for number, pitch in enumerate(problem.pitches, start=1):
+            levels["half_plane"].append(
+                solved("half_plane", f"half_plane-{number}", pitch, listener)
+            )
+    for number in count(1):
+        pitch = problem.pitches[0] / 2.0 ** (number - 1)
         for name, done in levels.items():
-            kept = f"{name}-{count}"
-            level = checkpoint.load(kept)
-            if level is None:
-                level = _solve(name, problem, plan, pitch, coarser, window, listener)
-                checkpoint.save(kept, level)
-            done.append(level)
-        if count == 1 and plan.domain_check:
+            if len(done) < number:
+                done.append(solved(name, f"{name}-{number}", pitch, listener))
+        if number == 1 and plan.domain_check:
             listener("finite elements: far boundary at half the distance")
-            halved = checkpoint.load("finite_element-halved")
-            if halved is None:
-                halved = _solve(
-                    "finite_element", problem, plan, pitch, coarser, window, silent, halved=True
-                )
-                checkpoint.save("finite_element-halved", halved)
-        if count < planned:
-            continue
+            halved = solved("finite_element", HALVED, pitch, silent, halved=True)
         runs = {
-            name: ModelRun(name, tuple(done), halved if name == "finite_element" else None)
+            name: ModelRun(name, tuple(done[:number]), halved if name == "finite_element" else None)
             for name, done in levels.items()
         }
-        open_questions = unresolved(problem, runs)
-        if not open_questions:
-            return runs, "every judged quantity is resolved"
-        left_open = f"{', '.join(open_questions)} not resolved to a third of the tolerance"
-        seconds = perf_counter() - began + GROWTH_OF_TIME * (perf_counter() - before)
-        spent = _spent(problem, runs, planned - count - 1, seconds)
-        if spent is not None:
-            return runs, f"{left_open}: {spent}"
-    return runs, f"{left_open} after {MOST_LEVELS} levels"
+        if number >= len(problem.pitches):
+            before, open_questions = open_questions, unresolved(problem, runs, window)
+            if not open_questions:
+                return runs, "every judged quantity is resolved"
+        why = _spent(problem, plan, runs)
+        if why is None and open_questions and _stuck(before, open_questions):
+            why = "refinement no longer lowers their uncertainty"
+        if why is None and number == MOST_LEVELS:
+            why = f"{MOST_LEVELS} levels are the most"
+        if why is not None:
+            names = ", ".join(open_questions) or "judged quantities"
+            return runs, f"{names} not resolved to a third of the tolerance: {why}"
 
 
-def unresolved(problem: Problem, runs: dict[str, ModelRun]) -> list[str]:
-    """Judged quantities whose discretisation uncertainty is above its share of the tolerance."""
-    names = set()
-    for run_of_model in runs.values():
-        for friction in problem.scene.friction:
-            for name, doubt in uncertainties(run_of_model, problem, friction).items():
-                tolerance = problem.scene.tolerance.get(name)
-                if tolerance and doubt.discretisation > SHARE_OF_TOLERANCE * tolerance:
-                    names.add(name)
-    return sorted(names)
+def unresolved(
+    problem: Problem, runs: dict[str, ModelRun], window: Window | None
+) -> dict[str, float]:
+    """Judged quantities whose discretisation uncertainty is above its share of the tolerance,
+    with the largest of any friction coefficient."""
+    tolerance = problem.scene.tolerance
+    found: dict[str, float] = {}
+    for friction in problem.scene.friction:
+        for name, size in discretisations(runs, problem, friction, window).items():
+            if name in tolerance and size > SHARE_OF_TOLERANCE * tolerance[name]:
+                found[name] = max(size, found.get(name, 0.0))
+    return found
 
 
-def _spent(problem: Problem, runs: dict[str, ModelRun], coarser: int, seconds: float) -> str | None:
-    """Why one more level, which would end after `seconds`, exceeds the budget; or None."""
+def _stuck(before: dict[str, float], now: dict[str, float]) -> bool:
+    """Whether the last level helped none of the open quantities."""
+    return all(name in before and size >= NO_HELP * before[name] for name, size in now.items())
+
+
+def _spent(problem: Problem, plan: Plan, runs: dict[str, ModelRun]) -> str | None:
+    """Why one more level of every model would exceed the budget, or None."""
     budget = problem.scene.budget
-    if seconds > budget.time:
+    total = sum(sum(run.seconds.values()) for run in runs.values())
+    last = sum(sum(run.finest.seconds.values()) for run in runs.values())
+    if total + GROWTH_OF_TIME * last > budget.time:
         return f"a finer level would exceed {budget.time:g} s (budget.time)"
     if "finite_element" in runs:
         from comparisons.finite_element import Refinement, expected_memory
 
         finest = runs["finite_element"].finest
-        block = problem.scene.finite_element.block
-        refinement = Refinement(0.5 * finest.grid.pitch, coarser, block)
-        if expected_memory(problem, refinement, finest.patches) > budget.memory:
+        refinement = Refinement(0.5 * finest.grid.pitch)
+        if expected_memory(problem, plan, refinement, finest.patches) > budget.memory:
             return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
     return None
 
@@ -98,7 +111,6 @@ def _solve(
     problem: Problem,
     plan: Plan,
     pitch: float,
-    coarser: int,
     window: Window | None,
     listener: Listener,
     halved: bool = False,
@@ -110,5 +122,5 @@ def _solve(
         return half_plane_level(problem, plan, pitch, window, Stages(listener))
     from comparisons.finite_element import Refinement, finite_element_level
 
-    refinement = Refinement(pitch, coarser, problem.scene.finite_element.block, halved)
+    refinement = Refinement(pitch, halved)
     return finite_element_level(problem, plan, refinement, window, Stages(listener))

@@ -73,6 +73,7 @@ class Level:
     seconds       by stage
     unknowns      of the linear systems behind the compliance
     factor_memory bytes that their factors hold, 0 without any
+    peak_memory   largest memory of the process when the level was done [bytes]
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
     """
@@ -84,6 +85,7 @@ class Level:
     seconds: dict[str, float]
     unknowns: int
     factor_memory: int = 0
+    peak_memory: int = 0
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None

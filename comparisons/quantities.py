@@ -4,9 +4,12 @@ Figures of one model are numbers per level; figures of a pair are relative L2 no
 difference of two fields on the same points, with the finite elements as the reference.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+
+from analytic.exact.hertz import HertzContact
 
 
 @dataclass(frozen=True)
@@ -15,6 +18,7 @@ class Quantity:
 
     label         in words, for tables
     unit          of the figure in SI; "" for ratios
+    scale         of the smooth contact: what a figure that vanishes is measured by
     formal_order  of convergence under refinement: 2 for the quadratic elements' smooth figures,
                   1 where the square-root edge of a contact governs
     of_pair       a norm of a difference, no figure of one model
@@ -23,24 +27,51 @@ class Quantity:
 
     label: str
     unit: str
+    scale: Callable[[HertzContact], float]
     formal_order: float
     of_pair: bool = False
     needs_stress: bool = False
 
 
+def _pressure(hertz: HertzContact) -> float:
+    return hertz.peak_pressure
+
+
+def _half_width(hertz: HertzContact) -> float:
+    return hertz.half_width
+
+
+def _one(hertz: HertzContact) -> float:
+    return 1.0
+
+
 QUANTITIES: dict[str, Quantity] = {
-    "peak_pressure": Quantity("peak pressure", "Pa", 2.0),
-    "contact_length": Quantity("contact length", "m", 2.0),
-    "contact_ratio": Quantity("contact length over Hertz 2a", "", 2.0),
-    "pressure_l2": Quantity("pressures, relative L2 difference", "", 1.0, of_pair=True),
-    "tau1_max": Quantity("largest principal shear stress", "Pa", 2.0, needs_stress=True),
-    "tau1_max_depth": Quantity("depth of the largest principal shear", "m", 2.0, needs_stress=True),
-    "txz_max_abs": Quantity("largest orthogonal shear stress", "Pa", 2.0, needs_stress=True),
+    "peak_pressure": Quantity("peak pressure", "Pa", _pressure, 2.0),
+    "contact_length": Quantity("contact length", "m", _half_width, 2.0),
+    "contact_ratio": Quantity("contact length over Hertz 2a", "", _one, 2.0),
+    "pressure_l2": Quantity("pressures, relative L2 difference", "", _one, 1.0, of_pair=True),
+    "tau1_max": Quantity("largest principal shear stress", "Pa", _pressure, 2.0, needs_stress=True),
+    "tau1_max_depth": Quantity(
+        "depth of the largest principal shear", "m", _half_width, 2.0, needs_stress=True
+    ),
+    "txz_max_abs": Quantity(
+        "largest orthogonal shear stress", "Pa", _pressure, 2.0, needs_stress=True
+    ),
     "tau1_field_near": Quantity(
-        "tau1 down to 0.1 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
+        "tau1 down to 0.1 a, relative L2 difference",
+        "",
+        _one,
+        1.0,
+        of_pair=True,
+        needs_stress=True,
     ),
     "tau1_field_deep": Quantity(
-        "tau1 deeper than 0.5 a, relative L2 difference", "", 1.0, of_pair=True, needs_stress=True
+        "tau1 deeper than 0.5 a, relative L2 difference",
+        "",
+        _one,
+        1.0,
+        of_pair=True,
+        needs_stress=True,
     ),
 }
 

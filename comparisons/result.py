@@ -1,25 +1,14 @@
 """The content of result.json, by the names that other people's scripts rely on."""
 
-import resource
-import sys
-
 from comparisons.compare import uncertainties
 from comparisons.level import Level, ModelRun, StressResult
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
+from comparisons.unshown import unshown_effects
 from comparisons.verdict import Comparison, half_space_verdict
 
 SCHEMA = 1
-
-# How much what both models of a run share may move a figure, per unit of the group that rules
-# it. Measured: a gap taken at the displaced place, along the roller's tilted normal, moves peak
-# pressure and half-width by 0.3 to 0.5 % at a/R = 0.02; finite strain moves the peak pressure of
-# a sinusoid by 0.3 % at a pressure of 0.015 E; the real boundary of a ground surface of rms slope
-# 0.066 moves the contact length by 0.25 % and the peak pressure by 0.14 %, of second order.
-TILT_PER_A_OVER_RADIUS = 0.25
-STRAIN_PER_PRESSURE_OVER_MODULUS = 0.2
-BOUNDARY_PER_SLOPE_SQUARED = 1.0
 
 
 def result_of(
@@ -32,7 +21,8 @@ def result_of(
     """All figures of a run: SI units, None for what is unknown; `refinement`: why it stopped."""
     hertz = problem.hertz
     groups = _groups(problem, runs)
-    verdict, why = half_space_verdict(list(comparisons), shared_effects(problem, runs))
+    unshown = unshown_effects(problem, runs)
+    verdict, why = half_space_verdict(list(comparisons), unshown)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
         by_quantity[row.quantity].append(
@@ -62,25 +52,11 @@ def result_of(
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
-        "half_space": {"verdict": verdict, "why": why},
+        "half_space": {"verdict": verdict, "why": why, "shared_effects": unshown},
         "refinement": refinement,
         "assumptions": list(plan.assumptions),
         "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
     }
-
-
-def shared_effects(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float]:
-    """Estimated relative size of the effects that neither model of this run contains."""
-    scene = problem.scene
-    peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
-    effects = {
-        "finite rotation": TILT_PER_A_OVER_RADIUS * problem.hertz.half_width / scene.roller_radius,
-        "finite strain": STRAIN_PER_PRESSURE_OVER_MODULUS * peak / scene.body.youngs_modulus,
-    }
-    if scene.profile_info is not None and scene.finite_element.geometry == "flat":
-        slope = scene.profile_info.roughness.rms_slope
-        effects["the real boundary's slope"] = BOUNDARY_PER_SLOPE_SQUARED * slope**2
-    return effects
 
 
 def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | None]:
@@ -126,7 +102,7 @@ def _model(problem: Problem, run: ModelRun, friction: float) -> dict:
             "seconds": run.seconds,
             "iterations": level.solution.iterations,
             "unknowns": level.unknowns,
-            "peak_memory": peak_memory(),
+            "peak_memory": _peak_memory(problem, run),
         },
     }
 
@@ -170,7 +146,11 @@ def _stress(stress: StressResult | None) -> dict | None:
     return found
 
 
-def peak_memory() -> int:
-    """Largest resident memory of this process so far [bytes]."""
-    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return kilobytes * (1 if sys.platform == "darwin" else 1024)
+def _peak_memory(problem: Problem, run: ModelRun) -> int:
+    """Largest memory of the process [bytes] by the time the model was done.
+
+    The half-plane's planned levels come first, so that theirs is its own; further levels share
+    the process with the finite elements.
+    """
+    last = len(problem.pitches) if run.name == "half_plane" else len(run.levels)
+    return run.levels[min(last, len(run.levels)) - 1].peak_memory

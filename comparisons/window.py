@@ -22,7 +22,7 @@ def window_of(problem: Problem) -> Window:
     scene, wanted = problem.scene, problem.scene.stress
     half_width = problem.hertz.half_width
     half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
-    block = scene.finite_element.block * half_width
+    block = problem.block
     for name, given, body, unbounded in (
         ("half_range", half_range, scene.width and 0.5 * scene.width, 0.25 * block),
         ("depth", depth, scene.thickness, 0.5 * block),
@@ -35,7 +35,7 @@ def window_of(problem: Problem) -> Window:
     half_range = min(half_range, 0.5 * (scene.width or np.inf))
     depth = min(depth, scene.thickness or np.inf)
     columns, rows = wanted.points
-    coarsest, finest = problem.pitches[0], problem.pitches[-1]
+    coarsest, finest = problem.pitches[0], problem.reference_pitch
     spacing = max(2.0 * half_range / (columns - 1), FINEST_SPACING * finest)
     spacing = coarsest * 2.0 ** min(
         round(np.log2(spacing / coarsest)), int(np.floor(np.log2(half_range / coarsest)))

@@ -19,7 +19,7 @@ from meshes.build import in_units
 def mesh_in_edges(scene: ResolvedScene) -> tuple:
     """Everything that the coarsest mesh is made from, with lengths in surface edges."""
     problem = problem_of(scene)
-    refinement = Refinement(problem.pitches[0], 2, 200.0)
+    refinement = Refinement(problem.pitches[0])
     grid = problem.grid(refinement.pitch)
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, problem.modulus),

@@ -102,7 +102,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     plan = make_plan(problem, MODELS)
     grid: HatGrid = problem.grid(problem.pitches[0])
     average = grid.average(problem.gap, problem.knots)
-    refinement = Refinement(grid.pitch, 2, 40.0)
+    refinement = Refinement(grid.pitch)
     level = half_plane_level(problem, plan, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5

@@ -1,0 +1,56 @@
+"""Effects that the finite-element model of a run cannot show, estimated from dimensionless groups.
+
+The constants were measured; each names its case. Estimates are relative and of the size that the
+effect may have, not its sign.
+"""
+
+from comparisons.level import ModelRun
+from comparisons.problem import Problem
+
+# A gap taken at the displaced place, along the roller's tilted normal, instead of at the
+# undeformed one: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02.
+TILT_PER_A_OVER_RADIUS = 0.25
+# Finite strain: 0.3 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015.
+STRAIN_PER_PRESSURE_OVER_MODULUS = 0.2
+# The real boundary in place of a flat one: 0.25 % in contact length and 0.14 % in peak pressure
+# of a ground surface of rms slope 0.066; of second order.
+BOUNDARY_PER_SLOPE_SQUARED = 1.0
+# Stresses next to a real boundary whose asperities do not flatten as they would: 8.4 % in tau1
+# and 14 % in its near field on the same surface; of first order.
+UNFLATTENED_PER_SLOPE = 2.1
+# Sliding traction that moves the surfaces through Dundurs' beta: 8e-5 in the peak pressure at
+# mu beta = 0.029 (of second order), while the pressure shifts by 0.64 mu beta half-widths.
+COUPLING_PER_SQUARE, COUPLING_SHIFT = 0.1, 0.64
+
+CONTACT = ("peak_pressure", "contact_length", "contact_ratio")
+STRESS = ("tau1_max", "txz_max_abs")
+NEAR_SURFACE = ("tau1_max", "tau1_max_depth", "txz_max_abs", "tau1_field_near")
+NORMS = ("pressure_l2", "tau1_field_near")
+
+
+def unshown_effects(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, dict[str, float]]:
+    """By quantity and name of the effect, its relative size; effects of no size are left out."""
+    scene = problem.scene
+    peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
+    slope = 0.0 if scene.profile_info is None else scene.profile_info.roughness.rms_slope
+    coupling = abs(max(scene.friction) * problem.dundurs_beta)
+    tilt = TILT_PER_A_OVER_RADIUS * problem.hertz.half_width / scene.roller_radius
+    strain = STRAIN_PER_PRESSURE_OVER_MODULUS * peak / scene.body.youngs_modulus
+    effects = [
+        ("finite rotation", tilt, (*CONTACT, *STRESS)),
+        ("finite strain", strain, (*CONTACT, *STRESS)),
+        ("friction moving the surfaces", COUPLING_PER_SQUARE * coupling**2, (*CONTACT, *STRESS)),
+        ("friction moving the surfaces", COUPLING_SHIFT * coupling, NORMS),
+    ]
+    if scene.finite_element.geometry == "flat":
+        boundary = BOUNDARY_PER_SLOPE_SQUARED * slope**2
+        effects.append(("the real boundary", boundary, (*CONTACT, *STRESS)))
+    else:
+        unflattened = UNFLATTENED_PER_SLOPE * slope
+        effects.append(("asperities that do not flatten", unflattened, NEAR_SURFACE))
+    found: dict[str, dict[str, float]] = {}
+    for name, size, quantities in effects:
+        for quantity in quantities:
+            if size > 0.0:
+                found.setdefault(quantity, {})[name] = size
+    return found
