@@ -14,9 +14,9 @@ Quantity = Callable[[PlaneStress], np.ndarray]
 
 # The search around a point of the grid: nine points, half a cell apart at first; the parabola
 # through them gives the next centre, and the spacing shrinks. A parabola's top errs by the square
-# of the spacing, and the last one is 8e-4 of a cell.
+# of the spacing, and the last one is 5e-3 of a cell.
 _STENCIL = np.array([[i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)])
-_FIRST_STEP, _SHRINKAGE, _ROUNDS = 0.5, 0.4, 8
+_FIRST_STEP, _SHRINKAGE, _ROUNDS = 0.5, 0.4, 6
 _FARTHEST = 1.5  # steps that a centre may move in a round
 
 

@@ -65,10 +65,11 @@ def half_space_verdict(
         )
 
     def effects(items: list[Comparison]) -> str:
-        return "; ".join(
-            f"{name} by " + ", ".join(f"{e} {s:.1%}" for e, s in unshown[name].items())
-            for name in dict.fromkeys(c.quantity for c in items)
-        )
+        alike: dict[str, list[str]] = {}
+        for name in dict.fromkeys(c.quantity for c in items):
+            sizes = ", ".join(f"{effect} {s:.1%}" for effect, s in unshown[name].items())
+            alike.setdefault(sizes, []).append(name)
+        return "; ".join(f"{', '.join(names)} by {sizes}" for sizes, names in alike.items())
 
     differing = [c for c in judged if c.verdict == "differ"]
     proven = [c for c in differing if abs(c.difference) > size(c)]
