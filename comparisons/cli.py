@@ -101,6 +101,8 @@ def _carry_out(arguments: list[str]) -> int:
     except InputError as error:
         return _end(ExitStatus.BAD_INPUT, str(error))
     except Exception as error:
+        if _is_interrupt(error):
+            return _end(ExitStatus.INTERRUPTED, "interrupted")
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
         if os.environ.get(TRACEBACK):
@@ -186,6 +188,13 @@ def _end(status: ExitStatus, message: str) -> int:
     """Say the one line that goes with a status."""
     print(f"crosscheck: {one_line(message)}", file=sys.stderr)
     return int(status)
+
+
+def _is_interrupt(error: BaseException) -> bool:
+    """Whether Ctrl-C is behind it: a compiled module that is being imported says ImportError."""
+    while error and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _defect(error: Exception) -> ExitStatus:

@@ -6,16 +6,17 @@ against these functions, numpy, and the part of PETSc and UFL that all three sha
 
 import inspect
 import logging
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from dolfinx.fem import Constant, FunctionSpace
+    import ufl
+    from dolfinx.fem import Constant, Form, FunctionSpace
     from dolfinx.mesh import Mesh
     from mpi4py.MPI import Comm
     from petsc4py.PETSc import Mat
-    from ufl import Form
 
 
 def quiet_compiler() -> None:
@@ -101,13 +102,27 @@ def input_points(mesh: "Mesh") -> np.ndarray:
     return np.asarray(indices() if callable(indices) else indices, dtype=np.int64)
 
 
-def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
-    """PETSc matrix of a UFL form; the identity in the rows and columns of `conditions`."""
+def form_cache() -> Path:
+    """Folder of the compiled forms. 0.5 calls its settings parameters, later ones options."""
+    from dolfinx import jit
+
+    settings = jit.get_options if hasattr(jit, "get_options") else jit.get_parameters
+    return Path(settings()["cache_dir"])
+
+
+def compile_form(bilinear: "ufl.Form") -> "Form":
+    """The compiled form of a UFL form."""
     from dolfinx import fem
-    from dolfinx.fem.petsc import assemble_matrix
 
     quiet_compiler()
-    matrix = assemble_matrix(fem.form(bilinear), bcs=conditions)
+    return fem.form(bilinear)
+
+
+def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
+    """PETSc matrix of a compiled form; the identity in the rows and columns of `conditions`."""
+    from dolfinx.fem.petsc import assemble_matrix
+
+    matrix = assemble_matrix(bilinear, bcs=conditions)
     matrix.assemble()
     return matrix
 

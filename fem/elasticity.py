@@ -16,6 +16,7 @@ from scipy.sparse import csr_matrix
 
 from analytic.material import Material
 from fem import compat
+from fem.just_in_time import compiled, load_dolfinx
 from fem.locate import Locator
 from fem.mumps import FemError, SymmetricFactor
 from fem.support import Support, held_components
@@ -139,6 +140,7 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
 
     Raises FemError if an element is turned over.
     """
+    load_dolfinx()
     import ufl
     from mpi4py import MPI
 
@@ -150,7 +152,7 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
     if folded.any():
         raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
     domain, number = _domain(MPI.COMM_WORLD, mesh, degree)
-    space = compat.displacement_space(domain)
+    space = compiled(lambda: compat.displacement_space(domain))
     point = _points_of_nodes(mesh, domain, number, space)
 
     nu = material.poissons_ratio
@@ -162,7 +164,7 @@ def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> Elast
     dx = ufl.Measure("dx", domain=domain, metadata={"quadrature_degree": QUADRATURE[degree]})
     work = ufl.inner(stress, ufl.sym(ufl.grad(v))) * dx
     conditions = _conditions(space, held[point])
-    matrix = compat.petsc_matrix(work, conditions)
+    matrix = compat.petsc_matrix(compiled(lambda: compat.compile_form(work)), conditions)
 
     owned = point[: space.dofmap.index_map.size_local]
     return ElasticBody(

@@ -101,11 +101,20 @@ def test_statuses_that_scripts_rely_on():
     ) == (0, 1, 2, 3)
 
 
+def interrupted_import() -> ImportError:
+    """What Ctrl-C becomes while a compiled module starts."""
+    error = ImportError("initialization failed")
+    error.__cause__ = KeyboardInterrupt()
+    return error
+
+
 @pytest.mark.parametrize(
     ("error", "status", "line"),
     [
         (InputError("the trace is too short"), 2, "crosscheck: the trace is too short"),
         (KeyboardInterrupt(), 130, "crosscheck: interrupted"),
+        (interrupted_import(), 130, "crosscheck: interrupted\n"),
+        (ImportError("no numpy"), 70, "crosscheck: internal error: ImportError: no numpy in "),
         (
             OSError(28, "No space left on device", "results/a"),
             74,
