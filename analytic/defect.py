@@ -15,7 +15,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact import KKT_TOLERANCE, ContactSolution, assessed, solve_contact
+from analytic.contact import (
+    KKT_TOLERANCE,
+    ContactSolution,
+    assessed,
+    common_gap,
+    solve_contact,
+)
 from analytic.equilibrium import SET_TOLERANCE, Constraints
 from analytic.operators import ComplianceOperator, ModelOperator
 
@@ -38,6 +44,8 @@ def solve_with_model(
     MAX_STEPS, or stops improving, is returned with `converged` False.
     `iterations` counts the steps and the applications of C and of D.
     """
+    common = common_gap(gap, weights, constraints)
+    gap = gap - common * weights
     trial = solve_contact(model, gap, weights, constraints, start)
     pressure, displacement = trial.pressure, operator.apply(trial.pressure)
     model_applications = trial.iterations["applications"]
@@ -66,7 +74,7 @@ def solve_with_model(
         length = np.clip(-slope / curvature, 0.0, 1.0) if curvature > 0.0 else 1.0
         pressure = pressure + length * direction
         displacement = displacement + length * image
-    return replace(best, iterations=counts)
+    return replace(best, approach=best.approach + common, iterations=counts)
 
 
 def _approach(

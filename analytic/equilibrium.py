@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 
 
@@ -140,7 +141,9 @@ class EquilibriumProblem:
             correction = (self.constraints.load - weights @ pressure) * lift
             pressure += correction
             residual += self.apply(correction)
-        goal = tolerance * self._displacement_norm(residual, free)
+        # what rounding leaves of the sum of gap and displacement cannot be lowered
+        floor = ROUNDING * (np.linalg.norm(self.gap[free]) + np.linalg.norm(residual[free]))
+        goal = max(tolerance * self._displacement_norm(residual, free), floor)
         direction, slope_before = np.zeros_like(weights), 1.0
         for _ in range(10 * len(weights) + 10):
             if self.by_load:

@@ -193,7 +193,9 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
-    finest = max(finest, (problem.extent[1] - problem.extent[0]) / MOST_HATS)
+    # a light load on a crest touches far less ground than its Hertz contact of the roller
+    span = problem.extent[1] - problem.extent[0]
+    finest = max(min(finest, span / (2.0 * SMOOTH_ELEMENTS)), span / MOST_HATS)
     # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
     finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
     return tuple(finest * 2.0 ** (2 - k) for k in range(levels))

@@ -212,6 +212,19 @@ class TestLimits:
         assert solution.converged
         assert np.count_nonzero(solution.pressure) == 1
 
+    @pytest.mark.parametrize("load", [1e-2, 1e-6])
+    def test_a_light_load_under_a_far_surface_costs_no_more(self, load):
+        """A common gap a million times the compression must not drown it in rounding."""
+        half_width = hertz_from_load(load, RADIUS, MODULUS).half_width
+        grid = HatGrid.within(-3.0 * half_width, 3.0 * half_width, half_width / 150.0)
+        near, far = (
+            pressed(grid, lambda x, c=c: roller_gap(RADIUS)(x) + c, Constraints(load=load))
+            for c in (0.0, 1e6 * half_width**2 / RADIUS)
+        )
+        assert far.converged
+        assert far.iterations["applications"] < 3 * near.iterations["applications"]
+        assert far.pressure == pytest.approx(near.pressure, abs=1e-4 * near.pressure.max())
+
     def test_full_contact_of_a_shallow_wave(self):
         """All gaps closed: p - p_smooth is E* times slope amplitude over two, in phase."""
         grid = HatGrid.within(-2e-3, 2e-3, 2e-6)

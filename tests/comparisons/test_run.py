@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from analytic.exact.hertz import hertz_from_load
 from comparisons import finite_element
 from comparisons.checkpoint import Checkpoint
 from comparisons.errors import SceneError
@@ -369,6 +370,26 @@ def test_approach_prescribed_on_a_layer(tmp_path):
     assert contact["approach"] == pytest.approx(10e-6, rel=1e-3)
     assert outcome.result["models"]["half_plane"][0]["contact"]["approach"] is None
     assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+
+
+@pytest.mark.parametrize("load", [1.0, 1e-3])
+def test_a_load_that_touches_one_crest_only(tmp_path, load):
+    """Both models find Hertz's contact on the crest's own curvature, however light the load."""
+    wavelength, amplitude = 50e-6, 0.2e-6
+    tables = {
+        "roller": {"radius": 10e-3, **STEEL},
+        "body": dict(STEEL),
+        "profile": {"kind": "sinusoid", "wavelength": wavelength, "amplitude": amplitude},
+        "load": {"per_length": load},
+    }
+    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+    curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
+    crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
+    assert outcome.exit_status == ExitStatus.DONE
+    for model in MODELS:
+        contact = outcome.result["models"][model][0]["contact"]
+        assert contact["peak_pressure"] == pytest.approx(crest.peak_pressure, rel=2e-3)
+        assert contact["contact_length"] == pytest.approx(2.0 * crest.half_width, rel=5e-3)
 
 
 def test_plan_says_what_it_leaves_out():
