@@ -52,19 +52,28 @@ def check_writable(out: Path) -> None:
 
 
 def _check_folder(out: Path, place: Path) -> None:
-    """Raise InputError, which names `out`, unless `place` is a folder to write in.
+    """Raise InputError, which names `out`, unless `place` is a folder to write in, or is gone.
 
     Permission bits do not tell (of root, of a read-only file system), so a folder is made there
-    and removed.
+    and removed. Another run may remove `place` meanwhile, or remove it and make it again.
     """
-    if not place.is_dir():
-        raise InputError(f"{out}: cannot be written: {place} is not a folder; allowed is a folder")
-    try:
-        tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
-    except OSError as error:
-        raise InputError(
-            f"{out}: cannot be written: {place} ({error.strerror}); allowed is a folder that can"
-        ) from error
+    for attempt in range(ATTEMPTS):
+        if not os.path.lexists(place):
+            return
+        try:
+            tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
+            return
+        except NotADirectoryError as error:
+            raise InputError(
+                f"{out}: cannot be written: {place} is not a folder; allowed is a folder"
+            ) from error
+        except OSError as error:
+            if isinstance(error, FileNotFoundError) and attempt < ATTEMPTS - 1:
+                continue
+            raise InputError(
+                f"{out}: cannot be written: {place} ({error.strerror}); "
+                "allowed is a folder that can"
+            ) from error
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """Publishing a run's folder: whole files or none."""
 
+import errno
 import os
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
@@ -136,6 +137,41 @@ def test_a_sub_folder_that_another_run_removes_is_made_again(tmp_path, monkeypat
         fill(scratch, ["half_plane/contact.csv"])
     assert removed == [tmp_path / "out" / "half_plane"]
     assert (tmp_path / "out" / "half_plane" / "contact.csv").read_text() == "new"
+
+
+@pytest.mark.parametrize("comes_back", [False, True])
+def test_a_sub_folder_that_another_run_removes_while_it_is_tried(tmp_path, monkeypatch, comes_back):
+    place = tmp_path / "half_plane"
+    place.mkdir()
+    make = os.mkdir
+    removed = []
+
+    def mkdir(path, *args, **kwargs):
+        if not removed:
+            removed.append(path)
+            place.rmdir()
+            try:
+                make(path, *args, **kwargs)
+            finally:
+                if comes_back:
+                    make(place)
+        make(path, *args, **kwargs)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    check_writable(tmp_path)
+    assert removed
+    assert place.exists() is comes_back
+
+
+def test_a_folder_that_never_takes_anything_is_refused(tmp_path, monkeypatch):
+    """As /proc does: it exists, and every attempt ends as if it did not."""
+
+    def mkdir(path, *args, **kwargs):
+        raise FileNotFoundError(errno.ENOENT, "No such file or directory", path)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    with pytest.raises(InputError, match="No such file or directory"):
+        check_writable(tmp_path)
 
 
 def test_runs_at_once_into_one_folder(tmp_path):
