@@ -16,9 +16,9 @@ for comparison.
 from typing import Literal, Protocol
 
 import numpy as np
-import scipy.fft
 import scipy.linalg
 
+from analytic.convolution import Convolution
 from analytic.elements import hat_galerkin, strip_displacement
 
 Element = Literal["hat", "strip"]
@@ -33,16 +33,20 @@ class ComplianceOperator(Protocol):
 
 
 class ModelOperator(ComplianceOperator, Protocol):
-    """A compliance that also offers an approximate inverse and a coarser version of itself."""
+    """A compliance that also offers an approximate inverse and a coarser version of itself.
+
+    periodic  whether the grid closes on itself: node n is node 0
+    """
 
     count: int
+    periodic: bool
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
 
-    def coarsened(self) -> "ModelOperator": ...
+    def coarsened(self) -> "ModelOperator | None": ...
 
 
-class HalfPlane:
+class HalfPlane(Convolution):
     """Compliance of a half-plane, exact log-kernel coefficients, applied by FFT.
 
     u_z(x) = -(2 / (pi E*)) integral p(s) ln(|x - s| / L) ds (Johnson 1985, eq. 2.25).
@@ -55,6 +59,7 @@ class HalfPlane:
     modulus  E* [Pa], or E' of one body
     datum    L [m]; default the support (count + 1) h
     element  "hat" (Galerkin) or "strip" (uniform, collocated)
+    coefficients  (n,) first column of the symmetric Toeplitz matrix D_ij [m^2/Pa]
     """
 
     def __init__(
@@ -66,55 +71,26 @@ class HalfPlane:
         element: Element = "hat",
     ) -> None:
         self.element = element
-        self.count = count
         self.pitch = pitch
         self.modulus = modulus
         self.datum = (count + 1) * pitch if datum is None else datum
-        self.applications = 0
-        self._length = scipy.fft.next_fast_len(2 * count, real=True)
-        self._kernel = scipy.fft.rfft(self._embedded(self.coefficients()))
-        self._inverse_symbol = 1.0 / self._symbol()
-
-    def coefficients(self) -> np.ndarray:
-        """First column (n,) of the symmetric Toeplitz matrix D_ij [m^2/Pa] of this operator."""
-        kernel = hat_galerkin if self.element == "hat" else strip_displacement
-        log_integral = kernel(np.arange(self.count, dtype=float))
-        scale = 2.0 * self.pitch**2 / (np.pi * self.modulus)
-        return -scale * (log_integral + np.log(self.pitch / self.datum))
-
-    def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
-        self.applications += 1
-        return self._convolve(pressure, self._kernel)
-
-    def precondition(self, displacement: np.ndarray) -> np.ndarray:
-        """Approximate inverse of `apply`, positive definite: division by the symbol of the hats."""
-        return self._convolve(displacement, self._inverse_symbol)
+        kernel = hat_galerkin if element == "hat" else strip_displacement
+        log_integral = kernel(np.arange(count, dtype=float))
+        scale = 2.0 * pitch**2 / (np.pi * modulus)
+        self.coefficients = -scale * (log_integral + np.log(pitch / self.datum))
+        super().__init__(self.coefficients, self._symbol)
 
     def coarsened(self) -> "HalfPlane":
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
         half = self.count // 2
         return HalfPlane(half, 2.0 * self.pitch, self.modulus, self.datum, self.element)
 
-    def _convolve(self, values: np.ndarray, transfer: np.ndarray) -> np.ndarray:
-        spectrum = scipy.fft.rfft(values, self._length)
-        spectrum *= transfer
-        return scipy.fft.irfft(spectrum, self._length)[: self.count]
-
-    def _embedded(self, column: np.ndarray) -> np.ndarray:
-        """Circulant of length >= 2n - 1 whose leading block is the Toeplitz matrix."""
-        circulant = np.zeros(self._length)
-        circulant[: self.count] = column
-        circulant[-(self.count - 1) or self._length :] = column[:0:-1]
-        return circulant
-
-    def _symbol(self) -> np.ndarray:
+    def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2 / (E* |k|) seen through the elements, summed over each wavenumber's aliases [m^2/Pa].
 
         A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc.
         """
-        cycles = np.arange(self._length // 2 + 1) / self._length
-        cycles[0] = 0.5 / self._length  # the mean has no finite compliance; any positive value does
+        cycles = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         aliased = cycles[:, None] + np.arange(-3, 4)
         wavenumber = 2.0 * np.pi * np.abs(aliased) / self.pitch
         shape = np.sinc(aliased) ** (4 if self.element == "hat" else 1)
@@ -139,6 +115,8 @@ class SumOfBodies:
 
 class DenseCompliance:
     """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+
+    periodic = False
 
     def __init__(self, matrix: np.ndarray) -> None:
         self.matrix = 0.5 * (matrix + matrix.T)
