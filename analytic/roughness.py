@@ -7,12 +7,12 @@ extremes at the zeros of the derivative. Nothing is filtered and no tilt is remo
 Nomenclature: z height above the mean height of the curve [m], L length [m], k wavenumber [1/m].
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
 from analytic.profile import Profile
 
@@ -46,26 +46,51 @@ def roughness(profile: Profile) -> Roughness:
     """Roughness figures of the profile's spline."""
     # Taking off an offset first keeps the powers free of cancellation.
     offset = float(np.mean(profile.height))
-    curve = CubicSpline(profile.x, profile.height - offset)
-    points, weights = _gauss_points(profile.x)
+    found = figures_of(CubicSpline(profile.x, profile.height - offset))
+    return replace(found, mean=offset + found.mean)
+
+
+def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
+    """Roughness figures of a piecewise cubic height [m], counted from `level` [m] (None: its mean).
+
+    Rounding shows where the curve's offset is large against its heights.
+    """
+    points, weights = _gauss_points(curve.x)
     heights = curve(points)
     mean = float(np.sum(weights * heights))
-    z = heights - mean
+    level = mean if level is None else level
+    z = heights - level
     square = np.sum(weights * z**2)
     cube, fourth = np.sum(weights * z**3), np.sum(weights * z**4)
-    extremes = curve(np.append(profile.x, _zeros(curve.derivative(1))))
     slope = curve.derivative(1)
-    steepest = slope(np.append(profile.x, _zeros(curve.derivative(2))))
+    steepest = slope(np.append(curve.x, _zeros(curve.derivative(2))))
     return Roughness(
-        mean=offset + mean,
-        ra=_mean_deviation(curve, mean),
+        mean=mean,
+        ra=_mean_deviation(curve, level),
         rq=float(np.sqrt(square)),
         rsk=float(cube / square**1.5) if square > 0.0 else 0.0,
         rku=float(fourth / square**2) if square > 0.0 else 0.0,
-        rt=float(np.ptp(extremes)),
+        rt=float(np.ptp(curve(turning_points(curve)))),
         rms_slope=float(np.sqrt(np.sum(weights * slope(points) ** 2))),
         max_slope=float(np.max(np.abs(steepest))),
     )
+
+
+def turning_points(curve: PPoly) -> np.ndarray:
+    """Places [m], ascending, that include every extreme of a piecewise cubic and both its ends."""
+    return np.sort(np.append(curve.x, _zeros(curve.derivative(1))))
+
+
+def crossings(curve: PPoly, level: float = 0.0) -> np.ndarray:
+    """Places [m], ascending, where a piecewise cubic takes the height `level` [m]."""
+    return _zeros(curve, level)
+
+
+def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:
+    """The part of a piecewise cubic between two places [m]."""
+    inside = curve.x[(curve.x > start) & (curve.x < stop)]
+    x = np.concatenate(([start], inside, [stop]))
+    return CubicHermiteSpline(x, curve(x), curve(x, 1))
 
 
 def shortest_wavelength(profile: Profile, fraction: float = 0.99) -> float:
@@ -101,13 +126,13 @@ def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return points, 0.5 * weights[:, None] * steps / (x[-1] - x[0])
 
 
-def _zeros(piecewise: CubicSpline, value: float = 0.0) -> np.ndarray:
+def _zeros(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
     """Where a piecewise polynomial takes `value` [m], ascending, without its constant pieces."""
     zeros = piecewise.solve(value, discontinuity=False, extrapolate=False)
     return zeros[np.isfinite(zeros)]
 
 
-def _mean_deviation(curve: CubicSpline, mean: float) -> float:
+def _mean_deviation(curve: PPoly, mean: float) -> float:
     """Mean of |curve - mean|, exact between the crossings of the mean line."""
     first, last = curve.x[0], curve.x[-1]
     ends = np.concatenate(([first], _zeros(curve, mean), [last]))
