@@ -1,4 +1,4 @@
-"""Computed profiles: smooth, sinusoid, self-affine, ground texture.
+"""Computed profiles: smooth, sinusoid, self-affine, ground texture (turned: see `turned`).
 
 Every profile is centred on x = 0 and, for a given seed, the same everywhere (numpy's PCG64).
 Lengths are in m. Parameters that make no sense raise ValueError with one line.
@@ -20,8 +20,8 @@ MAX_ONE_SIDEDNESS = 2.0  # there a single valley already holds most of the varia
 
 def smooth(*, length: float, samples: int = MIN_SAMPLES + 1) -> Profile:
     """A flat profile: height 0 over `length`."""
-    _positive(length=length)
-    _check_samples(samples)
+    check_positive(length=length)
+    check_samples(samples)
     return Profile(np.linspace(-0.5 * length, 0.5 * length, samples), np.zeros(samples))
 
 
@@ -36,13 +36,13 @@ def sinusoid(
 
     The trace covers at least `length`, rounded up so that its ends lie as far left as right.
     """
-    _positive(wavelength=wavelength, amplitude=amplitude, length=length)
+    check_positive(wavelength=wavelength, amplitude=amplitude, length=length)
     if samples_per_wavelength < MIN_SAMPLES:
         raise ValueError(
             f"samples_per_wavelength must be at least {MIN_SAMPLES}, not {samples_per_wavelength}"
         )
     half = 0.5 * length * samples_per_wavelength / wavelength
-    _check_samples(2 * ceil(min(half, MAX_SAMPLES)) + 1)
+    check_samples(2 * ceil(min(half, MAX_SAMPLES)) + 1)
     steps = np.arange(-ceil(half), ceil(half) + 1)
     phase = 2.0 * np.pi * steps / samples_per_wavelength
     return Profile(steps * (wavelength / samples_per_wavelength), amplitude * np.cos(phase))
@@ -73,14 +73,14 @@ def self_affine(
     amplitudes Rayleigh distributed. Random numbers go to the waves from long to short: with the
     cut-offs given, more samples of one seed resolve the same surface.
     """
-    _positive(length=length)
-    _check_samples(samples)
+    check_positive(length=length)
+    check_samples(samples)
     if not 0.0 < hurst <= 1.0:
         raise ValueError(f"hurst must lie above 0 and be at most 1, not {hurst:g}")
     if (rms_slope is None) == (rms_height is None):
         raise ValueError("give exactly one of rms_slope and rms_height")
     wanted = {"rms_slope": rms_slope} if rms_height is None else {"rms_height": rms_height}
-    _positive(**wanted)
+    check_positive(**wanted)
     spacing = length / (samples - 1)
     shortest = 4.0 * spacing if shortest_wavelength is None else shortest_wavelength
     longest = length if longest_wavelength is None else longest_wavelength
@@ -92,7 +92,7 @@ def self_affine(
             f"shortest_wavelength {shortest:g} m and longest_wavelength {longest:g} m"
         )
     order = np.arange(1, last + 1)
-    phase, chance = _generator(seed).random((last, 2)).T
+    phase, chance = random_generator(seed).random((last, 2)).T
     amplitude = np.where(order >= first, (order / first) ** (-0.5 - hurst), 0.0)
     waves = np.zeros((samples - 1) // 2 + 1, dtype=complex)
     waves[order] = amplitude * np.sqrt(-np.log1p(-chance)) * np.exp(2j * np.pi * phase)
@@ -127,7 +127,7 @@ def ground_texture(
     line is taken off, and the samples (not the spline) scaled to `rms_height` [m].
     samples, length   the trace: evenly spaced, both ends included
     """
-    _positive(
+    check_positive(
         rms_height=rms_height,
         length=length,
         roll_off_wavelength=roll_off_wavelength,
@@ -136,7 +136,7 @@ def ground_texture(
     )
     if one_sidedness > MAX_ONE_SIDEDNESS:
         raise ValueError(f"one_sidedness must be at most {MAX_ONE_SIDEDNESS:g}")
-    _check_samples(samples)
+    check_samples(samples)
     spacing = length / (samples - 1)
     period = 1 << (ceil(1.5 * samples) - 1).bit_length()
     _check_wavelengths(shortest_wavelength, longest_wavelength, spacing, period * spacing)
@@ -154,7 +154,7 @@ def ground_texture(
             f"{shortest_wavelength:g} m and longest_wavelength {longest_wavelength:g} m"
         )
     level = np.maximum(wavenumber * roll_off_wavelength, 1.0) ** -decay
-    generator = _generator(seed)
+    generator = random_generator(seed)
     phase = generator.uniform(0.0, 2.0 * np.pi, len(wavenumber))
     chance = generator.uniform(size=len(wavenumber))
     waves = np.where(inside, level, 0.0) * np.sqrt(-np.log1p(-chance)) * np.exp(1j * phase)
@@ -167,19 +167,22 @@ def ground_texture(
     return Profile(0.5 * length * u, z * (rms_height / np.std(z)))
 
 
-def _generator(seed: int) -> np.random.Generator:
+def random_generator(seed: int) -> np.random.Generator:
+    """Random numbers that are the same everywhere; ValueError unless `seed` is whole, 0 or more."""
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or seed < 0:
         raise ValueError(f"seed must be a whole number of at least 0, not {seed!r}")
     return np.random.default_rng(seed)
 
 
-def _positive(**named: float) -> None:
+def check_positive(**named: float) -> None:
+    """Raises ValueError, by name, for the first that is not a finite number above 0."""
     for name, value in named.items():
         if not (np.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} must be positive and finite, not {value:g}")
 
 
-def _check_samples(samples: int) -> None:
+def check_samples(samples: int) -> None:
+    """Raises ValueError for a number of samples that no profile has."""
     if not isinstance(samples, int | np.integer) or not MIN_SAMPLES <= samples <= MAX_SAMPLES:
         raise ValueError(
             f"samples must be a whole number from {MIN_SAMPLES} to {MAX_SAMPLES}, not {samples!r}"
@@ -187,7 +190,7 @@ def _check_samples(samples: int) -> None:
 
 
 def _check_wavelengths(shortest: float, longest: float, spacing: float, period: float) -> None:
-    _positive(shortest_wavelength=shortest, longest_wavelength=longest)
+    check_positive(shortest_wavelength=shortest, longest_wavelength=longest)
     if _whole(shortest / spacing) < 2.0:
         raise ValueError(
             f"shortest_wavelength {shortest:g} m is below two sample spacings of {spacing:g} m"
