@@ -38,16 +38,20 @@ class FrictionStress:
         """Under q = p in +x alone."""
         return PlaneStress(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
 
-    def at(self, friction: float) -> PlaneStress:
-        """Under p and q = friction * p together."""
-        normal, traction = self.normal, self.traction
-        if friction == 0.0:
-            return normal
-        return PlaneStress(
-            sx=normal.sx + friction * traction.sx,
-            sz=normal.sz + friction * traction.sz,
-            txz=normal.txz + friction * traction.txz,
-        )
+    def at(self, friction: float, besides: "FrictionStress | None" = None) -> PlaneStress:
+        """Under p and q = friction * p + t together, `besides` being those of t as a pressure."""
+        stress = self.normal
+        if friction != 0.0:
+            stress = _sum(stress, friction, self.traction)
+        return stress if besides is None else _sum(stress, 1.0, besides.traction)
+
+
+def _sum(stress: PlaneStress, factor: float, other: PlaneStress) -> PlaneStress:
+    return PlaneStress(
+        sx=stress.sx + factor * other.sx,
+        sz=stress.sz + factor * other.sz,
+        txz=stress.txz + factor * other.txz,
+    )
 
 
 def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:

@@ -3,21 +3,23 @@
 On a level z the stress is the convolution of the nodal pressures with one element's stress, so
 a zero-padded real FFT sums all elements at all points of the level at once. The field may be
 sampled finer than the nodes stand: the elements keep their pitch, the pressures are spaced out
-with zeros between. Four kernels a level serve every friction coefficient.
+with zeros between. Four kernels a level serve every friction coefficient and every load.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import irfft, next_fast_len, rfft
+from scipy.fft import irfft, rfft
 from scipy.optimize import brentq
 
 from analytic.plane_stress import PlaneStress
-from analytic.stress import Element, check_element, uniform_pitch
-from analytic.stress_elements import FrictionStress, hat_at, strip_between
+from analytic.stress_elements import FrictionStress
+from analytic.stress_grid import check_element, uniform_pitch
+from analytic.stress_kernels import Circle, circle
+from analytic.stress_potential import Element
 from analytic.threads import for_each
 
-_BLOCK = 2**15  # values of one kernel at a time
+_BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 
 @dataclass(frozen=True)
@@ -50,18 +52,28 @@ def stress_field(
     z: np.ndarray,
     subdivisions: int = 1,
     element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
 ) -> StressField:
     """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
 
-    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The grid
-    contains the nodes' places and divides each pitch into `subdivisions`, within and beyond the
-    nodes' extent. On z = 0, sz = -p and txz = -friction p exactly.
+    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
+    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
+    any sign. The grid contains the nodes' places and divides each pitch into `subdivisions`,
+    within and beyond the nodes' extent. On z = 0, sz = -p and txz = -q exactly. Each level is
+    right to rounding of its own largest stress.
+
+    With `periodic` the nodes are one period of n pitches, repeated without end; what the mean
+    pressure then does to sx is told in `stress_periodic`.
 
     Raises ValueError for input out of these bounds, for a window without a grid point, and for
     strips whose ends, where sx under q is infinite, fall on points of the surface.
     """
-    field = friction_field(x_nodes, pressure, x_range, z, subdivisions, element)
-    return field.at(friction)
+    loads = [pressure] if traction is None else [pressure, traction]
+    x, z, stresses = _fields(x_nodes, loads, x_range, z, subdivisions, element, 1, periodic)
+    stress = stresses[0].at(friction, *stresses[1:])
+    return StressField(x, z, stress)
 
 
 def friction_field(
@@ -72,9 +84,29 @@ def friction_field(
     subdivisions: int = 1,
     element: Element = "hat",
     stride: int = 1,
+    *,
+    periodic: bool = False,
 ) -> FrictionField:
     """`stress_field` for every friction at once; of the grid's points every `stride`-th is kept."""
-    pitch = uniform_pitch(x_nodes, pressure)
+    x, z, (stress,) = _fields(
+        x_nodes, [pressure], x_range, z, subdivisions, element, stride, periodic
+    )
+    return FrictionField(x, z, stress)
+
+
+def _fields(
+    x_nodes: np.ndarray,
+    loads: list[np.ndarray],
+    x_range: tuple[float, float],
+    z: np.ndarray,
+    subdivisions: int,
+    element: Element,
+    stride: int,
+    periodic: bool,
+) -> tuple[np.ndarray, np.ndarray, list[FrictionStress]]:
+    """The places x and z, and the stresses of each load as a pressure."""
+    for load in loads:
+        pitch = uniform_pitch(x_nodes, load)
     check_element(element)
     z = np.asarray(z, dtype=float)
     _check_levels(z)
@@ -88,19 +120,32 @@ def friction_field(
         )
     first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
     x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
-    parts = np.zeros((4, len(z), len(x)))
-    loaded = np.flatnonzero(pressure)
-    if len(loaded):
-        source = np.zeros((loaded[-1] - loaded[0]) * subdivisions + 1)
-        source[::subdivisions] = pressure[loaded[0] : loaded[-1] + 1]
-        first -= loaded[0] * subdivisions
-        last -= loaded[0] * subdivisions
-        offsets = np.arange(first - len(source) + 1, last + 1)
-        _convolve(source, offsets, z / pitch, subdivisions, element, stride, parts)
+    parts = np.zeros((len(loads), 4, len(z), len(x)))
+    sources, start = _on_grid(np.array(loads), subdivisions, whole=periodic)
+    if sources.size:
+        window = (sources.shape[1], first - start, last - start, stride)
+        make = circle
+        _convolve(sources, make(z / pitch, *window, subdivisions, element), len(z), parts)
         if z[0] == 0.0:
-            surface = _surface_pressure(source, offsets, subdivisions, element)
-            parts[:2, 0] = -surface[::stride]
-    return FrictionField(x, z, FrictionStress(PlaneStress(*parts[:3]), parts[3]))
+            places = np.arange(first - start, last - start + 1, stride)
+            for load, part in zip(sources, parts, strict=True):
+                part[:2, 0] = -_surface_load(load, places, subdivisions, element, periodic)
+    return x, z, [FrictionStress(PlaneStress(*part[:3]), part[3]) for part in parts]
+
+
+def _on_grid(loads: np.ndarray, subdivisions: int, whole: bool) -> tuple[np.ndarray, int]:
+    """Loads (k, n) with zeros between their nodes, from the first one loaded, and its step.
+
+    Idle ends are left out, and all if nothing is loaded, unless the `whole` line is wanted.
+    """
+    loaded = np.flatnonzero(loads.any(axis=0))
+    if len(loaded) == 0:
+        return np.zeros((len(loads), 0)), 0
+    low, high = (0, loads.shape[1]) if whole else (loaded[0], loaded[-1] + 1)
+    count = (high - low) * subdivisions if whole else (high - 1 - low) * subdivisions + 1
+    sources = np.zeros((len(loads), count))
+    sources[:, ::subdivisions] = loads[:, low:high]
+    return sources, low * subdivisions
 
 
 def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
@@ -127,56 +172,36 @@ def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
     return depth * levels / levels[-1]
 
 
-def _convolve(
-    source: np.ndarray,
-    offsets: np.ndarray,
-    depths: np.ndarray,
-    subdivisions: int,
-    element: Element,
-    stride: int,
-    parts: np.ndarray,
-) -> None:
-    """Fill `parts` (4, levels, points): sx, sz, txz under p, sx under q.
+def _convolve(sources: np.ndarray, ring: Circle, levels: int, parts: np.ndarray) -> None:
+    """Fill `parts` (loads, 4, levels, points): sx, sz, txz under p, sx under q, of each load.
 
-    `offsets` from the first source to the last point, in grid steps; `depths` in pitches.
-    The kernel has just these offsets, so of the circular convolution only values that no
-    wrapped one reaches are taken.
+    `sources` (loads, S) [Pa], a value a step of the grid.
     """
-    size = next_fast_len(len(offsets), real=True)
-    spectrum = rfft(source, size)
-    points = slice(len(source) - 1, len(offsets), stride)
-    levels = max(1, _BLOCK // size)
+    placed = np.zeros((len(sources), ring.length))
+    placed[:, ring.source : ring.source + sources.shape[1]] = sources
+    spectrum = rfft(placed)
+    step = max(1, _BLOCK // ring.length)
 
     def convolve(block: slice) -> None:
-        for row, kernel in enumerate(_kernels(offsets, depths[block], subdivisions, element)):
-            convolution = irfft(rfft(kernel, size) * spectrum, size)
-            parts[row, block] = convolution[:, points]
+        for row, kernel in enumerate(ring.spectra(block)):
+            for load, values in enumerate(spectrum):
+                stress = irfft(kernel * values, ring.length)
+                parts[load, row, block] = stress[:, ring.points]
 
-    for_each(convolve, (slice(i, i + levels) for i in range(0, len(depths), levels)))
-
-
-def _kernels(
-    offsets: np.ndarray, depths: np.ndarray, subdivisions: int, element: Element
-) -> list[np.ndarray]:
-    """The element's four unit stresses (levels, offsets), each offset's distance taken once."""
-    distance = np.abs(offsets)
-    nearest = int(distance.min())
-    x = np.arange(nearest, int(distance.max()) + 1) / subdivisions
-    x, z = np.broadcast_arrays(x, depths[:, None])
-    unit = hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
-    place, side = distance - nearest, np.sign(offsets)
-    even, odd = (unit.normal.sx, unit.normal.sz), (unit.normal.txz, unit.traction_sx)
-    return [part[:, place] for part in even] + [part[:, place] * side for part in odd]
+    for_each(convolve, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
 
 
-def _surface_pressure(
-    source: np.ndarray, offsets: np.ndarray, subdivisions: int, element: Element
+def _surface_load(
+    source: np.ndarray, places: np.ndarray, subdivisions: int, element: Element, periodic: bool
 ) -> np.ndarray:
-    """The elements' own pressure at the points [Pa], a strip's end counting half to it."""
+    """The elements' own load at places on the grid [Pa], a strip's end counting half to it."""
     near = np.arange(-subdivisions, subdivisions + 1) / subdivisions
     shape = 1.0 - np.abs(near) if element == "hat" else 0.5 + 0.5 * np.sign(0.5 - np.abs(near))
+    if periodic:
+        source = np.pad(source, subdivisions, mode="wrap")
+        places = places % (len(source) - 2 * subdivisions) + subdivisions
     spread = np.convolve(source, shape)
-    place = offsets[len(source) - 1 :] + subdivisions
+    place = places + subdivisions
     inside = (place >= 0) & (place < len(spread))
     return np.where(inside, spread[np.where(inside, place, 0)], 0.0)
 

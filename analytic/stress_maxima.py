@@ -7,8 +7,9 @@ import numpy as np
 from scipy.ndimage import maximum_filter, minimum_filter
 
 from analytic.plane_stress import Extremum, PlaneStress
-from analytic.stress import Element, stress_at
+from analytic.stress import stress_at
 from analytic.stress_field import StressField
+from analytic.stress_potential import Element
 
 Quantity = Callable[[PlaneStress], np.ndarray]
 

@@ -1,0 +1,123 @@
+"""One element's stresses on the offsets of a grid, transformed for a convolution level by level.
+
+Of the potential I of one element (`stress_potential`) Im I and z Re I' are even along the surface,
+Re I and z Im I' odd. A real sequence that is even plus odd about 0 has the even part's transform as
+its real part and the odd one's as its imaginary part: two transforms a level give the spectra of
+all four stresses. On a window beside the load, where nothing is even or odd, each stress is
+transformed by itself from values that hold their own digits.
+
+    S  grid points that the load spans      N  length of the circular convolution
+    offset  of a point from a source [grid steps], `first - S + 1` to `last`
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.fft import next_fast_len, rfft
+
+from analytic.stress_elements import FrictionStress, hat_at, strip_between
+from analytic.stress_potential import FAR_TERMS, NEAREST_FAR, Element, element_potential
+
+# Of sx, sz, txz under p and of sx under q on a run of the levels, each (levels, N/2 + 1)
+Spectra = Callable[[slice], tuple[np.ndarray, ...]]
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A circular convolution that no wrapped value reaches where it is read.
+
+    length   N
+    source   where the first source stands
+    points   the values wanted
+    spectra  of the element's stresses
+    """
+
+    length: int
+    source: int
+    points: slice | np.ndarray
+    spectra: Spectra
+
+
+def circle(
+    depths: np.ndarray,
+    sources: int,
+    first: int,
+    last: int,
+    stride: int,
+    subdivisions: int,
+    element: Element,
+) -> Circle:
+    """For `sources` = S and every `stride`-th point from `first` to `last`.
+
+    Points are counted in grid steps from the first source; `depths` of the levels in pitches.
+    """
+    low, high = first - sources + 1, last
+    if low <= 0 <= high:
+        reach = max(-low, high)
+        size = next_fast_len(2 * reach + 1, real=True)
+        start = max(0, -first)
+        points = slice(first + start, last + start + 1, stride)
+        return Circle(size, start, points, _around(depths, reach, size, subdivisions, element))
+    offsets = np.arange(low, high + 1) / subdivisions
+    size = next_fast_len(len(offsets), real=True)
+
+    def beside(block: slice) -> tuple[np.ndarray, ...]:
+        unit = unit_stress(*np.broadcast_arrays(offsets, depths[block, None]), element)
+        normal = unit.normal
+        kernels = (normal.sx, normal.sz, normal.txz, unit.traction_sx)
+        return tuple(rfft(kernel, size) for kernel in kernels)
+
+    return Circle(size, 0, slice(sources - 1, len(offsets), stride), beside)
+
+
+def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStress:
+    """Of a unit element at 0, by x and z in pitches."""
+    return hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
+
+
+def _around(
+    depths: np.ndarray, reach: int, size: int, subdivisions: int, element: Element
+) -> Spectra:
+    """From the kernels at the offsets -reach … reach, which contain the element itself."""
+    x = np.arange(reach + 1) / subdivisions
+    # Few points and the slowest formulas: all levels at once.
+    close = x[: NEAREST_FAR * subdivisions]
+    near = as_potential(unit_stress(*np.broadcast_arrays(close, depths[:, None]), element))
+    ends = [start * subdivisions for start, _ in FAR_TERMS[1:]] + [reach + 1]
+
+    def spectra(block: slice) -> tuple[np.ndarray, ...]:
+        halves = np.empty((2, len(depths[block]), reach + 1), dtype=complex)
+        halves[:, :, : len(close)] = near[:, block]
+        for (start, terms), end in zip(FAR_TERMS, ends, strict=True):
+            far = slice(start * subdivisions, min(end, reach + 1))
+            if far.start < far.stop:
+                halves[:, :, far] = element_potential(x[far], depths[block], element, terms)
+        whole = np.zeros((2, halves.shape[1], size))
+        potential, derivative = halves
+        _mirror(potential.imag, potential.real, whole[0])
+        _mirror(derivative.real, derivative.imag, whole[1])
+        upper, lower = rfft(whole)
+        turn = 1j * lower.imag
+        even = upper.real, lower.real
+        return even[0] + even[1], even[0] - even[1], -turn, turn - 2j * upper.imag
+
+    return spectra
+
+
+def as_potential(unit: FrictionStress) -> np.ndarray:
+    """I and z I' (2, …) of these stresses."""
+    normal = unit.normal
+    potential = np.empty((2, *normal.sx.shape), dtype=complex)
+    potential.real[0] = -0.5 * (unit.traction_sx + normal.txz)
+    potential.imag[0] = 0.5 * (normal.sx + normal.sz)
+    potential.real[1] = 0.5 * (normal.sx - normal.sz)
+    potential.imag[1] = -normal.txz
+    return potential
+
+
+def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:
+    """Write their sum at the offsets 0 … and at -1, -2, …, which stand at the circle's end."""
+    reach = even.shape[1] - 1
+    np.add(even, odd, out=whole[:, : reach + 1])
+    np.subtract(even[:, :0:-1], odd[:, :0:-1], out=whole[:, whole.shape[1] - reach :])
