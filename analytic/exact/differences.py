@@ -1,0 +1,48 @@
+"""Functions less their own tangent at zero, right to rounding where the two nearly cancel.
+
+Also what every module here demands of its arguments.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+_TERMS = np.arange(1.0, 21.0)
+
+
+def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
+    """y - sin y for 0 <= y <= pi."""
+    y = np.asarray(angle, dtype=float)
+    ratios = -1.0 / ((2.0 * _TERMS[1:] + 1.0) * 2.0 * _TERMS[1:])
+    series = _odd_series(np.minimum(y, 1.0), np.cumprod([1.0 / 6.0, *ratios]))
+    return np.where(y < 1.0, series, y - np.sin(y))
+
+
+def sinh_minus_argument(argument: ArrayLike) -> np.ndarray:
+    """sinh y - y for y >= 0."""
+    y = np.asarray(argument, dtype=float)
+    ratios = 1.0 / ((2.0 * _TERMS[1:] + 1.0) * 2.0 * _TERMS[1:])
+    series = _odd_series(np.minimum(y, 1.0), np.cumprod([1.0 / 6.0, *ratios]))
+    return np.where(y < 1.0, series, np.sinh(y) - y)
+
+
+def artanh_minus_argument(argument: ArrayLike, artanh: ArrayLike) -> np.ndarray:
+    """artanh y - y for 0 <= y <= 1, given y and artanh y: next to 1 only the caller knows it."""
+    y = np.asarray(argument, dtype=float)
+    series = _odd_series(np.minimum(y, 0.4), 1.0 / (2.0 * _TERMS + 1.0))
+    return np.where(y < 0.4, series, artanh - y)
+
+
+def require_positive(**values: float) -> None:
+    """ValueError that names the first argument that is not positive and finite."""
+    for name, value in values.items():
+        if not (np.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} must be positive, not {value:g}")
+
+
+def _odd_series(y: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
+    """c_0 y^3 + c_1 y^5 + …, the tail first."""
+    square = y**2
+    total = np.zeros_like(y)
+    for coefficient in coefficients[::-1]:
+        total = total * square + coefficient
+    return total * y * square
