@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from analytic.dropouts import bridge
 from analytic.profile import MAX_SAMPLES, Profile
 from analytic.profile_table import DECIMAL_COMMAS, NAMES, Table, read_table
 from analytic.profile_text import ProfileError, shown
@@ -137,11 +138,7 @@ def _bridge(
             message = "x is lost where the rows are not in order of x; remove the line"
             raise table.error(int(np.argmax(lost_x)), message)
         x = np.interp(np.arange(len(x)), known, x[known], left=np.nan, right=np.nan)
-    good = np.flatnonzero(~lost)
-    good = good[np.argsort(x[good], kind="stable")]
-    inside = np.flatnonzero((x >= x[good[0]]) & (x <= x[good[-1]]))
-    height = np.where(lost, np.interp(x, x[good], height[good]), height)
-    return x[inside], height[inside], inside
+    return bridge(x, height, lost)
 
 
 def _check_places(table: Table, x: np.ndarray, rows: np.ndarray) -> None:

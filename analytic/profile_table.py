@@ -51,6 +51,10 @@ DECIMAL_COMMAS = (
 )
 
 
+class ColumnsError(ProfileError):
+    """Most rows have more than two columns; another reader may know the file as a map."""
+
+
 @dataclass(frozen=True)
 class Table:
     """The rows of a file.
@@ -203,7 +207,9 @@ def _careful_numbers(table: Table) -> np.ndarray:
                 "comments start with # % ; or //",
             )
         if len(found) != width or width > 2:
-            raise table.error(row, _wrong_columns(table, len(found), width))
+            kind = ColumnsError if width > 2 else ProfileError
+            message = _wrong_columns(table, len(found), width)
+            raise kind(table.path, message, int(table.lines[row]))
         numbers[row] = values
     return numbers
 

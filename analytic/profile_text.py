@@ -16,9 +16,34 @@ class ProfileError(ValueError):
     """A profile file that cannot be used. One line: file, line, what is wrong, what is allowed."""
 
     def __init__(self, path: object, message: str, line: int | None = None) -> None:
-        self.line = line
+        self.message, self.line = message, line
         place = str(path) if str(path).isprintable() else repr(str(path))
         super().__init__(f"{place}{f', line {line}' if line else ''}: {message}")
+
+
+class NotTextError(ProfileError):
+    """The file is not text; another reader may know it."""
+
+
+def regular_file(path: Path) -> int:
+    """Size [bytes] of the file at `path`; ProfileError unless there is one that can be read."""
+    try:
+        if path.exists() and not path.is_file():  # a pipe would block
+            kind = "a directory" if path.is_dir() else "no regular file"
+            raise ProfileError(path, f"is {kind}; a profile is a text file")
+        return path.stat().st_size
+    except FileNotFoundError:
+        raise ProfileError(path, "there is no such file") from None
+    except ProfileError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> ProfileError:
+    """The error to raise where the system does not let a file be read."""
+    reason = getattr(error, "strerror", None) or str(error)
+    return ProfileError(path, f"cannot be read ({reason})")
 
 
 def read_lines(path: Path, max_bytes: int) -> list[str]:
@@ -31,7 +56,7 @@ def read_lines(path: Path, max_bytes: int) -> list[str]:
     if binary:
         line = text.count("\n", 0, binary.start()) + 1
         code = f"byte {ord(binary[0]):#04x}"
-        raise ProfileError(path, f"is not text ({code}); export the profile as text or CSV", line)
+        raise NotTextError(path, f"is not text ({code}); export the profile as text or CSV", line)
     text = OTHER_BLANKS.sub(" ", text.replace("\u2212", "-"))  # the typographer's minus sign
     if '"' in text:
         text = QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
@@ -40,20 +65,12 @@ def read_lines(path: Path, max_bytes: int) -> list[str]:
 
 def _bytes(path: Path, max_bytes: int) -> bytes:
     """The file's content; a file larger than `max_bytes` is not opened."""
+    if regular_file(path) > max_bytes:
+        raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
     try:
-        if path.exists() and not path.is_file():  # a pipe would block
-            kind = "a directory" if path.is_dir() else "no regular file"
-            raise ProfileError(path, f"is {kind}; a profile is a text file")
-        if path.stat().st_size > max_bytes:
-            raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
         return path.read_bytes()
-    except FileNotFoundError:
-        raise ProfileError(path, "there is no such file") from None
-    except ProfileError:
-        raise
-    except (OSError, ValueError) as error:  # ValueError: a null character in the path
-        reason = getattr(error, "strerror", None) or str(error)
-        raise ProfileError(path, f"cannot be read ({reason})") from error
+    except OSError as error:
+        raise unreadable(path, error) from error
 
 
 def _decoded(path: Path, raw: bytes) -> str:
@@ -62,7 +79,7 @@ def _decoded(path: Path, raw: bytes) -> str:
             return raw.decode("utf-16")
         except UnicodeDecodeError:
             message = "is not text (broken UTF-16); export the profile as text or CSV"
-            raise ProfileError(path, message) from None
+            raise NotTextError(path, message) from None
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError:
