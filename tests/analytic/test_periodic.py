@@ -1,4 +1,4 @@
-"""The periodic half-plane: against images, Westergaard's contact, full contact, and itself coarser."""
+"""The periodic half-plane: its images, Westergaard's contact, full contact, coarser grids."""
 
 import json
 from pathlib import Path
