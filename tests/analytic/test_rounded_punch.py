@@ -172,7 +172,7 @@ def solved(punch: RoundedPunch, elements: int, offset: float):
 
 @pytest.mark.parametrize("flat", [0.3, 0.6, 0.9])
 def test_solver_converges_to_the_exact_pressure(flat):
-    """Of order 2 in the peak, 1 in L2 as at any square-root edge; the edges to 0.01 of a pitch.
+    """Of order 2 in the peak, 1 in L2 as at any square-root edge; the edges to 0.05 of a pitch.
 
     Errors averaged over where the edges fall between two nodes; levels by the corner's width.
     """
@@ -187,7 +187,7 @@ def test_solver_converges_to_the_exact_pressure(flat):
             patches = contact_patches(x, solution.pressure, solution.gap)
             assert len(patches) == 1
             shift = patches[0] / punch.half_width - np.array([-1.0, 1.0])
-            assert np.abs(shift).max() < 0.01 * 3.0 / elements
+            assert np.abs(shift).max() < 0.05 * 3.0 / elements
             peak = abs(solution.pressure.max() / punch.peak_pressure - 1.0)
             found.append((peak, np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2)))
         peak, square = np.mean(found, axis=0)

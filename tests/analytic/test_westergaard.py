@@ -78,7 +78,7 @@ def test_mean_gap_is_the_average_of_the_gap(share):
 
 
 def test_gap_keeps_its_digits_where_it_opens_and_where_it_closes():
-    """At the edge (4 A/3) sqrt(S) (2 cos psi_a dpsi)^(3/2); next to closing e^2/2 and what follows."""
+    """(4 A/3) sqrt(S) (2 cos psi_a dpsi)^(3/2) at the edge; e^2/2 and so on next to closing."""
     contact = unit(0.2)
     psi = np.pi * contact.half_width
     for beyond in (1e-5, 1e-8, 1e-11):
