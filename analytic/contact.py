@@ -10,8 +10,8 @@
 Its solution satisfies g >= 0 where p = 0, g = 0 where 0 < p < H, g <= 0 where p = H (the overlap
 that plastic flow would remove).
 
-Method: a primal-dual active set (`analytic.active_set`) on a hierarchy of grids, each solved from
-the solution of the next coarser one; on a fixed set conjugate gradients (`analytic.equilibrium`).
+Method: a primal-dual active set (`analytic.active_set`) on nested grids, each started from the
+next coarser one (`analytic.nesting`); on a fixed set conjugate gradients (`analytic.equilibrium`).
 """
 
 from dataclasses import dataclass, replace
@@ -20,9 +20,9 @@ import numpy as np
 
 from analytic.active_set import exchange_blocks
 from analytic.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
+from analytic.nesting import coarse_start
 from analytic.operators import ModelOperator
 
-COARSEST = 64  # nodes; below this a coarser start saves nothing
 KKT_TOLERANCE = 1e-8  # all residuals of a solution that counts as converged
 
 
@@ -157,7 +157,7 @@ def solve_contact(
         )
     spent = {"exchanges": 0, "applications": 0}
     if start is None:
-        start = _coarse_start(operator, gap, weights, constraints, spent)
+        start = coarse_start(operator, gap, weights, constraints, spent)
     common = common_gap(gap, weights, constraints)
     problem = EquilibriumProblem(operator, gap - common * weights, weights, constraints, spent)
     pressure = exchange_blocks(problem, start)
@@ -180,25 +180,3 @@ def common_gap(gap: np.ndarray, weights: np.ndarray, constraints: Constraints) -
     Far larger than what a light load closes, it would drown that in rounding.
     """
     return 0.0 if constraints.load is None else float(np.min(gap / weights))
-
-
-def _coarse_start(operator, gap, weights, constraints, spent) -> np.ndarray:
-    """Pressures interpolated from the grid of twice the pitch (its node j is node 2j + 1 here)."""
-    count = len(gap)
-    if count < 2 * COARSEST:
-        return np.full(count, min(1.0, 0.5 * constraints.hardness))
-    inner = 2 * np.arange(count // 2) + 1
-
-    def restrict(values: np.ndarray) -> np.ndarray:
-        padded = np.append(values, values[-1])  # an even count: the last hat leans on a copy
-        return 0.5 * padded[inner - 1] + padded[inner] + 0.5 * padded[inner + 1]
-
-    coarse = solve_contact(operator.coarsened(), restrict(gap), restrict(weights), constraints)
-    for key, value in coarse.iterations.items():
-        spent[key] += value
-    padded = np.concatenate(([0.0], coarse.pressure, [0.0]))
-    start = np.empty(count)
-    start[1::2] = coarse.pressure[: len(start[1::2])]
-    between = 0.5 * (padded[:-1] + padded[1:])
-    start[0::2] = between[: len(start[0::2])]
-    return start

@@ -1,17 +1,26 @@
 """Pressures in equilibrium with given sides: which nodes are free, at zero, at the hardness.
 
-With the sides fixed the contact conditions are linear, g = 0 on the free nodes and w'p = P.
-Conjugate gradients solve them, projected on the load constraint (Gould, Hribar and Nocedal 2001,
-algorithm 2) and preconditioned by the operator's approximate inverse. Symbols as in
-`analytic.contact`.
+With the sides fixed the contact conditions are linear, g = 0 on the free nodes and w'p = P. A few
+free nodes are solved for directly. More of them take conjugate gradients, projected on the load
+constraint (Gould, Hribar and Nocedal 2001, algorithm 2) and preconditioned by the approximate
+inverse over the whole grid of displacements continued from the free nodes
+(`analytic.extension`). Symbols as in `analytic.contact`.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from analytic.extension import Extension
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
+TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
+DIRECT = 160  # free nodes from which iterating is faster than a Cholesky factor
+
+_Inverse = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -69,6 +78,18 @@ class Sides:
         )
 
 
+@dataclass(frozen=True)
+class Equilibrium:
+    """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] with given sides, the load carried.
+
+    accurate  whether g vanishes on the free nodes to TIGHT, or to rounding
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    accurate: bool
+
+
 class EquilibriumProblem:
     """Contact on one grid as a family of linear problems, one for each choice of sides.
 
@@ -113,61 +134,99 @@ class EquilibriumProblem:
             softening=sides.upper & (gap > overlap),
         )
 
-    def equilibrium(
-        self, start: np.ndarray, sides: Sides, tolerance: float
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Pressures with g = 0 on the free nodes, H and 0 on the others, and the load; also g (n,).
+    def equilibrium(self, start: np.ndarray, sides: Sides, reduction: float) -> Equilibrium:
+        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
 
-        Conjugate gradients on the free nodes. With the load prescribed the search stays in
-        w'p = P and the approach is the multiplier.
+        The residual falls to `reduction` of what it is at the start, or to TIGHT.
         """
         self.spent["exchanges"] += 1
-        weights, free = self.weights, sides.free
-        pressure = np.where(free, start, 0.0)
+        nodes = self._free_nodes(sides)
+        pressure = np.zeros_like(start)
         pressure[sides.upper] = self.constraints.hardness
-        if self.by_load and not free.any():
-            free = np.zeros_like(free)
-            free[np.argmin(np.where(sides.lower, self.gap / weights, np.inf))] = True
-        residual = self.gap + self.apply(pressure)
-        if not free.any():
-            return pressure, residual - self.approach * weights
+        found = self._solve(nodes, pressure) if len(nodes) <= DIRECT else None
+        pressure[nodes] = start[nodes] if found is None else found
+        accurate = found is not None or self._iterate(nodes, pressure, reduction)
+        gap = self.gap + self.apply(pressure)
+        return Equilibrium(pressure, gap - self.approach * self.weights, accurate)
 
-        def approximate_inverse(values: np.ndarray) -> np.ndarray:
-            return np.where(free, self.operator.precondition(np.where(free, values, 0.0)), 0.0)
+    def _free_nodes(self, sides: Sides) -> np.ndarray:
+        """Indices of the free nodes; a prescribed load needs one, where the gap is least."""
+        nodes = np.flatnonzero(sides.free)
+        if len(nodes) == 0 and self.by_load:
+            reach = np.where(sides.lower, self.gap / self.weights, np.inf)
+            nodes = np.array([np.argmin(reach)])
+        return nodes
 
+    def _solve(self, nodes: np.ndarray, pressure: np.ndarray) -> np.ndarray | None:
+        """Pressures (m,) of the free nodes beside `pressure` on the others, by Cholesky.
+
+        None where rounding, or hats finer than a body's elements, leave nothing to factor.
+        """
+        if len(nodes) == 0:
+            return np.empty(0)
+        try:
+            factor = cho_factor(self.operator.block(nodes), overwrite_a=True, check_finite=False)
+        except np.linalg.LinAlgError:
+            return None
+        weights = self.weights[nodes]
+        gap = self.gap[nodes]
+        if pressure.any():
+            gap = gap + self.apply(pressure)[nodes]
+        sides = np.stack([gap, weights], axis=1)
+        from_gap, from_weights = cho_solve(factor, sides, check_finite=False).T
         if self.by_load:
-            lift = approximate_inverse(weights)
+            load = self.constraints.load - self.weights @ pressure
+            self.approach = float((load + weights @ from_gap) / (weights @ from_weights))
+        return self.approach * from_weights - from_gap
+
+    def _iterate(self, nodes: np.ndarray, pressure: np.ndarray, reduction: float) -> bool:
+        """Bring the free nodes of `pressure` (n,) to rest by conjugate gradients; see `equilibrium`.
+
+        With the load prescribed the search stays in w'p = P and the approach is the multiplier.
+        """
+        weights, load = self.weights[nodes], self.constraints.load
+        inverse = self._inverse(nodes)
+        if self.by_load:
+            lift = inverse(weights)
             lift /= weights @ lift  # the pressures that carry a unit load
-            correction = (self.constraints.load - weights @ pressure) * lift
-            pressure += correction
-            residual += self.apply(correction)
+            pressure[nodes] += (load - self.weights @ pressure) * lift
+        displacement = self.apply(pressure)[nodes]
+        residual = self.gap[nodes] + displacement
         # what rounding leaves of the sum of gap and displacement cannot be lowered
-        floor = ROUNDING * (np.linalg.norm(self.gap[free]) + np.linalg.norm(residual[free]))
-        goal = max(tolerance * self._displacement_norm(residual, free), floor)
-        direction, slope_before = np.zeros_like(weights), 1.0
-        for _ in range(10 * len(weights) + 10):
+        floor = ROUNDING * (np.linalg.norm(self.gap[nodes]) + np.linalg.norm(residual))
+        if self.by_load:
+            displacement = displacement - displacement.mean()
+        tight = max(TIGHT * np.linalg.norm(displacement), floor)
+        goal, slope_before = None, 1.0
+        found, direction = pressure[nodes], np.zeros_like(residual)
+        line = np.zeros_like(pressure)
+        for _ in range(10 * len(nodes) + 10):
             if self.by_load:
-                self.approach = lift @ residual
-            masked = np.where(free, residual - self.approach * weights, 0.0)
-            if np.linalg.norm(masked) <= goal:
+                self.approach = float(lift @ residual)
+            open_gap = residual - self.approach * weights
+            size = np.linalg.norm(open_gap)
+            goal = max(reduction * size, tight) if goal is None else goal
+            if size <= goal:
                 break
-            step = approximate_inverse(masked)
+            step = inverse(open_gap)
             if self.by_load:
                 step -= lift * (weights @ step)
-            slope = masked @ step
-            direction = step + (slope / slope_before) * direction
+            slope = open_gap @ step
+            direction *= slope / slope_before
+            direction += step
             slope_before = slope
-            image = self.apply(direction)
+            line[nodes] = direction
+            image = self.apply(line)[nodes]
             curvature = direction @ image
             if not (slope > 0.0 and curvature > 0.0):
-                break  # nothing left but round-off
-            pressure -= (slope / curvature) * direction
+                size = 0.0  # nothing left but round-off
+                break
+            found -= (slope / curvature) * direction
             residual -= (slope / curvature) * image
-        return pressure, residual - self.approach * weights
+        pressure[nodes] = found
+        return bool(size <= tight)
 
-    def _displacement_norm(self, residual: np.ndarray, free: np.ndarray) -> float:
-        """Size of the displacements that the free nodes have to balance [m^2]."""
-        balanced = (residual - self.gap)[free]
-        if self.by_load:
-            balanced = balanced - balanced.mean()
-        return max(np.linalg.norm(balanced), np.finfo(float).tiny)
+    def _inverse(self, nodes: np.ndarray) -> _Inverse:
+        """Approximate inverse of the compliance of the free nodes."""
+        extension = Extension(nodes, self.operator.ring or len(self.gap), bool(self.operator.ring))
+        return lambda values: extension.gather(self.operator.precondition(extension.extend(values)))

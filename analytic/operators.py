@@ -35,13 +35,22 @@ class ComplianceOperator(Protocol):
 class ModelOperator(ComplianceOperator, Protocol):
     """A compliance that also offers an approximate inverse and a coarser version of itself.
 
-    periodic  whether the grid closes on itself: node n is node 0
+    count         nodes
+    periodic      whether the grid closes on itself: node `count` is node 0
+    ring          nodes of the closed line that `precondition` takes displacements on;
+                  None where it takes those of the grid
+    precondition  a positive definite approximation of the inverse
+    block         the matrix's rows and columns of some nodes
+    coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
     """
 
     count: int
     periodic: bool
+    ring: int | None
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
+
+    def block(self, nodes: np.ndarray) -> np.ndarray: ...
 
     def coarsened(self) -> "ModelOperator | None": ...
 
@@ -117,6 +126,7 @@ class DenseCompliance:
     """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
 
     periodic = False
+    ring = None
 
     def __init__(self, matrix: np.ndarray) -> None:
         self.matrix = 0.5 * (matrix + matrix.T)
@@ -132,6 +142,10 @@ class DenseCompliance:
     def precondition(self, displacement: np.ndarray) -> np.ndarray:
         """The inverse but for a small ridge, close while every element is in contact."""
         return scipy.linalg.cho_solve(self._factor, displacement)
+
+    def block(self, nodes: np.ndarray) -> np.ndarray:
+        """The matrix's rows and columns of these nodes (m,): (m, m) [m^2/Pa]."""
+        return self.matrix[np.ix_(nodes, nodes)]
 
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""

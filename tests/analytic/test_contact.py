@@ -171,9 +171,9 @@ def test_single_exchanges_lower_the_energy_at_every_step(monkeypatch):
     energies = []
     original = EquilibriumProblem.equilibrium
 
-    def watched(problem, start, sides, tolerance):
+    def watched(problem, start, sides, reduction):
         energies.append(start @ (0.5 * operator.apply(start) + average))
-        return original(problem, start, sides, tolerance)
+        return original(problem, start, sides, reduction)
 
     monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
     solve_contact(operator, average, grid.weights, Constraints(load=0.3 * LOAD))

@@ -1,0 +1,65 @@
+"""A start for the contact problem from the same problem on hats twice as wide.
+
+Coarse hats are sums of fine ones, node j of the coarse grid is node 2j + 1 of the fine one: gaps
+and weights are restricted by the hats' own sums, pressures interpolated. Near an edge pressures
+fall as the root of the distance, so that their squares tell on which side of the middle between
+two coarse nodes the edge lies.
+"""
+
+import numpy as np
+
+from analytic.active_set import exchange_blocks
+from analytic.equilibrium import Constraints, EquilibriumProblem
+
+COARSEST = 128  # nodes; below this a coarser start saves nothing
+SETTLED = 0.01  # of a coarse grid's free nodes may still be on the wrong side
+
+
+def coarse_start(
+    operator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    spent: dict[str, int],
+) -> np.ndarray:
+    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle."""
+    count = len(gap)
+    coarse = operator.coarsened() if count >= COARSEST else None
+    if coarse is None:
+        return np.full(count, min(1.0, 0.5 * constraints.hardness))
+    gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
+    start = coarse_start(coarse, gap, weights, constraints, spent)
+    problem = EquilibriumProblem(coarse, gap, weights, constraints, spent)
+    pressure = exchange_blocks(problem, start, settled=SETTLED)
+    return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
+
+
+def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:
+    """Integrals over the coarse hats (n // 2,) from those over the fine ones (n,)."""
+    inner = 2 * np.arange(len(values) // 2) + 1
+    # an even count leaves the last coarse hat half a fine one short: a copy stands for it
+    padded = np.append(values, values[0] if periodic else values[-1])
+    return 0.5 * padded[inner - 1] + padded[inner] + 0.5 * padded[inner + 1]
+
+
+def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:
+    """Pressures on the fine grid (count,) from those on the coarse one, >= 0; edges between nodes.
+
+    A fine node between a touching and an open coarse node is open where the pressures' squares,
+    continued straight, vanish before they reach it.
+    """
+    outer = pressure[[-1, 0]] if periodic else np.zeros(2)
+    padded = np.concatenate((outer[:1], pressure, outer[1:]))
+    between = 0.5 * (padded[:-1] + padded[1:])
+    between[1:][_ends_short(padded)] = 0.0
+    between[:-1][_ends_short(padded[::-1])[::-1]] = 0.0
+    fine = np.empty(count)
+    fine[1::2] = pressure[: len(fine[1::2])]
+    fine[0::2] = between[: len(fine[0::2])]
+    return fine
+
+
+def _ends_short(padded: np.ndarray) -> np.ndarray:
+    """Whether the contact of each inner node ends before the middle to the next node, open."""
+    square = padded**2
+    return (padded[1:-1] > 0.0) & (padded[2:] == 0.0) & (square[:-2] > 3.0 * square[1:-1])
