@@ -1,0 +1,97 @@
+"""A smooth cylinder on a half-plane whose pressure a hardness caps: the crown that flow removes.
+
+    P   load per length [N/m]     R   radius [m]      b   contact on |x| < b [m]
+    H   hardness [Pa]             E*  modulus [Pa]    c   flowed ground on |x| < c [m]
+    p   pressure [Pa]             d   overlap [m]     k   c / b
+
+With F(z) = int p(s)/(z - s) ds the slopes are F'+ + F'- = pi E*/R on c < |x| < b, where the gap is
+closed, and p' = 0 on |x| < c. Bounded pressures that carry P leave one function,
+
+    F' = pi E*/(2R) {1 - (z^2 - L)/sqrt((z^2 - c^2)(z^2 - b^2))},   L = b^2 (1 - E(k)/K(k)),
+
+whose jump is p' and whose mean is the overlap's curvature, R d'' = (x^2 - L)/sqrt((c^2 - x^2)
+(b^2 - x^2)) on |x| < c with d = d' = 0 at c. K and E are the complete elliptic integrals of the
+modulus k. The integrals of p' and d'' give H K = pi E* b/(4R), P = H b {2E - (1 - k^2) K} and
+what follows; at c = 0 it is Hertz' contact, at c = b a block of P = 2bH.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
+
+from analytic.exact.hertz import hertz_from_load
+
+
+@dataclass(frozen=True)
+class FlattenedCylinder:
+    """Half-widths `contact` b and `flowed` c [m]; `radius` R [m]; `combined_modulus` E* [Pa];
+    `hardness` H [Pa]."""
+
+    contact: float
+    flowed: float
+    radius: float
+    combined_modulus: float
+    hardness: float
+
+    @property
+    def _level(self) -> float:
+        """L [m^2], where the pressure would have no slope."""
+        m = (self.flowed / self.contact) ** 2
+        return self.contact**2 * (1.0 - ellipe(m) / ellipk(m))
+
+    def pressure(self, x: ArrayLike) -> np.ndarray:
+        """H on the flowed ground, from there E*/(2R) {b E(t|m) - L/b F(t|m)}, zero from b on [Pa].
+
+        m = 1 - k^2 and sin^2 t = (b^2 - x^2)/(b^2 - c^2).
+        """
+        b, c = self.contact, self.flowed
+        x = np.abs(np.asarray(x, dtype=float))
+        m = 1.0 - (c / b) ** 2
+        angle = np.arcsin(np.sqrt(np.clip((b**2 - x**2) / (b**2 - c**2), 0.0, 1.0)))
+        outer = b * ellipeinc(angle, m) - self._level / b * ellipkinc(angle, m)
+        outer *= self.combined_modulus / (2.0 * self.radius)
+        return np.where(x < c, self.hardness, np.where(x < b, outer, 0.0))
+
+    @property
+    def largest_overlap(self) -> float:
+        """d in the middle [m]."""
+        b, c = self.contact, self.flowed
+        arc = np.arctanh(c / b)
+        return float((self._level * arc - 0.5 * ((b**2 + c**2) * arc - b * c)) / -self.radius)
+
+    @property
+    def volume(self) -> float:
+        """int d dx over the flowed ground [m^2]."""
+        b, m = self.contact, (self.flowed / self.contact) ** 2
+        first, second = ellipk(m), ellipe(m)
+        fourth_moment = b**3 * ((2.0 + m) * first - 2.0 * (1.0 + m) * second) / 3.0
+        return float((fourth_moment - self._level * b * (first - second)) / self.radius)
+
+
+def flattened_cylinder(
+    load_per_length: float, radius: float, combined_modulus: float, hardness: float
+) -> FlattenedCylinder:
+    """The contact under P [N/m] with R [m], E* [Pa] and H [Pa].
+
+    Raises ValueError unless H lies below Hertz' peak pressure p0, so that ground flows; then
+    (p0/H)^2 = (4/pi^2) K {2E - (1 - k^2) K} has one root k.
+    """
+    peak = hertz_from_load(load_per_length, radius, combined_modulus).peak_pressure
+    if not 0.0 < hardness < peak:
+        raise ValueError(
+            f"nothing flows at a hardness of {hardness:g} Pa: the peak pressure is {peak:g} Pa"
+        )
+
+    def excess(m: float) -> float:
+        first, second = ellipk(m), ellipe(m)
+        carried = (2.0 / np.pi) ** 2 * first * (2.0 * second - (1.0 - m) * first)
+        return carried - (peak / hardness) ** 2
+
+    m = brentq(excess, 0.0, 1.0 - np.finfo(float).eps, xtol=1e-300, rtol=1e-15)
+    contact = 4.0 * radius * hardness * ellipk(m) / (np.pi * combined_modulus)
+    return FlattenedCylinder(
+        float(contact), float(contact * np.sqrt(m)), radius, combined_modulus, hardness
+    )

@@ -1,0 +1,262 @@
+"""Running-in: a roller pressed on at place after place until no asperity flows any more.
+
+At each position the contact is solved with the pressure capped at the hardness. Where the cap
+holds, the surfaces would still overlap; plastic flow takes the overlap off the profile, so that
+the same load at the same place is carried elastically from then on. Moving on loads other
+asperities, and asperities that were relieved before. Sweeps over all positions follow each other
+until one moves next to nothing: the profile has shaken down.
+
+What flows is lost: the model has no pile-up beside a flattened asperity, no hardening, and no
+residual stress. Ground is only ever lowered.
+
+    z   height [m]               x_c  position of the roller's centre [m]
+    g   gap, averaged over a     d    overlap -g where p = H, else 0 [m]
+        hat [m]                  phi  hat of height 1
+    p   pressure [Pa]            H    hardness [Pa]
+
+The profile is lowered by sum_i d_i phi_i, at its own samples and, where hats are narrower, at
+their middles as well, which become samples. It meets the overlap to second order in the pitch,
+and never lifts ground.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from analytic.contact import ContactSolution, solve_contact
+from analytic.equilibrium import SET_TOLERANCE, Constraints
+from analytic.exact.hertz import hertz_from_load
+from analytic.form import trapezoid_widths
+from analytic.gap import HatGrid, roller_gap
+from analytic.operators import HalfPlane
+from analytic.profile import Profile
+
+SETTLED = 1e-3  # of all the volume moved: a sweep that moves no more is the last
+SWEEPS = 10  # at most, unless the caller says otherwise
+NEAR = 0.25  # of the pitch: a sample so near to the middle of a hat stands for it
+SPLINE_REACH = 64  # samples beyond which a spline no longer feels its end: 0.27^64 is 1e-36
+
+Status = Literal["shaken down", "passes spent"]
+
+
+@dataclass(frozen=True)
+class Pass:
+    """The roller pressed on once.
+
+    position   x_c [m] on the trace
+    volume     taken off the profile, per unit length [m^2]
+    lowering   largest overlap taken off [m]
+    touching   first and last contact [m] on the trace
+    at_end     whether that is an end of the trace, beyond which the roller finds no support
+    converged  whether the contact solution did; `residual` is its worst
+    """
+
+    position: float
+    volume: float
+    lowering: float
+    touching: tuple[float, float]
+    at_end: bool
+    converged: bool
+    residual: float
+
+
+@dataclass(frozen=True)
+class RunIn:
+    """A profile after running-in.
+
+    profile   the samples of the profile before, and in the swept stretch the middles of hats
+    lowering  (n,) [m] how far each of its samples was lowered, >= 0
+    passes    in order; `sweeps` of them over all positions
+    pitch     of the pressure hats [m]
+    status    shaken down: the last sweep moved at most SETTLED of the volume of all;
+              passes spent: it moved more, and no further sweep was allowed
+    """
+
+    profile: Profile
+    lowering: np.ndarray
+    passes: tuple[Pass, ...]
+    sweeps: int
+    pitch: float
+    status: Status
+
+    @property
+    def volume(self) -> float:
+        """Taken off in all passes, per unit length [m^2]."""
+        return float(sum(one.volume for one in self.passes))
+
+    @property
+    def largest_lowering(self) -> float:
+        """Of any sample, all passes together [m]."""
+        return float(self.lowering.max())
+
+    @property
+    def converged(self) -> bool:
+        """Whether every pass's contact solution converged."""
+        return all(one.converged for one in self.passes)
+
+
+def run_in(
+    profile: Profile,
+    radius: float,
+    modulus: float,
+    constraints: Constraints,
+    positions: np.ndarray,
+    *,
+    pitch: float | None = None,
+    sweeps: int = SWEEPS,
+) -> RunIn:
+    """Run a profile in under a smooth cylinder on a half-plane.
+
+    radius       R of relative curvature [m]     modulus  E* [Pa]
+    constraints  the load [N/m] and a finite hardness [Pa]
+    positions    (k,) x_c [m] on the trace, swept in this order
+    pitch        of the pressure hats [m]; default the profile's spacing
+    sweeps       at most
+
+    Raises ValueError for what makes no sense, ContactError if the trace cannot carry the load.
+    """
+    positions = np.asarray(positions, dtype=float)
+    _check(profile, constraints, positions, sweeps)
+    surface = _Surface(profile, radius, modulus, constraints, pitch or profile.spacing, positions)
+    passes: list[Pass] = []
+    for sweep in range(1, sweeps + 1):
+        passes.extend(surface.press(position) for position in positions)
+        moved = [one.volume for one in passes]
+        if sum(moved[-len(positions) :]) <= SETTLED * sum(moved):
+            return surface.result(passes, sweep, "shaken down")
+    return surface.result(passes, sweeps, "passes spent")
+
+
+def _check(profile: Profile, constraints: Constraints, positions: np.ndarray, sweeps: int) -> None:
+    if constraints.load is None or not np.isfinite(constraints.hardness):
+        raise ValueError("running-in takes a load and a finite hardness")
+    if positions.ndim != 1 or len(positions) == 0:
+        raise ValueError("running-in takes a list of at least one position")
+    outside = ~((positions > profile.x[0]) & (positions < profile.x[-1]))
+    if np.any(outside):
+        raise ValueError(
+            f"a position of running-in lies at {positions[outside][0]:g} m, off the trace from "
+            f"{profile.x[0]:g} m to {profile.x[-1]:g} m"
+        )
+    if sweeps < 1:
+        raise ValueError(f"running-in takes at least one sweep, not {sweeps}")
+
+
+class _Surface:
+    """The profile at work: its samples `x` with heights that passes lower.
+
+    Hats are centred on whole pitches from the trace's first sample; a pass solves on those of
+    them that its contact can reach, the same number at every position, so that all passes share
+    an operator and each starts from the pressures of the one before at its position.
+    """
+
+    def __init__(
+        self,
+        profile: Profile,
+        radius: float,
+        modulus: float,
+        constraints: Constraints,
+        pitch: float,
+        positions: np.ndarray,
+    ) -> None:
+        self.radius, self.modulus, self.constraints = radius, modulus, constraints
+        self.origin = float(profile.x[0])
+        self.whole = HatGrid.within(0.0, profile.length, pitch)
+        # no ground farther out is within reach, even if the highest peak stood there
+        hertz = hertz_from_load(constraints.load, radius, modulus)
+        carried = max(2.0 * hertz.half_width, constraints.load / constraints.hardness)
+        reach = carried + np.sqrt(2.0 * radius * np.ptp(profile.height))
+        self._span(reach)
+        places = positions - self.origin
+        middles = self.whole.x
+        swept = (middles >= places.min() - reach) & (middles <= places.max() + reach)
+        self.x = _joined(profile.x - self.origin, middles[swept], NEAR * pitch)
+        self.widths = trapezoid_widths(self.x)
+        self.before = profile.spline()(np.clip(self.x + self.origin, *profile.x[[0, -1]]))
+        self.lowering = np.zeros_like(self.x)
+        self.starts: dict[tuple[float, int], np.ndarray] = {}
+
+    def _span(self, reach: float) -> None:
+        """Let passes look for contact up to `reach` [m] from the roller's centre."""
+        self.reach = reach
+        count = int(np.ceil(min(2.0 * reach / self.whole.pitch, float(self.whole.count))))
+        self.operator = HalfPlane(max(count, 3), self.whole.pitch, self.modulus)
+
+    def press(self, position: float) -> Pass:
+        """Solve the capped contact at one position [m] and take off what overlaps."""
+        grid, solution = self._contact(position - self.origin)
+        capped = solution.pressure >= self.constraints.hardness * (1.0 - SET_TOLERANCE)
+        overlap = np.where(capped, np.maximum(-solution.gap, 0.0), 0.0)
+        part = self._part(grid, 0)
+        # an end of the trace, beyond the last hat's middle, goes down with it
+        taken = np.interp(self.x[part], grid.x, overlap)
+        self.lowering[part] += taken
+        first, last = np.flatnonzero(solution.pressure > 0.0)[[0, -1]] + grid.first
+        return Pass(
+            position=float(position),
+            volume=float(self.widths[part] @ taken),
+            lowering=float(overlap.max()),
+            touching=(first * grid.pitch + self.origin, last * grid.pitch + self.origin),
+            at_end=bool(first == self.whole.first or last == self.whole.last),
+            converged=solution.converged,
+            residual=solution.residuals.worst,
+        )
+
+    def _contact(self, place: float) -> tuple[HatGrid, ContactSolution]:
+        """The contact at one place, on as many hats as it needs."""
+        while True:
+            grid = self._grid(place)
+            solution = solve_contact(
+                self.operator,
+                self._gap(place, grid),
+                grid.weights,
+                self.constraints,
+                self.starts.get((place, grid.count)),
+            )
+            touching = np.flatnonzero(solution.pressure > 0.0)
+            cut_left = touching[0] == 0 and grid.first > self.whole.first
+            cut_right = touching[-1] == grid.count - 1 and grid.last < self.whole.last
+            if not (cut_left or cut_right):
+                self.starts[place, grid.count] = solution.pressure
+                return grid, solution
+            self._span(2.0 * self.reach)
+
+    def _grid(self, place: float) -> HatGrid:
+        """The hats around a place that a pass solves on."""
+        whole, count = self.whole, self.operator.count
+        first = round(place / whole.pitch) - count // 2
+        first = int(np.clip(first, whole.first, whole.last - count + 1))
+        return HatGrid(whole.pitch, first, first + count - 1)
+
+    def _gap(self, place: float, grid: HatGrid) -> np.ndarray:
+        """Weighted gap (n,) [m^2] under the roller at a place, over the profile as it is now."""
+        near = self._part(grid, SPLINE_REACH)
+        height = Profile(self.x[near], (self.before - self.lowering)[near]).spline()
+        gap = roller_gap(self.radius, lambda from_centre: height(from_centre + place))
+        return grid.average(lambda x: gap(x - place), height.x)
+
+    def _part(self, grid: HatGrid, beyond: int) -> slice:
+        """Samples under the feet of a grid's hats, and so many `beyond` on either side."""
+        start, stop = (grid.first - 1) * grid.pitch, (grid.last + 1) * grid.pitch
+        slack = NEAR * grid.pitch
+        low = np.searchsorted(self.x, start - slack) - beyond
+        high = np.searchsorted(self.x, stop + slack) + beyond
+        return slice(max(low, 0), high)
+
+    def result(self, passes: list[Pass], sweeps: int, status: Status) -> RunIn:
+        return RunIn(
+            profile=Profile(self.x + self.origin, self.before - self.lowering),
+            lowering=self.lowering,
+            passes=tuple(passes),
+            sweeps=sweeps,
+            pitch=self.whole.pitch,
+            status=status,
+        )
+
+
+def _joined(samples: np.ndarray, middles: np.ndarray, near: float) -> np.ndarray:
+    """Ascending places of the samples and of those `middles` farther than `near` from any."""
+    right = np.clip(np.searchsorted(samples, middles), 1, len(samples) - 1)
+    apart = np.minimum(np.abs(middles - samples[right - 1]), np.abs(samples[right] - middles))
+    return np.union1d(samples, middles[apart > near])
