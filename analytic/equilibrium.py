@@ -180,7 +180,7 @@ class EquilibriumProblem:
         return self.approach * from_weights - from_gap
 
     def _iterate(self, nodes: np.ndarray, pressure: np.ndarray, reduction: float) -> bool:
-        """Bring the free nodes of `pressure` (n,) to rest by conjugate gradients; see `equilibrium`.
+        """Bring the free nodes of `pressure` (n,) to rest by conjugate gradients.
 
         With the load prescribed the search stays in w'p = P and the approach is the multiplier.
         """

@@ -27,11 +27,16 @@ class Extension:
 
     def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
         free = len(nodes)
+        marks = np.zeros(count, dtype=np.int32)
+        marks[nodes] = 1
+        before = np.cumsum(marks, dtype=np.int32) - 1  # -1 is the last node, from a turn before
+        after = before + 1
+        after[nodes[-1] :] = 0
         widths = np.diff(nodes, append=nodes[0] + count)  # from each free node to the next
-        before = np.roll(np.repeat(np.arange(free), widths), nodes[0])
-        steps = np.roll(np.arange(count) - np.repeat(nodes - nodes[0], widths), nodes[0])
-        after = (before + 1) % free
+        steps = np.arange(count) - nodes[before]
+        steps[: nodes[0]] += count
         share = _share_of_next(steps, widths[before])
+        before[: nodes[0]] = free - 1
         if not closed:
             share[: nodes[0]] = 1.0
             share[nodes[-1] :] = 0.0
@@ -54,5 +59,4 @@ class Extension:
 
 def _share_of_next(steps: np.ndarray, widths: np.ndarray) -> np.ndarray:
     """Share of the next free node, `steps` nodes from the last one in a gap `widths` nodes wide."""
-    s = 2.0 * steps / widths - 1.0
-    return 0.5 + np.arcsin(s) / np.pi
+    return 0.5 + np.arcsin(2.0 * steps / widths - 1.0) / np.pi
