@@ -1,20 +1,23 @@
-"""Stresses in a half-plane under any line of pressure elements, at any points: direct sums.
+"""Stresses in a half-plane under any line of pressure elements, at any points.
 
 Nodal pressures p_i stand on a uniform grid x_i; as "hat" they are joined linearly and fall to
-zero one pitch beyond the ends, as "strip" each holds over its own pitch. The traction
-q = friction * p in +x has the same shape.
+zero one pitch beyond the ends, as "strip" each holds over its own pitch. Tractions have the same
+shape. A field on a grid of columns and levels is quicker by `stress_field`.
+
+A few pairs of point and element are summed one by one, which keeps the relative accuracy of every
+component; more by a tree (`stress_tree`), in a time proportional to their numbers' sum. The two
+agree to 1e-13 of the largest load.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from analytic.plane_stress import PlaneStress
-from analytic.stress_elements import FrictionStress, hat_at, strip_between
+from analytic.stress_elements import FrictionStress
 from analytic.stress_grid import check_element, uniform_pitch
+from analytic.stress_line import line_stress
+from analytic.stress_periodic import periodic_stress
 from analytic.stress_potential import Element
-from analytic.threads import for_each
-
-_BLOCK = 2**16  # pairs of point and element at a time, a few tens of megabytes
 
 
 def stress_at(
@@ -24,13 +27,26 @@ def stress_at(
     x: ArrayLike,
     z: ArrayLike,
     element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
 ) -> PlaneStress:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, tension positive.
 
-    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression.
+    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
+    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
+    any sign. With `periodic` the nodes are one period of n pitches, repeated without end; what
+    the mean pressure then does to sx is told in `stress_periodic`.
+
     Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
     """
-    return friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
+    besides = (
+        []
+        if traction is None
+        else [friction_stress_at(x_nodes, traction, x, z, element, periodic=periodic)]
+    )
+    stress = friction_stress_at(x_nodes, pressure, x, z, element, periodic=periodic)
+    return stress.at(friction, *besides)
 
 
 def friction_stress_at(
@@ -39,36 +55,16 @@ def friction_stress_at(
     x: ArrayLike,
     z: ArrayLike,
     element: Element = "hat",
+    *,
+    periodic: bool = False,
 ) -> FrictionStress:
-    """`stress_at` for every friction at once."""
+    """`stress_at` under q = friction * p, for every friction at once."""
     pitch = uniform_pitch(x_nodes, pressure)
     check_element(element)
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     if np.any(z < 0.0):
         raise ValueError("z must not be negative: it points into the body")
-    loaded = np.flatnonzero(pressure)
-    nodes, load = x_nodes[loaded], pressure[loaded]
-    parts = np.zeros((4, x.size))
-    step = max(1, _BLOCK // max(1, len(loaded)))
-
-    def add_up(here: slice) -> None:
-        part = _unit(x.ravel()[here, None], z.ravel()[here, None], nodes, pitch, element)
-        normal = part.normal
-        for row, values in enumerate((normal.sx, normal.sz, normal.txz, part.traction_sx)):
-            parts[row, here] = values @ load
-
-    for_each(add_up, (slice(i, i + step) for i in range(0, x.size, step)))
+    sum_up = periodic_stress if periodic else line_stress
+    parts = sum_up(x_nodes, pressure, pitch, x.ravel(), z.ravel(), element)
     parts = parts.reshape(4, *x.shape)
     return FrictionStress(PlaneStress(*parts[:3]), parts[3])
-
-
-def _unit(
-    x: np.ndarray, z: np.ndarray, nodes: np.ndarray, pitch: float, element: Element
-) -> FrictionStress:
-    """Of each node's element at unit pressure, (points, nodes) from x and z (points, 1)."""
-    offset = x - nodes
-    depth = np.broadcast_to(z, offset.shape)
-    if element == "hat":
-        return hat_at(offset / pitch, depth / pitch)
-    half = 0.5 * pitch
-    return strip_between(x - (nodes - half), offset, x - (nodes + half), depth)

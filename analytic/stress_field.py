@@ -185,7 +185,7 @@ def _convolve(sources: np.ndarray, ring: Circle, levels: int, parts: np.ndarray)
     def convolve(block: slice) -> None:
         for row, kernel in enumerate(ring.spectra(block)):
             for load, values in enumerate(spectrum):
-                stress = irfft(kernel * values, ring.length)
+                stress = irfft(kernel * (ring.turns[row] * values), ring.length)
                 parts[load, row, block] = stress[:, ring.points]
 
     for_each(convolve, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))

@@ -19,7 +19,8 @@ from scipy.fft import next_fast_len, rfft
 from analytic.stress_elements import FrictionStress, hat_at, strip_between
 from analytic.stress_potential import FAR_TERMS, NEAREST_FAR, Element, element_potential
 
-# Of sx, sz, txz under p and of sx under q on a run of the levels, each (levels, N/2 + 1)
+# Of sx, sz, txz under p and of sx under q on a run of the levels, each (levels, N/2 + 1), for
+# `turns` of the load's spectrum
 Spectra = Callable[[slice], tuple[np.ndarray, ...]]
 
 
@@ -31,12 +32,14 @@ class Circle:
     source   where the first source stands
     points   the values wanted
     spectra  of the element's stresses
+    turns    factors of the load's spectrum: i where a purely imaginary one is given as a real one
     """
 
     length: int
     source: int
     points: slice | np.ndarray
     spectra: Spectra
+    turns: tuple[complex, complex, complex, complex] = (1.0, 1.0, 1.0, 1.0)
 
 
 def circle(
@@ -58,7 +61,8 @@ def circle(
         size = next_fast_len(2 * reach + 1, real=True)
         start = max(0, -first)
         points = slice(first + start, last + start + 1, stride)
-        return Circle(size, start, points, _around(depths, reach, size, subdivisions, element))
+        spectra = _around(depths, reach, size, subdivisions, element)
+        return Circle(size, start, points, spectra, turns=(1.0, 1.0, 1j, 1j))
     offsets = np.arange(low, high + 1) / subdivisions
     size = next_fast_len(len(offsets), real=True)
 
@@ -82,14 +86,18 @@ def _around(
     """From the kernels at the offsets -reach … reach, which contain the element itself."""
     x = np.arange(reach + 1) / subdivisions
     # Few points and the slowest formulas: all levels at once.
-    close = x[: NEAREST_FAR * subdivisions]
-    near = as_potential(unit_stress(*np.broadcast_arrays(close, depths[:, None]), element))
-    ends = [start * subdivisions for start, _ in FAR_TERMS[1:]] + [reach + 1]
+    close, rest = NEAREST_FAR * subdivisions, FAR_TERMS[1][0] * subdivisions
+    near = np.empty((2, len(depths), min(rest, reach + 1)), dtype=complex)
+    unit = unit_stress(*np.broadcast_arrays(x[:close], depths[:, None]), element)
+    near[:, :, :close] = as_potential(unit)
+    if close <= reach:
+        near[:, :, close:] = element_potential(x[close:rest], depths, element, FAR_TERMS[0][1])
+    ends = [start * subdivisions for start, _ in FAR_TERMS[2:]] + [reach + 1]
 
     def spectra(block: slice) -> tuple[np.ndarray, ...]:
         halves = np.empty((2, len(depths[block]), reach + 1), dtype=complex)
-        halves[:, :, : len(close)] = near[:, block]
-        for (start, terms), end in zip(FAR_TERMS, ends, strict=True):
+        halves[:, :, : near.shape[2]] = near[:, block]
+        for (start, terms), end in zip(FAR_TERMS[1:], ends, strict=True):
             far = slice(start * subdivisions, min(end, reach + 1))
             if far.start < far.stop:
                 halves[:, :, far] = element_potential(x[far], depths[block], element, terms)
@@ -98,9 +106,8 @@ def _around(
         _mirror(potential.imag, potential.real, whole[0])
         _mirror(derivative.real, derivative.imag, whole[1])
         upper, lower = rfft(whole)
-        turn = 1j * lower.imag
-        even = upper.real, lower.real
-        return even[0] + even[1], even[0] - even[1], -turn, turn - 2j * upper.imag
+        even, odd = (upper.real, lower.real), (upper.imag, lower.imag)
+        return even[0] + even[1], even[0] - even[1], -odd[1], odd[1] - 2.0 * odd[0]
 
     return spectra
 

@@ -58,3 +58,11 @@ def element_potential(
     square *= z[:, None]
     derivative *= square
     return potential, derivative
+
+
+def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:
+    """sx, sz, txz under p and sx under q (4, …) from I and z I'."""
+    even, turn = derivative.real, derivative.imag
+    return np.array(
+        [potential.imag + even, potential.imag - even, -turn, turn - 2.0 * potential.real]
+    )

@@ -1,0 +1,87 @@
+"""Stresses of many elements at many points: a tree of boxes on the surface, n + m instead of n m.
+
+The line is cut into boxes of 8 nodes, and these are joined two by two. A point belongs to the
+smallest box on whose level its depth is at most 3.5 half-widths b. What stands in that box and in
+its three neighbours on either side is near: on the finest level it is summed over the nodes, else
+over the boxes' outer expansions, whose radius is then at most 0.6 of the distance. All the rest
+stands at least 7 b from the centre and reaches the point, at most 3.6 b away from it, in one inner
+expansion. Only boxes over points, and their ancestors, have one.
+
+Where all of the load is farther than twice its half-width, its moments are summed as in
+`stress_multipoles`, and every component keeps its own digits. Elsewhere all are right to 1e-14 of
+the largest pressure.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+
+from analytic.stress_boxes import LEAF, NEIGHBOURS, Level, box_levels, inner_sum, outer_sum
+from analytic.stress_multipoles import FARTHER, far_moments, line_multipoles
+from analytic.stress_near import Line, near_stress
+from analytic.stress_potential import Element, stresses
+from analytic.threads import for_each
+
+_DEEPEST = 3.5  # half-widths of a box: points below belong to a larger one
+_BLOCK, _NEAR_BLOCK = 4096, 256  # points at a time
+
+
+def tree_stress(
+    nodes: np.ndarray,
+    load: np.ndarray,
+    pitch: float,
+    x: np.ndarray,
+    z: np.ndarray,
+    element: Element,
+) -> np.ndarray:
+    """sx, sz, txz under p = `load` and sx under q = `load` (4, m) [Pa], at x, z (m,) [m]."""
+    parts = np.empty((4, len(x)))
+    middle, half = 0.5 * (nodes[0] + nodes[-1]), 0.5 * (nodes[-1] - nodes[0]) + pitch
+    far = np.hypot(x - middle, z) >= FARTHER * half
+    if far.any():
+        moments = far_moments(nodes - middle, load, pitch, half, element)
+        parts[:, far] = line_multipoles((x[far] - middle) / half, z[far] / half, moments)
+    among = np.flatnonzero(~far)
+    if len(among):
+        places = np.concatenate([[nodes[0] - pitch], nodes, [nodes[-1] + pitch]])
+        line = Line(places, pitch, load, element)
+        parts[:, among] = _among(line, x[among], z[among])
+    return parts
+
+
+def _among(line: Line, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """Between and next to the elements."""
+    along, down = (x - line.places[1]) / line.pitch + 0.5, z / line.pitch
+    level = np.ceil(np.log2(np.maximum(down / (0.5 * LEAF * _DEEPEST), 1.0))).astype(int)
+    box = np.floor(along / (LEAF * 2.0**level)).astype(int)
+    order = np.lexsort((box, level))
+    runs = list(pairwise(np.searchsorted(level[order], np.arange(level.max() + 2))))
+    levels = box_levels(line.load, line.element, [box[order[a:b]] for a, b in runs])
+    parts = np.empty((4, len(x)))
+
+    def add_up(tree: Level, here: np.ndarray) -> None:
+        u = np.empty(len(here), dtype=complex)
+        u.real = along[here] / tree.half - (2.0 * box[here] + 1.0)
+        u.imag = down[here] / tree.half
+        potential, slope = inner_sum(tree, box[here], u)
+        if tree is not levels[0]:
+            near, near_slope = outer_sum(tree, box[here], u)
+            potential += near
+            slope += near_slope
+        slope *= u.imag
+        found = stresses(potential, slope) / (np.pi * tree.half)
+        if tree is levels[0]:
+            for i in range(0, len(here), _NEAR_BLOCK):
+                block = slice(i, i + _NEAR_BLOCK)
+                start = (box[here[block]] - NEIGHBOURS) * LEAF
+                count = (2 * NEIGHBOURS + 1) * LEAF
+                found[:, block] += near_stress(line, x[here[block]], z[here[block]], start, count)
+        parts[:, here] = found
+
+    pieces = [
+        (tree, slice(i, min(i + _BLOCK, stop)))
+        for tree, (start, stop) in zip(levels, runs, strict=False)
+        for i in range(start, stop, _BLOCK)
+    ]
+    for_each(lambda piece: add_up(piece[0], order[piece[1]]), pieces)
+    return parts
