@@ -1,0 +1,189 @@
+"""Limits of a thick and of a thin layer against the full problem, solved by collocation."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.exact.hertz import hertz_from_load
+from analytic.exact.layer_limits import (
+    LayerLimit,
+    base_deficit,
+    thick_layer,
+    thin_compressible_layer,
+    thin_incompressible_layer,
+    thin_modulus,
+)
+from analytic.material import Material
+
+CASES = json.loads((Path(__file__).parents[1] / "data/e_layer_contact.json").read_text())["cases"]
+GAUSS, WEIGHT = np.polynomial.legendre.leggauss(300)
+HARDLY_COMPRESSIBLE = 0.5 - 1e-9
+BASES = [("frictionless", 0.3), ("bonded", 0.0), ("bonded", 0.3), ("bonded", 0.4999)]
+
+
+def material(nu: float) -> Material:
+    """Of plane-strain modulus 1."""
+    return Material(1.0 - nu**2, nu)
+
+
+@cache
+def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float, float]:
+    """Peak pressure, load and approach in E'a/R, E'a^2/R and a^2/R of the full layer.
+
+    Slope of the surface (1/pi) int p (1/(x-s) - L(x-s)) ds = x/2, L = int (1-K) sin kx dk, with
+    p = sqrt(1 - s^2) phi at Chebyshev's points; lengths in a. The approach is the displacement
+    at x = 0, (2/pi) int p int K cos(ks)/k dk ds.
+    """
+    count = 60 if a_over_t < 8.0 else 120
+    angle = np.arange(1, count + 1) * np.pi / (count + 1)
+    point, weight = np.cos(angle), np.pi / (count + 1) * np.sin(angle) ** 2
+    place = np.cos((2 * np.arange(1, count + 2) - 1) * np.pi / (2 * (count + 1)))
+    panels = np.array([0.0, 5.0, 10.0, 20.0, 40.0])
+    half = 0.5 * np.diff(panels)[:, None]
+    w = (0.5 * (panels[1:] + panels[:-1])[:, None] + half * GAUSS).ravel()
+    taken = base_deficit(w, base, nu) * (half * WEIGHT).ravel()
+    distance = place[:, None] - point
+    lines, back = np.unique(np.round(np.abs(distance), 13), return_inverse=True)
+    slope = a_over_t * (np.sin(np.multiply.outer(lines * a_over_t, w)) @ taken)
+    slope = np.sign(distance) * slope[back.reshape(distance.shape)]
+    matrix = weight / np.pi * (1.0 / distance - slope)
+    shape = np.linalg.lstsq(matrix, 0.5 * place, rcond=None)[0]
+    pressure = shape * weight
+    # the series phi = sum c_n U_n: its value in the middle and its integral against ln|s|
+    number = np.arange(count)
+    waves = np.sin(np.multiply.outer(number + 1, angle)) / np.sin(angle)
+    series = (2.0 / np.pi * waves @ pressure)[::2]
+    m, sign = np.arange(1, len(series)), (-1.0) ** np.arange(len(series))
+    logs = np.append(-0.5 * np.pi * (np.log(2.0) + 0.5), 0.0 * m)
+    logs[1:] = -0.25 * np.pi * sign[1:] * (1.0 / m + 1.0 / (m + 1))
+    # int K cos(k s)/k dk = -ln(s/t) + int (e^-w - (1 - K) cos(w s/t))/w dw
+    waves = base_deficit(w, base, nu) * np.cos(np.multiply.outer(point * a_over_t, w))
+    regular = ((np.exp(-w) - waves) / w) @ (half * WEIGHT).ravel()
+    load = pressure.sum()
+    approach = 2.0 / np.pi * (pressure @ regular - load * np.log(a_over_t) - series @ logs)
+    return float(series @ sign), float(load), float(approach)
+
+
+def errors(limit: LayerLimit, a_over_t: float, nu: float, base: str) -> np.ndarray:
+    """Full over limiting peak pressure, load and approach, less 1; the limit for a = R = 1."""
+    full = np.array(full_problem(a_over_t, nu, base))
+    return full / [limit.peak_pressure, limit.load_per_length, limit.approach] - 1.0
+
+
+@pytest.mark.parametrize(
+    "case", CASES, ids=lambda c: f"{c['base']}, a/t {c['a_over_t']}, nu {c['nu']}"
+)
+def test_full_problem_meets_the_reference(case):
+    """What the limits are judged by; the reference states 1e-10 of itself."""
+    a_over_t, nu = float(case["a_over_t"]), 0.3 if case["nu"] == "any" else float(case["nu"])
+    peak, load, _ = full_problem(a_over_t, nu, case["base"])
+    assert peak * a_over_t == pytest.approx(float(case["p0_R_over_Eprime_t"]), rel=1e-9)
+    assert load * a_over_t**2 == pytest.approx(float(case["P_R_over_Eprime_t2"]), rel=1e-9)
+
+
+@pytest.mark.parametrize(("base", "nu"), BASES)
+def test_what_the_base_takes_away(base, nu):
+    """K of the layer's own equations, in the form of Johnson 1985, section 5.8."""
+    w = np.array([0.3, 1.0, 2.5])
+    n = 3.0 - 4.0 * nu
+    if base == "frictionless":
+        expected = 2.0 * np.sinh(w) ** 2 / (np.sinh(2.0 * w) + 2.0 * w)
+    else:
+        below = 2.0 * n * np.cosh(2.0 * w) + 4.0 * w**2 + 1.0 + n**2
+        expected = (2.0 * n * np.sinh(2.0 * w) - 4.0 * w) / below
+    assert 1.0 - base_deficit(w, base, nu) == pytest.approx(expected, rel=1e-14)
+    # long waves feel the thin layer's modulus, short ones the half-plane's
+    thin = thin_modulus(material(nu), base)
+    small = 1e-4 if nu < 0.4 else 1e-6
+    compliance = 2.0 * (1.0 - base_deficit(small, base, nu)) / small
+    assert compliance == pytest.approx(1.0 / thin, rel=1e-3)
+    assert base_deficit(20.0, base, nu) == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize(("base", "nu"), BASES)
+def test_thick_limit_is_of_fourth_order(base, nu):
+    """And within the bound that the module states."""
+    left = [
+        errors(thick_layer(1.0, 1.0, 1.0 / a, material(nu), base), a, nu, base)
+        for a in (0.125, 0.25)
+    ]
+    assert np.log2(left[1][1:] / left[0][1:]) == pytest.approx([4.0, 4.0], abs=0.35)
+    assert np.all(np.abs(left[1][1:]) < 0.23 * 0.25**4)
+    # the peak's remainder is the difference of two: it may vanish in between
+    assert abs(left[1][0]) < 0.12 * 0.25**4
+    hertz = hertz_from_load(0.25 * np.pi, 1.0, 1.0)
+    uncorrected = full_problem(0.25, nu, base)[1] / hertz.load_per_length - 1.0
+    assert uncorrected > 30.0 * abs(left[1][1])
+
+
+@pytest.mark.parametrize(
+    ("base", "nu", "stated"), [("frictionless", 0.3, 0.53), ("bonded", 0.3, 0.37)]
+)
+def test_thin_compressible_limit_is_of_first_order(base, nu, stated):
+    left = np.array(
+        [
+            errors(thin_compressible_layer(1.0, 1.0, 1.0 / a, material(nu), base), a, nu, base)
+            for a in (8.0, 16.0, 32.0)
+        ]
+    )
+    assert np.log2(left[0] / left[2]) / 2.0 == pytest.approx([1.0, 1.0, 1.0], abs=0.05)
+    assert left[2][1] * 32.0 == pytest.approx(stated, abs=0.01)
+
+
+def test_thin_incompressible_limit_is_of_first_order():
+    left = np.array(
+        [
+            errors(
+                thin_incompressible_layer(1.0, 1.0, 1.0 / a, 1.0 - HARDLY_COMPRESSIBLE**2),
+                a,
+                HARDLY_COMPRESSIBLE,
+                "bonded",
+            )
+            for a in (8.0, 16.0, 32.0)
+        ]
+    )
+    assert np.log2(left[1] / left[2]) == pytest.approx([1.0, 1.0, 1.0], abs=0.15)
+    assert left[2][1] * 32.0 == pytest.approx(8.0, abs=0.1)
+
+
+def test_pressures_carry_their_loads():
+    """Gauss-Legendre in x = cos t, where the square-root edge is smooth."""
+    layer = Material(3e9, 0.3)
+    t = 0.5 * np.pi * (1.0 + GAUSS)
+    for limit in (
+        thick_layer(2e-4, 0.01, 1e-3, layer, "bonded"),
+        thin_compressible_layer(5e-3, 0.01, 1e-3, layer, "bonded"),
+        thin_incompressible_layer(5e-3, 0.01, 1e-3, 3e9),
+    ):
+        pressure = limit.pressure(limit.half_width * np.cos(t))
+        load = 0.5 * np.pi * limit.half_width * np.sum(WEIGHT * np.sin(t) * pressure)
+        assert limit.load_per_length == pytest.approx(load, rel=1e-13)
+        assert limit.pressure([0.0, -2.0, 1.0]) == pytest.approx([limit.peak_pressure, 0.0, 0.0])
+
+
+def test_thin_layers_follow_from_their_own_equations():
+    """Springs under the cylinder; and squeezed sideways, u = -(t^3/E) p'' (incompressible)."""
+    springs = thin_compressible_layer(5e-3, 0.01, 1e-3, Material(3e9, 0.3), "frictionless")
+    x = np.array([0.0, 1e-3, 4e-3])
+    sunk = springs.approach - x**2 / 0.02
+    assert springs.pressure(x) == pytest.approx(3e9 / (1.0 - 0.09) * sunk / 1e-3)
+
+    flowing = thin_incompressible_layer(5e-3, 0.01, 1e-3, 3e9)
+    step = 1e-5
+    bend = (
+        flowing.pressure(x + step) - 2.0 * flowing.pressure(x) + flowing.pressure(x - step)
+    ) / step**2
+    assert -(1e-3**3) / 3e9 * bend == pytest.approx(flowing.approach - x**2 / 0.02, rel=1e-4)
+
+
+def test_what_makes_no_sense_is_refused():
+    with pytest.raises(ValueError, match="thickness must be positive"):
+        thick_layer(1.0, 1.0, 0.0, material(0.3), "bonded")
+    with pytest.raises(ValueError, match="half_width must be positive"):
+        thin_incompressible_layer(-1.0, 1.0, 1.0, 1.0)
+    for limit in (thick_layer, thin_compressible_layer):
+        with pytest.raises(ValueError, match='"bonded" or "frictionless", not \'glued\''):
+            limit(1.0, 1.0, 1.0, material(0.3), "glued")
