@@ -17,6 +17,7 @@ from analytic.stress_elements import FrictionStress
 from analytic.stress_grid import check_element, uniform_pitch
 from analytic.stress_kernels import Circle, circle
 from analytic.stress_potential import Element
+from analytic.stress_ring import ring
 from analytic.threads import for_each
 
 _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
@@ -124,7 +125,7 @@ def _fields(
     sources, start = _on_grid(np.array(loads), subdivisions, whole=periodic)
     if sources.size:
         window = (sources.shape[1], first - start, last - start, stride)
-        make = circle
+        make = ring if periodic else circle
         _convolve(sources, make(z / pitch, *window, subdivisions, element), len(z), parts)
         if z[0] == 0.0:
             places = np.arange(first - start, last - start + 1, stride)
@@ -172,21 +173,21 @@ def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
     return depth * levels / levels[-1]
 
 
-def _convolve(sources: np.ndarray, ring: Circle, levels: int, parts: np.ndarray) -> None:
+def _convolve(sources: np.ndarray, round_line: Circle, levels: int, parts: np.ndarray) -> None:
     """Fill `parts` (loads, 4, levels, points): sx, sz, txz under p, sx under q, of each load.
 
     `sources` (loads, S) [Pa], a value a step of the grid.
     """
-    placed = np.zeros((len(sources), ring.length))
-    placed[:, ring.source : ring.source + sources.shape[1]] = sources
+    placed = np.zeros((len(sources), round_line.length))
+    placed[:, round_line.source : round_line.source + sources.shape[1]] = sources
     spectrum = rfft(placed)
-    step = max(1, _BLOCK // ring.length)
+    step = max(1, _BLOCK // round_line.length)
 
     def convolve(block: slice) -> None:
-        for row, kernel in enumerate(ring.spectra(block)):
+        for row, kernel in enumerate(round_line.spectra(block)):
             for load, values in enumerate(spectrum):
-                stress = irfft(kernel * (ring.turns[row] * values), ring.length)
-                parts[load, row, block] = stress[:, ring.points]
+                stress = irfft(kernel * (round_line.turns[row] * values), round_line.length)
+                parts[load, row, block] = stress[:, round_line.points]
 
     for_each(convolve, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
 

@@ -22,6 +22,7 @@ from analytic.stress_potential import FAR_TERMS, NEAREST_FAR, Element, element_p
 # Of sx, sz, txz under p and of sx under q on a run of the levels, each (levels, N/2 + 1), for
 # `turns` of the load's spectrum
 Spectra = Callable[[slice], tuple[np.ndarray, ...]]
+MIRRORED = (1.0, 1.0, 1j, 1j)
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,12 @@ def circle(
         size = next_fast_len(2 * reach + 1, real=True)
         start = max(0, -first)
         points = slice(first + start, last + start + 1, stride)
-        spectra = _around(depths, reach, size, subdivisions, element)
-        return Circle(size, start, points, spectra, turns=(1.0, 1.0, 1j, 1j))
+        halves = half_line(depths, reach, subdivisions, element)
+
+        def around(block: slice) -> tuple[np.ndarray, ...]:
+            return mirrored_spectra(halves(block), size)
+
+        return Circle(size, start, points, around, MIRRORED)
     offsets = np.arange(low, high + 1) / subdivisions
     size = next_fast_len(len(offsets), real=True)
 
@@ -80,10 +85,10 @@ def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStres
     return hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
 
 
-def _around(
-    depths: np.ndarray, reach: int, size: int, subdivisions: int, element: Element
-) -> Spectra:
-    """From the kernels at the offsets -reach … reach, which contain the element itself."""
+def half_line(
+    depths: np.ndarray, reach: int, subdivisions: int, element: Element
+) -> Callable[[slice], np.ndarray]:
+    """I and z I' (2, levels, reach + 1) of a unit element at the offsets 0 … reach, by levels."""
     x = np.arange(reach + 1) / subdivisions
     # Few points and the slowest formulas: all levels at once.
     close, rest = NEAREST_FAR * subdivisions, FAR_TERMS[1][0] * subdivisions
@@ -94,22 +99,30 @@ def _around(
         near[:, :, close:] = element_potential(x[close:rest], depths, element, FAR_TERMS[0][1])
     ends = [start * subdivisions for start, _ in FAR_TERMS[2:]] + [reach + 1]
 
-    def spectra(block: slice) -> tuple[np.ndarray, ...]:
-        halves = np.empty((2, len(depths[block]), reach + 1), dtype=complex)
-        halves[:, :, : near.shape[2]] = near[:, block]
+    def halves(block: slice) -> np.ndarray:
+        found = np.empty((2, len(depths[block]), reach + 1), dtype=complex)
+        found[:, :, : near.shape[2]] = near[:, block]
         for (start, terms), end in zip(FAR_TERMS[1:], ends, strict=True):
             far = slice(start * subdivisions, min(end, reach + 1))
             if far.start < far.stop:
-                halves[:, :, far] = element_potential(x[far], depths[block], element, terms)
-        whole = np.zeros((2, halves.shape[1], size))
-        potential, derivative = halves
-        _mirror(potential.imag, potential.real, whole[0])
-        _mirror(derivative.real, derivative.imag, whole[1])
-        upper, lower = rfft(whole)
-        even, odd = (upper.real, lower.real), (upper.imag, lower.imag)
-        return even[0] + even[1], even[0] - even[1], -odd[1], odd[1] - 2.0 * odd[0]
+                found[:, :, far] = element_potential(x[far], depths[block], element, terms)
+        return found
 
-    return spectra
+    return halves
+
+
+def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
+    """Spectra, for the turns MIRRORED, of an element on a circle of `size` >= 2 reach points.
+
+    From I and z I' (2, levels, reach + 1) on its right.
+    """
+    whole = np.zeros((2, halves.shape[1], size))
+    potential, derivative = halves
+    _mirror(potential.imag, potential.real, whole[0])
+    _mirror(derivative.real, derivative.imag, whole[1])
+    upper, lower = rfft(whole)
+    even, odd = (upper.real, lower.real), (upper.imag, lower.imag)
+    return even[0] + even[1], even[0] - even[1], -odd[1], odd[1] - 2.0 * odd[0]
 
 
 def as_potential(unit: FrictionStress) -> np.ndarray:

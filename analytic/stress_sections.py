@@ -1,0 +1,89 @@
+"""Stresses along straight lines: down from a point of the surface, or between any two points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analytic.plane_stress import PlaneStress
+from analytic.stress import stress_at
+from analytic.stress_potential import Element
+
+
+@dataclass(frozen=True)
+class StressSection:
+    """Stresses [Pa] (m,) at places x, z (m,) [m] that stand `along` (m,) [m] from the first."""
+
+    x: np.ndarray
+    z: np.ndarray
+    along: np.ndarray
+    stress: PlaneStress
+
+    def turned(self) -> PlaneStress:
+        """The stresses [Pa] in axes along the section and across it, the latter a quarter turn on.
+
+        sx is then the stress along the section, sz that across it, and txz the shear on it, in
+        axes turned from x towards z by the section's own angle.
+        """
+        run, fall = self.x[-1] - self.x[0], self.z[-1] - self.z[0]
+        length = np.hypot(run, fall)
+        c, s = run / length, fall / length
+        given = self.stress
+        mixed = 2.0 * c * s * given.txz
+        return PlaneStress(
+            sx=c * c * given.sx + s * s * given.sz + mixed,
+            sz=s * s * given.sx + c * c * given.sz - mixed,
+            txz=c * s * (given.sz - given.sx) + (c * c - s * s) * given.txz,
+        )
+
+
+def depth_profile(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    friction: float,
+    x: float,
+    depths: ArrayLike,
+    element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
+) -> StressSection:
+    """Stresses at `depths` (m,) [m], from 0 on, under the place x [m]; `along` is the depth itself.
+
+    The load is given as to `stress_at`. Raises ValueError for what that refuses.
+    """
+    z = np.asarray(depths, dtype=float)
+    if z.ndim != 1 or len(z) == 0:
+        raise ValueError("depths must be one-dimensional and not empty")
+    stress = stress_at(
+        x_nodes, pressure, friction, x, z, element, traction=traction, periodic=periodic
+    )
+    return StressSection(np.full(len(z), float(x)), z, z, stress)
+
+
+def section(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    friction: float,
+    start: tuple[float, float],
+    stop: tuple[float, float],
+    count: int = 201,
+    element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
+) -> StressSection:
+    """Stresses at `count` places, evenly from `start` to `stop`, each (x, z) [m] with z >= 0.
+
+    The load is given as to `stress_at`. Raises ValueError for what that refuses, for fewer than
+    2 places and for two ends in one place.
+    """
+    if count < 2 or tuple(start) == tuple(stop):
+        raise ValueError("a section needs two different ends and at least 2 places")
+    share = np.linspace(0.0, 1.0, count)
+    x, z = ((1.0 - share) * a + share * b for a, b in zip(start, stop, strict=True))
+    along = share * np.hypot(stop[0] - start[0], stop[1] - start[1])
+    stress = stress_at(
+        x_nodes, pressure, friction, x, z, element, traction=traction, periodic=periodic
+    )
+    return StressSection(x, z, along, stress)
