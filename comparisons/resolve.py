@@ -64,6 +64,8 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         profile, info, position = profile_of(
             plain["profile"], scene.load.position, folder=folder, source=source
         )
+        if info.cutoff is not None:
+            plain["profile"]["cutoff"] = info.cutoff  # of "auto", what it came to
     plain["load"]["position"] = position
     return ResolvedScene(
         name=name,

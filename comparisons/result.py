@@ -39,6 +39,7 @@ def result_of(
     return {
         "schema": SCHEMA,
         "scene": problem.scene.as_dict(),
+        "profile": problem.scene.profile_info and problem.scene.profile_info.surface(),
         "groups": groups,
         "hertz": {
             "half_width": hertz.half_width,

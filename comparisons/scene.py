@@ -13,6 +13,7 @@ from analytic.form import RemovedForm
 from analytic.material import Material
 from analytic.profile import Profile
 from analytic.roughness import Roughness
+from analytic.roughness_standard import StandardRoughness
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,12 @@ class ProfileInfo:
     source     the file as the scene names it, or the kind of a made profile
     samples, length [m], spacing [m] (median)   of the whole trace
     form       what was taken away
-    roughness  figures of what is left
+    roughness  figures of what is left and is pressed
+    cutoff, short_cutoff  [m] of the filter that made it of the trace, None where there is none
+    standard   parameters of the trace after ISO 21920-2, whatever is pressed
+    standard_why  why there are none, where there are none
+    format     of the file, in words; None for a made profile
+    place      the line of a map that it is, in words
     path       the file that was read, None for a made profile
     sha256     of the file's bytes, None for a made profile
     bridged    lost samples of the file that were put on a line between their neighbours
@@ -50,15 +56,24 @@ class ProfileInfo:
     sha256: str | None = None
     bridged: int = 0
     trimmed: int = 0
+    format: str | None = None
+    place: str | None = None
+    cutoff: float | None = None
+    short_cutoff: float | None = None
+    standard: StandardRoughness | None = None
+    standard_why: str | None = None
 
     def as_dict(self) -> dict:
         """The same for JSON, without `path`, which another machine does not have."""
         figures = {name: value for name, value in asdict(self).items() if name != "path"}
-        return {
-            **figures,
-            "form": _finite(figures["form"]),
-            "roughness": _finite(figures["roughness"]),
-        }
+        nested = ("form", "roughness", "standard")
+        return figures | {name: _finite(figures[name]) for name in nested if figures[name]}
+
+    def surface(self) -> dict:
+        """The surface's figures, as pressed and by the standard, for JSON."""
+        plain = self.as_dict()
+        names = ("cutoff", "short_cutoff", "standard", "standard_why")
+        return {"pressed": plain["roughness"], **{name: plain[name] for name in names}}
 
 
 @dataclass(frozen=True)

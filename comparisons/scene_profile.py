@@ -1,4 +1,4 @@
-"""The profile of a scene: read or made, without its form, put under the roller."""
+"""The profile of a scene: read or made, without its form, filtered, put under the roller."""
 
 import hashlib
 from collections.abc import Mapping
@@ -7,21 +7,42 @@ from math import hypot, sqrt
 from pathlib import Path
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.filters import filtered
 from analytic.form import RemovedForm, remove_form
 from analytic.material import Material, combined_modulus
 from analytic.profile import Profile
-from analytic.profile_readers import read_profile
+from analytic.profile_files import MissingUnitError, read_measured
 from analytic.roughness import roughness
+from analytic.roughness_standard import (
+    standard_cutoff,
+    standard_roughness,
+    standard_short_cutoff,
+)
 from analytic.synthetic import ground_texture, self_affine, sinusoid
+from analytic.topography import MapLine
+from analytic.turned import turned
 from comparisons.errors import SceneError
 from comparisons.scene import Load, ProfileInfo
-from comparisons.scene_profile_table import ProfileTable
+from comparisons.scene_profile_fields import AUTOMATIC
+from comparisons.scene_profile_table import FILTER, ProfileTable
+from comparisons.scene_table import allowed
 from comparisons.units import LENGTH, unit_in_si
 
 SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
 SINUSOID_WAVES = 3.0  # and at least so many wavelengths
 
-_MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine, "ground": ground_texture}
+_MAKERS = {
+    "sinusoid": sinusoid,
+    "self-affine": self_affine,
+    "ground": ground_texture,
+    "turned": turned,
+}
+# What to say where a file does not tell it, and the scene does not either.
+_ALLOWED = {
+    "x_unit": "exactly one of x_unit and spacing",
+    "z_unit": allowed(ProfileTable, "z_unit"),
+    "spacing": allowed(ProfileTable, "spacing"),
+}
 
 
 def profile_of(
@@ -40,14 +61,16 @@ def profile_of(
     else:
         trace, origin = _made(table, source)
     position = _position(position, trace, source)
+    pressed, filtering = _filtered(trace, table, source)
     account = ProfileInfo(
         **origin,
+        **filtering,
         samples=len(trace.x),
         length=trace.length,
         spacing=trace.spacing,
-        roughness=roughness(trace),
+        roughness=roughness(pressed),
     )
-    return trace.shifted(position), account, position
+    return pressed.shifted(position), account, position
 
 
 def sinusoid_length(
@@ -70,14 +93,20 @@ def sinusoid_length(
 def _measured(table: Mapping, path: Path, source: str) -> tuple[Profile, dict]:
     """The profile in a file without its form, and where it comes from."""
     try:
-        read = read_profile(
+        read = read_measured(
             path,
-            x_scale=unit_in_si(table.get("x_unit", "m"), LENGTH),
-            height_scale=unit_in_si(table["z_unit"], LENGTH),
+            x_scale=_scale(table, "x_unit"),
+            height_scale=_scale(table, "z_unit"),
             spacing=table.get("spacing"),
             dropouts=table["dropouts"],
+            chosen=_chosen(table),
         )
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    except MissingUnitError as error:
+        raise SceneError(
+            f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
+            f"({table['file']} {error.message})"
+        ) from error
     except (ValueError, OSError) as error:
         raise SceneError(f"{source}: profile.file: {error}") from error
     try:
@@ -91,17 +120,50 @@ def _measured(table: Mapping, path: Path, source: str) -> tuple[Profile, dict]:
         "form": form,
         "bridged": read.bridged,
         "trimmed": read.trimmed,
+        "format": read.format,
+        "place": read.place,
     }
+
+
+def _scale(table: Mapping, field: str) -> float | None:
+    return unit_in_si(table[field], LENGTH) if field in table else None
+
+
+def _chosen(table: Mapping) -> MapLine | None:
+    given = {name: table[name] for name in ("row", "column", "line") if name in table}
+    return MapLine(**given) if given else None
 
 
 def _made(table: Mapping, source: str) -> tuple[Profile, dict]:
     """The profile that `analytic.synthetic` makes, about its mean line, and where it comes from."""
-    parameters = {name: value for name, value in table.items() if name != "kind"}
+    parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
     try:
         trace = _MAKERS[table["kind"]](**parameters)
     except ValueError as error:
         raise SceneError(f"{source}: profile: {error}") from error
     return trace, {"source": table["kind"], "form": RemovedForm("none")}
+
+
+def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
+    """What is pressed of the trace, and the filter and the standard's figures for the account."""
+    cutoff, short = table.get("cutoff"), table.get("short_cutoff")
+    try:
+        if cutoff == AUTOMATIC:
+            cutoff = standard_cutoff(trace)
+        pressed = filtered(trace, cutoff, short)
+    except ValueError as error:
+        field = "cutoff" if cutoff is not None else "short_cutoff"
+        raise SceneError(f"{source}: profile.{field}: {error}") from error
+    account = {"cutoff": cutoff, "short_cutoff": short}
+    try:
+        if cutoff is None:
+            cutoff = standard_cutoff(trace)
+        account["standard"] = standard_roughness(
+            trace, cutoff, short or standard_short_cutoff(trace, cutoff)
+        )
+    except ValueError as error:
+        account["standard_why"] = str(error).partition(";")[0]
+    return pressed, account
 
 
 def _without_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:

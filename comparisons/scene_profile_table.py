@@ -9,6 +9,7 @@ from pydantic import model_validator
 from analytic.profile import MAX_SAMPLES
 from analytic.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
 from comparisons.scene_fields import Choice, Number, Text, Unit, Whole
+from comparisons.scene_profile_fields import CutOff, Segment
 from comparisons.scene_table import FieldError, Length, Table, allowed
 from comparisons.units import DIMENSIONLESS, LENGTH
 
@@ -27,9 +28,12 @@ class ProfileTable(Table):
     x_unit: Annotated[str, Unit(LENGTH)] | None = None
     z_unit: Annotated[str, Unit(LENGTH)] | None = None
     spacing: Length | None = None
+    row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    line: Annotated[tuple, Segment()] | None = None
     form: Annotated[str, Choice(("none", "mean", "line", "arc"))] | None = None
     dropouts: Annotated[str, Choice(("refuse", "bridge"))] | None = None
-    kind: Annotated[str, Choice(("sinusoid", "self-affine", "ground"))] | None = None
+    kind: Annotated[str, Choice(("sinusoid", "self-affine", "ground", "turned"))] | None = None
     wavelength: Length | None = None
     amplitude: Length | None = None
     samples_per_wavelength: Samples | None = None
@@ -44,6 +48,15 @@ class ProfileTable(Table):
     longest_wavelength: Length | None = None
     decay: Positive | None = None
     one_sidedness: Positive | None = None
+    feed: Length | None = None
+    nose_radius: Length | None = None
+    ridge_radius: Length | None = None
+    phase: Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=1.0)] | None = None
+    samples_per_feed: Samples | None = None
+    noise: Length | None = None
+    noise_wavelength: Length | None = None
+    cutoff: Annotated[float | str, CutOff()] | None = None
+    short_cutoff: Length | None = None
 
     @property
     def variety(self) -> str:
@@ -71,7 +84,7 @@ class ProfileTable(Table):
                 raise FieldError(
                     name,
                     f"does not belong to {variety.title}; allowed there are "
-                    + ", ".join(sorted(variety.fields() - {"kind", "file"})),
+                    + ", ".join([*sorted(variety.fields() - {"kind", "file", *FILTER}), *FILTER]),
                 )
         for name in variety.needed:
             if getattr(self, name) is None:
@@ -86,7 +99,17 @@ class ProfileTable(Table):
                     f"is {'given beside ' + names[0] if given else 'missing'}; "
                     f"allowed is exactly one of {' and '.join(names)}",
                 )
+        for names in variety.at_most_one_of:
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) > 1:
+                raise FieldError(
+                    given[1],
+                    f"is given beside {given[0]}; allowed is exactly one of {' and '.join(names)}",
+                )
         return self
+
+
+FILTER = ("cutoff", "short_cutoff")  # every variety has them
 
 
 @dataclass(frozen=True)
@@ -98,6 +121,7 @@ class ProfileVariety:
     optional: tuple[str, ...] = ()
     defaults: Mapping[str, object] = field(default_factory=dict)
     one_of: tuple[tuple[str, ...], ...] = ()
+    at_most_one_of: tuple[tuple[str, ...], ...] = ()
 
     def fields(self) -> set[str]:
         """Every field it may have."""
@@ -105,16 +129,18 @@ class ProfileVariety:
             *self.needed,
             *self.optional,
             *self.defaults,
-            *(name for names in self.one_of for name in names),
+            *FILTER,
+            *(name for names in (*self.one_of, *self.at_most_one_of) for name in names),
         }
 
 
 PROFILE_VARIETIES = {
     "file": ProfileVariety(
         "a measured profile",
-        needed=("file", "z_unit"),
+        needed=("file",),
+        optional=("z_unit",),  # a file that is not text may bring its units and its size
         defaults={"form": "line", "dropouts": "refuse"},
-        one_of=(("x_unit", "spacing"),),
+        at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
     ),
     "sinusoid": ProfileVariety(
         'kind = "sinusoid"',
@@ -141,5 +167,11 @@ PROFILE_VARIETIES = {
             "longest_wavelength",
         ),
         defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
+    ),
+    "turned": ProfileVariety(
+        'kind = "turned"',
+        needed=("kind", "feed", "nose_radius", "length"),
+        optional=("ridge_radius", "samples_per_feed", "noise", "noise_wavelength"),
+        defaults={"phase": 0.0, "seed": 0},
     ),
 }

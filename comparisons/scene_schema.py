@@ -215,4 +215,4 @@ def _plain(value: object) -> object:
         return {name: _plain(item) for name, item in pairs if item is not None}
     if isinstance(value, Extent):
         return value.value if value.in_half_widths else f"{value.value!r} m"
-    return list(value) if isinstance(value, tuple) else value
+    return [_plain(item) for item in value] if isinstance(value, tuple) else value

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.headline import headline
-from comparisons.report.numbers import with_unit
+from comparisons.report.numbers import given, with_unit
 from comparisons.report.words import LABELS
+from comparisons.scene import ProfileInfo
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -97,6 +98,15 @@ def _cell(text: str, style: str = "") -> "Text":
     return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
 
 
+def surface_text(info: ProfileInfo) -> str:
+    """Roughness as pressed, and what a drawing would say of the trace."""
+    text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
+    if info.standard is not None:
+        ra, cutoff = with_unit(info.standard.ra, "m", 3), given(info.standard.cutoff, "m")
+        text += f", {ra} at the cut-off {cutoff}"
+    return text
+
+
 def _facts(outcome: Outcome) -> "Table":
     from rich.table import Table
     from rich.text import Text
@@ -108,6 +118,9 @@ def _facts(outcome: Outcome) -> "Table":
     facts = Table.grid(padding=(0, 2))
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
+    info = outcome.problem.scene.profile_info
+    if info is not None:
+        facts.add_row("surface", Text(surface_text(info).translate(PLAIN)))
     facts.add_row("time", times)
     facts.add_row("report", Text(str(outcome.directory / "report.html")))
     facts.add_row("figures", Text(str(outcome.directory / "result.json")))

