@@ -37,18 +37,22 @@ def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float, f
     p = sqrt(1 - s^2) phi at Chebyshev's points; lengths in a. The approach is the displacement
     at x = 0, (2/pi) int p int K cos(ks)/k dk ds.
     """
-    count = 60 if a_over_t < 8.0 else 120
+    count = 60 if a_over_t < 8.0 else 160
     angle = np.arange(1, count + 1) * np.pi / (count + 1)
     point, weight = np.cos(angle), np.pi / (count + 1) * np.sin(angle) ** 2
     place = np.cos((2 * np.arange(1, count + 2) - 1) * np.pi / (2 * (count + 1)))
     panels = np.array([0.0, 5.0, 10.0, 20.0, 40.0])
-    half = 0.5 * np.diff(panels)[:, None]
-    w = (0.5 * (panels[1:] + panels[:-1])[:, None] + half * GAUSS).ravel()
-    taken = base_deficit(w, base, nu) * (half * WEIGHT).ravel()
+    half = 0.5 * np.diff(panels)
+    w = 0.5 * (panels[1:] + panels[:-1])[:, None] + half[:, None] * GAUSS
+    dw = half[:, None] * WEIGHT
     distance = place[:, None] - point
     lines, back = np.unique(np.round(np.abs(distance), 13), return_inverse=True)
-    slope = a_over_t * (np.sin(np.multiply.outer(lines * a_over_t, w)) @ taken)
+    slope = a_over_t * sum(
+        np.sin(np.multiply.outer(lines * a_over_t, at)) @ (base_deficit(at, base, nu) * weights)
+        for at, weights in zip(w, dw, strict=True)
+    )
     slope = np.sign(distance) * slope[back.reshape(distance.shape)]
+    w, dw = w.ravel(), dw.ravel()
     matrix = weight / np.pi * (1.0 / distance - slope)
     shape = np.linalg.lstsq(matrix, 0.5 * place, rcond=None)[0]
     pressure = shape * weight
@@ -61,7 +65,7 @@ def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float, f
     logs[1:] = -0.25 * np.pi * sign[1:] * (1.0 / m + 1.0 / (m + 1))
     # int K cos(k s)/k dk = -ln(s/t) + int (e^-w - (1 - K) cos(w s/t))/w dw
     waves = base_deficit(w, base, nu) * np.cos(np.multiply.outer(point * a_over_t, w))
-    regular = ((np.exp(-w) - waves) / w) @ (half * WEIGHT).ravel()
+    regular = ((np.exp(-w) - waves) / w) @ dw
     load = pressure.sum()
     approach = 2.0 / np.pi * (pressure @ regular - load * np.log(a_over_t) - series @ logs)
     return float(series @ sign), float(load), float(approach)
