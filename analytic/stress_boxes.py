@@ -6,6 +6,7 @@ of the parent's near boxes that are not near themselves.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -22,6 +23,7 @@ LEAF = 8  # nodes of the smallest box
 NEIGHBOURS = 3
 # Outer coefficients summed for a box so many boxes away: less than 1e-15 of its load is left out.
 _OUTER_ORDERS = (ORDER, 52, 30, 22)
+_BLOCK = 2048  # boxes at a time
 
 
 @dataclass(frozen=True)
@@ -57,20 +59,37 @@ def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> l
     for index in reversed(range(len(outer))):
         sources = np.column_stack([outer[index], np.zeros(ORDER)])
         inner = np.zeros((ORDER, len(ids[index])))
-        for right in (0, 1):
+        # From the third level on, counted from the box that holds the whole load, boxes are far.
+        for right in (0, 1) if len(levels) > 1 else ():
             here = np.flatnonzero(ids[index] % 2 == right)
-            mine = ids[index][here]
-            if levels:
-                parent = np.searchsorted(levels[-1].ids, mine // 2)
-                inner[:, here] = inner_to_child(2 * right - 1) @ levels[-1].inner[:, parent]
-            # the halves of the parent's near boxes that are not near themselves
-            for away in range(-2 * NEIGHBOURS - right, 2 * NEIGHBOURS + 2 - right):
-                if abs(away) > NEIGHBOURS:
-                    source = inside(mine + away, sources.shape[1] - 1)
-                    if np.any(source < sources.shape[1] - 1):
-                        inner[:, here] += outer_to_inner(away) @ sources[:, source]
+            parent = np.searchsorted(levels[-1].ids, ids[index][here] // 2)
+            inner[:, here] = inner_to_child(2 * right - 1) @ levels[-1].inner[:, parent]
+            for i in range(0, len(here), _BLOCK):
+                inner[:, here[i : i + _BLOCK]] += _from_far(
+                    sources, ids[index][here[i : i + _BLOCK]], right
+                )
         levels.append(Level(0.5 * LEAF * 2.0**index, ids[index], sources, inner))
     return levels[::-1]
+
+
+def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
+    """Inner coefficients of boxes, all `right` or left halves, from what only their parents had."""
+    away, matrix = _far_boxes(right)
+    found = inside(box + away[:, None], sources.shape[1] - 1)
+    if np.all(found == sources.shape[1] - 1):
+        return np.zeros((ORDER, len(box)))
+    return matrix @ sources.T[found].transpose(0, 2, 1).reshape(-1, len(box))
+
+
+@cache
+def _far_boxes(right: int) -> tuple[np.ndarray, np.ndarray]:
+    """Distances [boxes] to the halves of the parent's near boxes that are not near themselves.
+
+    And the matrix (ORDER, distances * ORDER) that takes their outer coefficients to inner ones.
+    """
+    away = np.arange(-2 * NEIGHBOURS - right, 2 * NEIGHBOURS + 2 - right)
+    away = away[np.abs(away) > NEIGHBOURS]
+    return away, np.hstack([outer_to_inner(int(boxes)) for boxes in away])
 
 
 def inside(box: np.ndarray, count: int) -> np.ndarray:

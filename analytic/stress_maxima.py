@@ -37,14 +37,18 @@ def stress_maxima(
     field: StressField,
     poissons_ratio: float,
     element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
 ) -> StressMaxima:
-    """The three maxima of the field of these pressures inside its window (`field_maxima`)."""
+    """The three maxima of the field of these loads inside its window (`field_maxima`)."""
     quantities = (
         lambda stress: stress.tau1,
         lambda stress: np.abs(stress.txz),
         lambda stress: stress.von_mises(poissons_ratio),
     )
-    return StressMaxima(*field_maxima(quantities, x_nodes, pressure, friction, field, element))
+    given = (quantities, x_nodes, pressure, friction, field, element)
+    return StressMaxima(*field_maxima(*given, traction=traction, periodic=periodic))
 
 
 def field_maxima(
@@ -55,8 +59,13 @@ def field_maxima(
     field: StressField,
     element: Element = "hat",
     starts: int = 4,
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
 ) -> list[Extremum]:
-    """Largest value [Pa] of each quantity of these pressures' stresses inside the field's window.
+    """Largest value [Pa] of each quantity of the stresses inside the field's window.
+
+    The loads are given as to `stress_at`, and are those of the field.
 
     The field's highest local maxima, up to `starts` of them, are each followed off the grid by
     `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
@@ -73,7 +82,9 @@ def field_maxima(
 
     def evaluate(place: np.ndarray, owner: np.ndarray) -> np.ndarray:
         """The quantity of each owner (k,) at its points (k, 9, 2)."""
-        stress = stress_at(x_nodes, pressure, friction, place[..., 0], place[..., 1], element)
+        x, z = place[..., 0], place[..., 1]
+        loads = {"traction": traction, "periodic": periodic}
+        stress = stress_at(x_nodes, pressure, friction, x, z, element, **loads)
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):
             mine = owner == index

@@ -12,11 +12,15 @@ from analytic.stress_potential import Element
 
 @dataclass(frozen=True)
 class StressSection:
-    """Stresses [Pa] (m,) at places x, z (m,) [m] that stand `along` (m,) [m] from the first."""
+    """Stresses [Pa] (m,) at places x, z (m,) [m] that stand `along` (m,) [m] from the first.
+
+    `direction` is the section's own, a unit vector in x and z.
+    """
 
     x: np.ndarray
     z: np.ndarray
     along: np.ndarray
+    direction: tuple[float, float]
     stress: PlaneStress
 
     def turned(self) -> PlaneStress:
@@ -25,9 +29,7 @@ class StressSection:
         sx is then the stress along the section, sz that across it, and txz the shear on it, in
         axes turned from x towards z by the section's own angle.
         """
-        run, fall = self.x[-1] - self.x[0], self.z[-1] - self.z[0]
-        length = np.hypot(run, fall)
-        c, s = run / length, fall / length
+        c, s = self.direction
         given = self.stress
         mixed = 2.0 * c * s * given.txz
         return PlaneStress(
@@ -48,7 +50,7 @@ def depth_profile(
     traction: np.ndarray | None = None,
     periodic: bool = False,
 ) -> StressSection:
-    """Stresses at `depths` (m,) [m], from 0 on, under the place x [m]; `along` is the depth itself.
+    """Stresses at `depths` (m,) [m], from 0 on, below the place x [m].
 
     The load is given as to `stress_at`. Raises ValueError for what that refuses.
     """
@@ -58,7 +60,7 @@ def depth_profile(
     stress = stress_at(
         x_nodes, pressure, friction, x, z, element, traction=traction, periodic=periodic
     )
-    return StressSection(np.full(len(z), float(x)), z, z, stress)
+    return StressSection(np.full(len(z), float(x)), z, z - z[0], (0.0, 1.0), stress)
 
 
 def section(
@@ -82,8 +84,9 @@ def section(
         raise ValueError("a section needs two different ends and at least 2 places")
     share = np.linspace(0.0, 1.0, count)
     x, z = ((1.0 - share) * a + share * b for a, b in zip(start, stop, strict=True))
-    along = share * np.hypot(stop[0] - start[0], stop[1] - start[1])
+    run, fall = stop[0] - start[0], stop[1] - start[1]
+    length = float(np.hypot(run, fall))
     stress = stress_at(
         x_nodes, pressure, friction, x, z, element, traction=traction, periodic=periodic
     )
-    return StressSection(x, z, along, stress)
+    return StressSection(x, z, share * length, (run / length, fall / length), stress)
