@@ -18,6 +18,7 @@ from analytic.extension import Extension
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
+BISECTIONS = 100  # to a shift of pressures right to rounding
 DIRECT = 160  # free nodes from which iterating is faster than a Cholesky factor
 
 _Inverse = Callable[[np.ndarray], np.ndarray]
@@ -107,19 +108,50 @@ class EquilibriumProblem:
         self.spent["applications"] += 1
         return self.operator.apply(pressure)
 
-    def feasible(self, pressure: np.ndarray) -> np.ndarray:
-        """Nearest pressures in the box that carry the load: one shift, found by bisection."""
+    def can_carry(self, sides: Sides) -> bool:
+        """Whether some pressures of the free nodes within the box make up a prescribed load."""
+        if not self.by_load:
+            return True
+        rest = self.constraints.load - self._load_of(sides.upper)
+        return bool(0.0 < rest <= self._load_of(sides.free))
+
+    def _load_of(self, nodes: np.ndarray) -> float:
+        """What these nodes carry at the hardness [N/m]."""
+        return self.constraints.hardness * self.weights[nodes].sum() if nodes.any() else 0.0
+
+    def feasible(self, pressure: np.ndarray, free: np.ndarray) -> np.ndarray:
+        """Nearest pressures in the box that carry the load: one shift of the free nodes."""
         hardness = self.constraints.hardness
         pressure = np.clip(pressure, 0.0, hardness)
         if not self.by_load:
             return pressure
-        mean = self.constraints.load / self.weights.sum()
-        low, high = -np.max(pressure), mean + min(hardness, np.max(pressure) + mean)
-        for _ in range(200):
+        inside, weights = pressure[free], self.weights[free]
+        wanted = self.constraints.load - self.weights[~free] @ pressure[~free]
+        mean = wanted / weights.sum()
+        low, high = -np.max(inside), mean + min(hardness, np.max(inside) + mean)
+        for _ in range(BISECTIONS):
             shift = 0.5 * (low + high)
-            carried = self.weights @ np.clip(pressure + shift, 0.0, hardness)
-            low, high = (shift, high) if carried < self.constraints.load else (low, shift)
-        return np.clip(pressure + high, 0.0, hardness)
+            carried = weights @ np.clip(inside + shift, 0.0, hardness)
+            low, high = (shift, high) if carried < wanted else (low, shift)
+        pressure[free] = np.clip(inside + high, 0.0, hardness)
+        return pressure
+
+    def with_a_free_node(self, sides: Sides) -> Sides:
+        """The sides, but for one node freed where a prescribed load would find none to balance it.
+
+        The sides' own load then lacks something, and the node is the one that is reached first, or
+        it is too much, and the node is the one that is reached last.
+        """
+        if not self.by_load or sides.free.any():
+            return sides
+        reach = self.gap / self.weights
+        if self._load_of(sides.upper) < self.constraints.load:
+            node = np.argmin(np.where(sides.lower, reach, np.inf))
+        else:
+            node = np.argmax(np.where(sides.upper, reach, -np.inf))
+        lower, upper = sides.lower.copy(), sides.upper.copy()
+        lower[node] = upper[node] = False
+        return Sides(lower, upper)
 
     def broken_signs(self, pressure: np.ndarray, gap: np.ndarray, sides: Sides) -> Broken:
         """Sign conditions of the module's head, to SET_TOLERANCE of the largest figures."""
@@ -140,7 +172,7 @@ class EquilibriumProblem:
         The residual falls to `reduction` of what it is at the start, or to TIGHT.
         """
         self.spent["exchanges"] += 1
-        nodes = self._free_nodes(sides)
+        nodes = np.flatnonzero(sides.free)
         pressure = np.zeros_like(start)
         pressure[sides.upper] = self.constraints.hardness
         found = self._solve(nodes, pressure) if len(nodes) <= DIRECT else None
@@ -148,14 +180,6 @@ class EquilibriumProblem:
         accurate = found is not None or self._iterate(nodes, pressure, reduction)
         gap = self.gap + self.apply(pressure)
         return Equilibrium(pressure, gap - self.approach * self.weights, accurate)
-
-    def _free_nodes(self, sides: Sides) -> np.ndarray:
-        """Indices of the free nodes; a prescribed load needs one, where the gap is least."""
-        nodes = np.flatnonzero(sides.free)
-        if len(nodes) == 0 and self.by_load:
-            reach = np.where(sides.lower, self.gap / self.weights, np.inf)
-            nodes = np.array([np.argmin(reach)])
-        return nodes
 
     def _solve(self, nodes: np.ndarray, pressure: np.ndarray) -> np.ndarray | None:
         """Pressures (m,) of the free nodes beside `pressure` on the others, by Cholesky.

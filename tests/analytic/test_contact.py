@@ -151,7 +151,7 @@ def test_rough_contact_agrees_with_non_negative_least_squares(seed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_single_exchanges_reach_the_same_solution(seed, monkeypatch):
+def test_the_primal_method_reaches_the_same_solution(seed, monkeypatch):
     """The method that ends the cycles of the fast one must solve every problem by itself."""
     gap = rough_gap(seed)
     constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
@@ -160,11 +160,11 @@ def test_single_exchanges_reach_the_same_solution(seed, monkeypatch):
     monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
     slow = pressed(grid, gap, constraints)
     assert slow.converged
-    assert slow.iterations["exchanges"] > fast.iterations["exchanges"]
+    assert slow.iterations["exchanges"] < 8 * fast.iterations["exchanges"]
     assert slow.pressure == pytest.approx(fast.pressure, abs=1e-7 * fast.pressure.max())
 
 
-def test_single_exchanges_lower_the_energy_at_every_step(monkeypatch):
+def test_the_primal_method_lowers_the_energy_at_every_step(monkeypatch):
     monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
     grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), rough_gap(5)
     operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(gap)
@@ -177,7 +177,7 @@ def test_single_exchanges_lower_the_energy_at_every_step(monkeypatch):
 
     monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
     solve_contact(operator, average, grid.weights, Constraints(load=0.3 * LOAD))
-    assert len(energies) > 20
+    assert len(energies) > 4
     steps = np.diff(energies[1:])
     assert steps.max() <= 1e-12 * abs(energies[-1])
     assert energies[-1] < energies[1]
@@ -204,6 +204,21 @@ class TestHardness:
     def test_a_load_beyond_the_hardness_is_refused(self):
         with pytest.raises(ContactError, match="exceeds what the surface can carry"):
             pressed(ROUGH_GRID, rough_gap(7), Constraints(load=LOAD, hardness=1e9))
+
+    @pytest.mark.parametrize("count", [1023, 4095, 16383])
+    @pytest.mark.parametrize("above_mean", [1.05, 1.5])
+    def test_a_plateau_costs_few_exchanges(self, count, above_mean):
+        """Nearly every node at the hardness, where block exchanges may come round in a circle."""
+        grid = HatGrid.within(
+            -2.0 * HERTZ.half_width,
+            2.0 * HERTZ.half_width,
+            4.0 * HERTZ.half_width / (count + 1),
+        )
+        hardness = above_mean * LOAD / grid.weights.sum()
+        solution = pressed(grid, roller_gap(RADIUS), Constraints(load=LOAD, hardness=hardness))
+        assert solution.converged
+        assert solution.iterations["applications"] < 200
+        assert np.mean(solution.pressure >= hardness) == pytest.approx(1.0 / above_mean, abs=5e-3)
 
 
 class TestLimits:
