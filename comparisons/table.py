@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.headline import headline
-from comparisons.report.numbers import given, with_unit
+from comparisons.report.numbers import with_unit
+from comparisons.report.sheet import in_mm
 from comparisons.report.words import LABELS
 from comparisons.scene import ProfileInfo
 
@@ -102,7 +103,7 @@ def surface_text(info: ProfileInfo) -> str:
     """Roughness as pressed, and what a drawing would say of the trace."""
     text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
     if info.standard is not None:
-        ra, cutoff = with_unit(info.standard.ra, "m", 3), given(info.standard.cutoff, "m")
+        ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
         text += f", {ra} at the cut-off {cutoff}"
     return text
 

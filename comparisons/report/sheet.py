@@ -78,9 +78,14 @@ def _profile(info: ProfileInfo) -> Rows:
 
 def filter_text(info: ProfileInfo) -> str:
     """Which waves were taken off the trace before it was pressed."""
-    longer = info.cutoff and f"waves longer than {given(info.cutoff, 'm')} removed"
+    longer = info.cutoff and f"waves longer than {in_mm(info.cutoff)} removed"
     shorter = info.short_cutoff and f"waves shorter than {given(info.short_cutoff, 'm')} removed"
     return ", ".join(filter(None, (longer, shorter))) or "none"
+
+
+def in_mm(cutoff: float) -> str:
+    """A cut-off [m] as drawings give it."""
+    return f"{plain(1e3 * cutoff)} mm"
 
 
 def _standard(info: ProfileInfo) -> Rows:
@@ -90,7 +95,7 @@ def _standard(info: ProfileInfo) -> Rows:
         return [("parameters", f"none: {info.standard_why}")]
     short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
     rows = [
-        ("cut-offs λc, λs", f"{given(found.cutoff, 'm')}, {short}"),
+        ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
         ("section lengths", str(found.sections)),
     ]
     for name, first, second in (

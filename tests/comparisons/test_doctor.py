@@ -11,7 +11,7 @@ import pytest
 from rich.console import Console
 
 from comparisons import doctor as module
-from comparisons.doctor import TRIALS, Check, Trial, attempt, doctor, doctor_table
+from comparisons.doctor import OPTIONAL, TRIALS, Check, Trial, attempt, doctor, doctor_table
 
 PROJECT = Path(__file__).resolve().parents[2]
 MODULES = {
@@ -36,6 +36,18 @@ def test_what_is_missing_is_named_with_its_remedy(trial):
     assert not check.ok
     assert name in check.detail
     assert check.remedy == trial.remedy != ""
+
+
+def test_a_reader_that_is_not_installed_is_no_illness():
+    (trial,) = OPTIONAL
+    blocked = f"import sys; sys.modules['SurfaceTopography'] = None\n{trial.program}"
+    check = attempt(replace(trial, program=blocked))
+    assert check.ok
+    assert check.detail == "text and SDF; others by the optional SurfaceTopography, not installed"
+    broken = trial.program.replace("import SurfaceTopography\n", "import no_such_part\n")
+    check = attempt(replace(trial, program=broken))
+    assert not check.ok
+    assert "it lacks no_such_part" in check.detail
 
 
 def test_a_crash_is_a_finding():
@@ -75,7 +87,8 @@ def test_one_process_alone_does_not_pass_for_mpi():
 
 def test_python_comes_first_and_the_order_holds(monkeypatch):
     slow = Trial("slow", "import time; time.sleep(0.3); print(1)", "")
-    monkeypatch.setattr(module, "TRIALS", (slow, Trial("fast", "print(2)", "")))
+    monkeypatch.setattr(module, "TRIALS", (slow,))
+    monkeypatch.setattr(module, "OPTIONAL", (Trial("fast", "print(2)", ""),))
     python, *others = doctor()
     assert (python.name, python.ok) == ("Python", True)
     assert sys.executable in python.detail
@@ -84,6 +97,7 @@ def test_python_comes_first_and_the_order_holds(monkeypatch):
 
 def test_a_python_that_is_too_old_is_told(monkeypatch):
     monkeypatch.setattr(module, "TRIALS", ())
+    monkeypatch.setattr(module, "OPTIONAL", ())
     monkeypatch.setattr(module, "OLDEST_PYTHON", (99, 1))
     (python,) = doctor()
     assert not python.ok
