@@ -221,15 +221,12 @@ def _partial(
     """I and z I' [Pa] at 0 <= x <= lambda/2."""
     unit, a, sine = np.pi / contact.wavelength, contact.half_width, contact._sine
     depth, half = np.minimum(eta, _DEEP), 0.5 * contact.wavelength
-    # Cosines as sines of the distance to the valley: next to it only that is exact.
+    # The cosine as a sine of the distance to the valley: next to it only that is exact.
     sin_psi, cos_psi = np.sin(unit * x), np.sin(unit * (half - x))
-    sin_middle, cos_middle = (
-        np.sin(0.5 * unit * (x + a)),
-        np.sin(0.5 * unit * (half - x + half - a)),
-    )
+    middle, beyond = 0.5 * unit * (x + a), 0.5 * unit * (x - a)
     rise = 2.0 * sin_psi * np.sinh(0.5 * depth) ** 2  # sin psi (cosh eta - 1)
-    right = (2.0 * np.sin(0.5 * unit * (x - a)) * cos_middle + rise) / sine
-    left = (2.0 * sin_middle * np.cos(0.5 * unit * (x - a)) + rise) / sine
+    right = (2.0 * np.sin(beyond) * np.cos(middle) + rise) / sine
+    left = (2.0 * np.sin(middle) * np.cos(beyond) + rise) / sine
     real, imaginary = sin_psi * np.cosh(depth) / sine, cos_psi * np.sinh(depth) / sine
     root = np.sqrt(right + 1j * imaginary) * np.sqrt(left + 1j * imaginary)
     m = root.imag
@@ -240,9 +237,9 @@ def _partial(
     cosine = cos_psi * np.cosh(depth) - 1j * sin_psi * np.sinh(depth)
     scale = 2.0 * contact.closing_pressure
     root, place = n + 1j * m, real + 1j * imaginary
-    shallow = (
-        depth < 1.0
-    )  # there 1 - sin theta (sin theta - s) may be small, deep its summands large
+    # 1 - sin theta (sin theta - s), near the surface as sin theta s + cos^2 theta: there it may be
+    # small, while deep below those two are large.
+    shallow = depth < 1.0
     factor = np.where(
         shallow,
         sine**2 * place * root + np.where(shallow, cosine, 0.0) ** 2,

@@ -74,7 +74,7 @@ def test_mean_gap_is_the_average_of_the_gap(share):
     total, _ = quad(
         lambda u: contact.gap(a + (0.5 - a) * u**2) * 2.0 * u, 0, 1, epsabs=0, epsrel=1e-12
     )
-    assert contact.mean_gap == pytest.approx((1.0 - 2.0 * a) * total, rel=1e-10)
+    assert contact.mean_gap == pytest.approx((1.0 - 2.0 * a) * total, rel=1e-10, abs=0)
 
 
 def test_gap_keeps_its_digits_where_it_opens_and_where_it_closes():
@@ -85,12 +85,12 @@ def test_gap_keeps_its_digits_where_it_opens_and_where_it_closes():
         x = contact.half_width + beyond
         along = np.pi * (x - contact.half_width)  # as representable
         leading = 4.0 / 3.0 * np.sqrt(np.sin(psi)) * (2.0 * np.cos(psi) * along) ** 1.5
-        assert np.pi * contact.gap(x) == pytest.approx(leading, rel=5.0 * along + 1e-14)
+        assert np.pi * contact.gap(x) == pytest.approx(leading, rel=5.0 * along + 1e-14, abs=0)
     for open_share in (1e-3, 1e-6, 1e-9):
         near = unit(1.0 - open_share)
         exact = 1.0 - near.mean_pressure
-        expected = exact**2 / 2.0 + exact**3 / 6.0 + exact**4 / 12.0
-        assert np.pi * near.mean_gap == pytest.approx(expected, rel=1e-11)
+        expected = exact**2 / 2.0 + exact**3 / 6.0 + exact**4 / 12.0 + exact**5 / 20.0
+        assert np.pi * near.mean_gap == pytest.approx(expected, rel=1e-11, abs=0)
 
 
 def test_light_load_is_hertz():
@@ -173,6 +173,72 @@ def test_stresses_are_the_sum_of_the_fields_of_many_crests():
             error = np.abs(getattr(stress, name) - images[name]).max() / contact.mean_pressure
             assert error < left * z.max()
     assert error < 1e-7 and name == "txz"
+
+
+@pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9])
+def test_last_gap_keeps_its_digits(below):
+    """By the distances y, y_e of point and edge to the valley, y = pi/2 - psi.
+
+    p = 2 sin y sqrt(sin^2 y - sin^2 y_e), and the gap by quadrature of its slope.
+    """
+    contact = unit(1.0 - below)
+    valley = np.pi * (0.5 - contact.half_width)
+    for share in (0.0, 0.3, 0.9):
+        x = 0.5 - share * (0.5 - contact.half_width)
+        y = np.pi * (0.5 - x)
+        opening, _ = quad(
+            lambda t: 2.0 * t * _slope(valley, valley - t**2),
+            0.0,
+            np.sqrt(valley - y),
+            epsabs=0.0,
+            epsrel=1e-12,
+        )
+        assert np.pi * contact.gap(x) == pytest.approx(opening, rel=1e-10, abs=0.0)
+    for share in (1.3, 7.0):
+        x = 0.5 - share * (0.5 - contact.half_width)
+        y = np.pi * (0.5 - x)
+        rise = np.sin(y - valley) * np.sin(y + valley)
+        expected = 2.0 * np.sin(y) * np.sqrt(rise)
+        assert contact.pressure(x) == pytest.approx(expected, rel=1e-14, abs=0.0)
+
+
+def _slope(valley: float, y: float) -> float:
+    """pi dg/dpsi of p* = 1: 4 sin y sqrt(sin^2 y_e - sin^2 y)."""
+    return 4.0 * np.sin(y) * np.sqrt(max(np.sin(valley - y) * np.sin(valley + y), 0.0))
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="no precision beyond double")
+@pytest.mark.parametrize("share", [1e-12, 1e-4, 0.3, 0.99, 1.0 - 1e-9])
+def test_stresses_keep_their_digits(share):
+    """The potential as written, in longer numbers; next to edges, valley, surface, and deep.
+
+    Errors count in units of the potential and of its gradient times z at the point.
+    """
+    contact = unit(share)
+    a = np.longdouble(contact.half_width)
+    rng = np.random.default_rng(9)
+    beside = contact.half_width * (1.0 + rng.choice([-1, 1], 100) * 10.0 ** rng.uniform(-9, 0, 100))
+    x = np.concatenate([beside[beside < 0.5], 0.5 - 10.0 ** rng.uniform(-6, -0.4, 100)])
+    z = 10.0 ** rng.uniform(-9.0, 0.3, len(x))
+    pi = 4 * np.arctan(np.longdouble(1))
+    theta = pi * (x.astype(np.longdouble) + 1j * z.astype(np.longdouble))
+    edge, sine = np.sin(pi * a), np.sin(theta)
+    right = 2 * np.sin((theta - pi * a) / 2) * np.cos((theta + pi * a) / 2)  # sine - edge
+    left = 2 * np.sin((theta + pi * a) / 2) * np.cos((theta - pi * a) / 2)
+    root = np.sqrt(right) * np.sqrt(left)
+    rest = edge**2 / (sine + root)  # sine - root
+    first = 2 * np.cos(theta) * rest
+    second = -2 * rest * (1 - sine * rest) / root * pi * z
+    closing = contact.closing_pressure
+    scale = closing * np.maximum(np.abs(first), np.abs(second)).astype(float)
+    stress = westergaard_stress(contact, x, z, 1.0)
+    normal = first.imag + second.real, first.imag - second.real, -second.imag
+    for found, expected in (
+        (stress.sx, normal[0] + second.imag - 2 * first.real),
+        (stress.sz, normal[1] + normal[2]),
+        (stress.txz, normal[2] + normal[0]),
+    ):
+        assert np.abs((found - closing * expected) / scale).max() < 2e-14
 
 
 def test_surface_and_edge():
