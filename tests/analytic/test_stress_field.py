@@ -186,3 +186,47 @@ def test_a_stride_keeps_some_of_the_same_points(stride):
     assert np.array_equal(some.at(0.2).stress.sx, every.at(0.2).stress.sx[:, ::stride])
     with pytest.raises(ValueError, match="stride"):
         friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=0)
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+@pytest.mark.parametrize(
+    "x_range", [(-0.3, 0.4), (-0.4, 9.0), (-30.0, 0.2), (1.0, 1.3), (40.0, 41.0), (-9.0, -0.469)]
+)
+def test_window_anywhere_about_the_load(x_range, element):
+    """Kernels that hold both sides of an element, and those of windows beside all of the load."""
+    levels = np.array([1e-4, 0.02, 0.7])
+    field = friction_field(NODES, PRESSURE, x_range, levels, 1, element)
+    assert worst(field, 0.35, NODES, PRESSURE, element) < 2e-14
+
+
+def test_beside_the_load_each_level_keeps_its_digits():
+    """sz falls like z^3: close to the surface it is 1e-15 of sx."""
+    levels = np.array([1e-6, 1e-3, 1.0])
+    field = friction_field(NODES, PRESSURE, (20.0, 21.0), levels)
+    x, z = np.meshgrid(field.x, field.z)
+    direct = friction_stress_at(NODES, PRESSURE, x[:, ::40], z[:, ::40])
+    for name in NAMES:
+        found, expected = getattr(field.stress.normal, name), getattr(direct.normal, name)
+        np.testing.assert_allclose(found[:, ::40], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("subdivisions", [1, 3])
+def test_traction_of_its_own_shape(subdivisions):
+    """Also where only one of the two is loaded."""
+    extra = np.zeros(150)
+    extra[100:140] = np.random.default_rng(5).uniform(-1.0, 1.0, 40)
+    pressure = np.where(np.arange(150) < 80, PRESSURE, 0.0)
+    window = (-0.8, 1.0)
+    field = stress_field(NODES, pressure, 0.2, window, LEVELS, subdivisions, traction=extra)
+    x, z = np.meshgrid(field.x, field.z)
+    direct = stress_at(NODES, pressure, 0.2, x, z, traction=extra)
+    for name in NAMES:
+        difference = getattr(field.stress, name) - getattr(direct, name)
+        assert np.abs(difference).max() < 5e-14 * pressure.max()
+    alone = stress_field(NODES, np.zeros(150), 0.2, window, LEVELS, 1, traction=extra)
+    assert np.array_equal(alone.stress.txz[0], np.interp(alone.x, NODES, -extra, 0, 0))
+    only = stress_field(NODES, pressure, 0.2, window, LEVELS, 1, traction=0.0 * extra)
+    plain = stress_field(NODES, pressure, 0.2, window, LEVELS, 1)
+    assert np.array_equal(only.stress.sx, plain.stress.sx)
+    with pytest.raises(ValueError, match="equal length"):
+        stress_field(NODES, pressure, 0.2, window, LEVELS, traction=extra[1:])
