@@ -10,14 +10,8 @@ from analytic.contact import ContactSolution, solve_contact
 from analytic.coupled_contact import solve_coupled
 from analytic.coupling import CoupledHalfPlane
 from analytic.equilibrium import Constraints
-from analytic.exact.gallery import (
-    ALUMINIUM,
-    CERAMIC,
-    STEEL,
-    ExactContact,
-    exact_contacts,
-    hertz_case,
-)
+from analytic.exact.cases import ExactContact, hertz_case
+from analytic.exact.gallery import ALUMINIUM, CERAMIC, STEEL, exact_contacts
 from analytic.exact.hertz import hertz_from_load, hertz_stress
 from analytic.exact.sliding import sliding_from_load, sliding_stress
 from analytic.exact.westergaard import westergaard_from_mean_pressure, westergaard_stress

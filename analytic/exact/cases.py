@@ -1,0 +1,237 @@
+"""A line contact with an exact solution: the problem, the pressure, the figures; and its makers.
+
+A numerical model takes the problem and is judged by the rest.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.exact.flattened_cylinder import flattened_cylinder
+from analytic.exact.hertz import hertz_extremes, hertz_from_peak_pressure
+from analytic.exact.rounded_punch import rounded_punch_from_half_width
+from analytic.exact.sliding import sliding_from_load
+from analytic.exact.westergaard import westergaard_from_mean_pressure
+from analytic.gap import roller_gap
+from analytic.material import Material, combined_modulus, dundurs_constants
+
+Curve = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class ExactContact:
+    """A contact problem and its exact solution; x [m] as in the scene, q = friction p in +x.
+
+    name, source  of the case, and of its solution
+    body, roller  materials; a `roller` of None is rigid
+    load          [N/m]; a wavelength's where periodic
+    gap           initial gap g0(x) [m] but for a constant
+    half_range    [m]: the contact lies well inside |x| < half_range
+    pressure      exact p(x) [Pa], zero outside the contact
+    quantities    exact figures [SI] by name: peak_pressure, contact_length, left_edge and
+                  right_edge always; where known peak_position, mean_gap, tau1_max,
+                  tau1_max_depth, txz_max_abs, flowed_length. Periodic cases count one patch.
+    friction      of the traction; it also shifts the pressure where `coupled`
+    knots         places [m] where g0 is not smooth
+    period        [m] of pressure and gap, or None
+    hardness      cap on the pressure [Pa]
+    """
+
+    name: str
+    source: str
+    body: Material
+    roller: Material | None
+    load: float
+    gap: Curve
+    half_range: float
+    pressure: Curve
+    quantities: Mapping[str, float]
+    friction: float = 0.0
+    knots: tuple[float, ...] = ()
+    period: float | None = None
+    hardness: float = np.inf
+
+    @property
+    def combined_modulus(self) -> float:
+        """E* [Pa] of the two materials."""
+        return combined_modulus(self.body, self.roller)
+
+    @property
+    def dundurs_beta(self) -> float:
+        """Dundurs' beta of the pair, the roller as first body."""
+        return dundurs_constants(self.body, self.roller)[1]
+
+    @property
+    def coupled(self) -> bool:
+        """Whether the traction moves the surface vertically and so changes the pressure."""
+        return self.friction * self.dundurs_beta != 0.0
+
+
+def hertz_case(
+    name: str,
+    body: Material,
+    roller: Material | None,
+    radius: float,
+    peak_pressure: float,
+    friction: float = 0.0,
+) -> ExactContact:
+    """Cylinder of `radius` [m] under `peak_pressure` [Pa]; with friction only where uncoupled."""
+    hertz = hertz_from_peak_pressure(peak_pressure, radius, combined_modulus(body, roller))
+    if friction and dundurs_constants(body, roller)[1]:
+        raise ValueError("friction between these materials is a sliding case")
+    a, extremes = hertz.half_width, hertz_extremes(hertz, friction)
+    return ExactContact(
+        name=name,
+        source="Hertz 1882; Smith and Liu 1953 (Johnson 1985, sections 4.2 and 7.1)",
+        body=body,
+        roller=roller,
+        load=hertz.load_per_length,
+        gap=roller_gap(radius),
+        half_range=1.5 * a,
+        pressure=hertz.pressure,
+        quantities={
+            "peak_pressure": hertz.peak_pressure,
+            "peak_position": 0.0,
+            "contact_length": 2.0 * a,
+            "left_edge": -a,
+            "right_edge": a,
+            "tau1_max": extremes.tau1.value,
+            "tau1_max_depth": extremes.tau1.z,
+            "txz_max_abs": max(extremes.txz_max.value, -extremes.txz_min.value),
+        },
+        friction=friction,
+    )
+
+
+def punch_case(
+    name: str,
+    body: Material,
+    roller: Material | None,
+    half_width: float,
+    flat_share: float,
+    corner_radius: float,
+) -> ExactContact:
+    """Punch in contact over `half_width` a [m], b = `flat_share` a, corners of R [m]."""
+    modulus = combined_modulus(body, roller)
+    b = flat_share * half_width
+    punch = rounded_punch_from_half_width(half_width, b, corner_radius, modulus)
+    return ExactContact(
+        name=name,
+        source="Ciavarella, Hills and Monno 1998",
+        body=body,
+        roller=roller,
+        load=punch.load_per_length,
+        gap=punch.gap,
+        half_range=1.5 * half_width,
+        pressure=punch.pressure,
+        quantities={
+            "peak_pressure": punch.peak_pressure,
+            "contact_length": 2.0 * half_width,
+            "left_edge": -half_width,
+            "right_edge": half_width,
+        },
+        knots=(-b, b),
+    )
+
+
+def sliding_case(
+    name: str,
+    body: Material,
+    roller: Material | None,
+    radius: float,
+    load_per_length: float,
+    friction: float,
+) -> ExactContact:
+    """Cylinder of `radius` [m] that slides under P [N/m] on a body of other elastic constants."""
+    modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
+    contact = sliding_from_load(load_per_length, radius, modulus, friction, beta)
+    left, right = contact.edges
+    return ExactContact(
+        name=name,
+        source="Johnson 1985, section 7.2",
+        body=body,
+        roller=roller,
+        load=load_per_length,
+        gap=roller_gap(radius),
+        half_range=2.0 * contact.half_width,
+        pressure=contact.pressure,
+        quantities={
+            "peak_pressure": contact.peak_pressure,
+            "peak_position": contact.peak_position,
+            "contact_length": right - left,
+            "left_edge": left,
+            "right_edge": right,
+        },
+        friction=friction,
+    )
+
+
+def capped_case(
+    name: str,
+    body: Material,
+    roller: Material | None,
+    radius: float,
+    peak_pressure: float,
+    share: float,
+) -> ExactContact:
+    """Cylinder under the load of `peak_pressure` [Pa], capped at `share` of that."""
+    modulus = combined_modulus(body, roller)
+    hertz = hertz_from_peak_pressure(peak_pressure, radius, modulus)
+    hardness = share * peak_pressure
+    flat = flattened_cylinder(hertz.load_per_length, radius, modulus, hardness)
+    return ExactContact(
+        name=name,
+        source="derived in exact.flattened_cylinder",
+        body=body,
+        roller=roller,
+        load=hertz.load_per_length,
+        gap=roller_gap(radius),
+        half_range=1.5 * flat.contact,
+        pressure=flat.pressure,
+        quantities={
+            "peak_pressure": hardness,
+            "contact_length": 2.0 * flat.contact,
+            "left_edge": -flat.contact,
+            "right_edge": flat.contact,
+            "flowed_length": 2.0 * flat.flowed,
+        },
+        hardness=hardness,
+    )
+
+
+def wave_case(
+    name: str,
+    body: Material,
+    roller: Material | None,
+    wavelength: float,
+    amplitude: float,
+    share: float,
+) -> ExactContact:
+    """Sinusoid of `wavelength`, `amplitude` [m] under `share` of the pressure that closes it."""
+    modulus = combined_modulus(body, roller)
+    closing = np.pi * modulus * amplitude / wavelength
+    wave = westergaard_from_mean_pressure(share * closing, wavelength, amplitude, modulus)
+
+    def gap(x: np.ndarray) -> np.ndarray:
+        return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
+
+    return ExactContact(
+        name=name,
+        source="Westergaard 1939 (Johnson 1985, section 13.2)",
+        body=body,
+        roller=roller,
+        load=wave.load_per_wavelength,
+        gap=gap,
+        half_range=0.5 * wavelength,
+        pressure=wave.pressure,
+        quantities={
+            "peak_pressure": wave.peak_pressure,
+            "peak_position": 0.0,
+            "contact_length": 2.0 * wave.half_width,
+            "left_edge": -wave.half_width,
+            "right_edge": wave.half_width,
+            "mean_gap": wave.mean_gap,
+        },
+        period=wavelength,
+    )
