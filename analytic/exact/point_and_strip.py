@@ -5,8 +5,8 @@
     p, q at x = 0, linear to zero at -a and a    triangle [Pa]
 
 P and p press into the body, Q and q act on it in +x; r, t distance and angle from x, r1, t1 from
-x - a and r2, t2 from x + a, t = atan2(z, x). Stresses (Johnson 1985, eq. 2.15 and 2.22 for the
-line, 2.30 and 2.32 for the strip, 2.36 to 2.39 for the triangle, tension positive):
+x - a and r2, t2 from x + a, t = atan2(z, x). Stresses, tension positive (Johnson 1985, sections
+2.2 to 2.5; the strip's also Bailey and Sayles 1991, eq. 1 and 2):
 
     line      sx, txz, sz = -(2/pi) (x^2 z, x z^2, z^3) P/r^4
               sx, txz, sz = -(2/pi) (x^3, x^2 z, x z^2) Q/r^4
@@ -22,7 +22,7 @@ as printed they are right to rounding of p and q. From 3 a on, stresses and disp
 of the loads at Gauss's points instead, which keeps the digits of each at any distance.
 
 Surface displacements in plane strain, G shear modulus, nu Poisson's ratio, with
-L = int p ln|x - s| ds and J = int p sgn(x - s) ds of the load (eq. 2.19, 2.24, 2.25):
+L = int p ln|x - s| ds and J = int p sgn(x - s) ds of the load (Johnson's sections again):
 
     into the body  -((1-nu)/(pi G)) L(p) + ((1-2nu)/(4G)) J(q)
     along x        -((1-nu)/(pi G)) L(q) - ((1-2nu)/(4G)) J(p)

@@ -13,7 +13,7 @@ leading edge c and at the trailing edge -b.
 The traction presses the surface in front of it down and raises it behind: the displacement into
 the body has the slope (2 beta/E*) q besides the pressure's, so that
 
-    (1/pi) int p(t)/(x - t) dt - beta mu p(x) = E* x/(2 R)     (Johnson 1985, eq. 7.9 and 2.25)
+    (1/pi) int p(t)/(x - t) dt - beta mu p(x) = E* x/(2 R)     (Johnson 1985, section 7.2)
 
 is solved, with p bounded at both edges, by
 

@@ -10,7 +10,7 @@ Nomenclature: lambda wavelength [m], A amplitude [m], half of peak to valley, E*
 psi_a = pi a/lambda, S = sin psi_a, eta = pi z/lambda, theta = psi + i eta.
 
     p* = pi E* A/lambda,     pm = p* S^2                       (Westergaard 1939)
-    p = 2 p* cos psi sqrt(S^2 - sin^2 psi),  peak 2 p* S       (Johnson 1985, eq. 13.6 to 13.8)
+    p = 2 p* cos psi sqrt(S^2 - sin^2 psi),  peak 2 p* S       (Johnson 1985, section 13.2)
     p = pm + p* cos 2 psi,  peak pm + p*       once pm >= p*
 
 Outside the contact sin psi = S cosh tau, and the gap's slope, (4 p*/E*) cos psi S sinh tau,
