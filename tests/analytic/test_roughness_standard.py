@@ -64,6 +64,15 @@ def test_two_waves_add_their_squares():
     assert found.rt == pytest.approx(2.0 * AMPLITUDE * (1.0 + left), rel=1e-3)
 
 
+def test_rz_is_the_mean_over_the_sections():
+    """A wave that grows by its amplitude a section: 1.5 to 5.5 of it where the sections end."""
+    x = np.linspace(-3e-3, 3e-3, 12001)
+    growing = AMPLITUDE * (3.0 + x / CUTOFF) * np.cos(2.0 * pi * x / 10e-6)
+    found = standard_roughness(Profile(x, growing), CUTOFF)
+    assert found.rz == pytest.approx(2.0 * 3.5 * AMPLITUDE, rel=0.01)
+    assert found.rt == pytest.approx(2.0 * 5.5 * AMPLITUDE, rel=0.01)
+
+
 def test_heights_count_from_the_line_of_the_filter():
     """Not from the mean of the stretch: that of an eighth of a wave is not zero."""
     profile = waves((AMPLITUDE, 6.4e-3), length=1.6e-3, samples=3201)

@@ -117,6 +117,8 @@ def test_noise_has_its_size_and_its_waves():
     power = np.abs(np.fft.rfft(noise[:-1])) ** 2
     waves = np.arange(len(power)) / noisy.length
     assert np.sum(power[waves > 1.0 / 8e-6 * (1 + 1e-9)]) < 1e-20 * np.sum(power)
+    assert power[0] < 1e-6 * np.mean(power[waves <= 1.0 / 8e-6])
+    assert power[round(noisy.length / 8e-6)] > 0.01 * np.mean(power[waves <= 1.0 / 8e-6])
     low, high = power[(waves > 0) & (waves < 0.5 / 8e-6)], power[(waves > 0.5 / 8e-6)]
     assert np.sum(low) == pytest.approx(np.sum(high), rel=0.35)
     assert np.array_equal(noisy.height, turned(**given, noise=0.2e-6, noise_wavelength=8e-6,
