@@ -1,0 +1,165 @@
+"""Contact where sliding traction moves the surfaces: a complementarity problem without an energy.
+
+    g = G - d w + C p >= 0,   p >= 0,   p g = 0,   w'p = P  (or d given)   and optionally p <= H
+
+with a compliance C that is positive definite but not symmetric (`analytic.coupling`); symbols as in
+`analytic.contact`.
+
+Method: the primal-dual active set of `analytic.active_set` on nested grids, each started from the
+next coarser one; on a fixed set GMRES, preconditioned by the operator's approximate inverse
+(`analytic.coupled_equilibrium`). Block exchanges have no proof of convergence. Where a set comes
+back, or too many have been tried, a contraction takes over:
+
+    p_k+1 = argmin 1/2 q'Nq + (t (G + C p_k) - N p_k)'q   over the constraints,   N = (C + C')/2,
+
+the projection, in the norm of N, of p_k - t N^-1 (G + C p_k). Projections do not stretch, so two
+iterates approach each other by sqrt((1-t)^2 + t^2 k^2), k the size of the skew part in that norm
+(mu beta for two half-planes under a given load): below one for t < 2/(1+k^2), whatever k is. t is
+halved whenever a step has hardly shortened. Each step is a contact problem of N, `solve_contact`.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from analytic.active_set import REDUCTION
+from analytic.contact import (
+    ContactError,
+    ContactSolution,
+    assessed,
+    common_gap,
+    solve_contact,
+)
+from analytic.coupled_equilibrium import CoupledEquilibrium
+from analytic.coupling import CoupledOperator
+from analytic.equilibrium import Constraints, Sides
+from analytic.nesting import COARSEST, SETTLED, prolonged, restricted
+
+MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
+MAX_CONTRACTIONS = 400
+SHORTEST = 1e-10  # a contraction step this small, relative in the norm of N, is the last
+
+
+def solve_coupled(
+    operator: CoupledOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+) -> ContactSolution:
+    """Solve the contact problem of this module; residuals are those of the coupled operator.
+
+    gap      G (n,) [m^2]         weights  w (n,) [m]
+    start    pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them,
+             which costs less than the way from the uncoupled solution
+
+    An operator without a skew part is left to `solve_contact`. `iterations` counts set exchanges,
+    applications of C and contraction steps, on all grids together.
+    Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
+    KKT_TOLERANCE is returned with `converged` False.
+    """
+    if not operator.skew:
+        return solve_contact(operator.normal, gap, weights, constraints, start)
+    carried = constraints.hardness * weights.sum()
+    if constraints.load is not None and constraints.load >= carried:
+        raise ContactError(
+            f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
+            f"hardness: {carried:g} N/m"
+        )
+    spent = {"exchanges": 0, "applications": 0, "contractions": 0}
+    common = common_gap(gap, weights, constraints)
+    gap = gap - common * weights
+    problem = CoupledEquilibrium(operator, gap, weights, constraints, spent)
+    settled = False
+    if start is not None:
+        pressure, settled = _exchange(problem, start)
+    if not settled:
+        start = _coarse_start(operator, gap, weights, constraints, spent)
+        pressure, settled = _exchange(problem, start)
+    solution = _solution(problem, pressure)
+    if not (settled or solution.converged):
+        solution = _contract(problem, solution.pressure)
+    return replace(solution, approach=solution.approach + common)
+
+
+def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
+    pressure = np.clip(pressure, 0.0, problem.constraints.hardness)
+    return assessed(
+        problem.apply(pressure),
+        pressure,
+        problem.gap,
+        problem.weights,
+        problem.approach,
+        problem.constraints,
+        problem.spent,
+    )
+
+
+def _exchange(
+    problem: CoupledEquilibrium, start: np.ndarray, settled: float = 0.0
+) -> tuple[np.ndarray, bool]:
+    """Block exchanges until no more than `settled` of the free nodes' number break their sign
+    conditions, with 0 until none does in an accurate equilibrium; and whether that was reached."""
+    pressure, reduction = start, REDUCTION
+    sides = Sides.of(start, problem.constraints.hardness)
+    seen: set[tuple[bytes, bytes]] = set()
+    for _ in range(MAX_EXCHANGES):
+        sides = problem.with_a_free_node(sides)
+        rest = problem.equilibrium(pressure, sides, reduction)
+        pressure = rest.pressure
+        broken = problem.broken_signs(pressure, rest.gap, sides)
+        count = broken.count()
+        if count == 0 and rest.accurate:
+            return pressure, True
+        if settled and count <= settled * np.count_nonzero(sides.free):
+            return pressure, True
+        if count == 0:
+            reduction = 0.0
+            continue
+        sides = sides.exchanged(broken)
+        key = np.packbits(sides.lower).tobytes(), np.packbits(sides.upper).tobytes()
+        if key in seen:
+            if reduction == 0.0:
+                break
+            reduction, seen = 0.0, set()  # the cycle may be that of loose equilibria
+        seen.add(key)
+    return pressure, False
+
+
+def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
+    """The contraction at the head of the module, from any pressures to convergence."""
+    operator, weights, constraints = problem.operator, problem.weights, problem.constraints
+    normal = operator.normal
+    share, before = 1.0, np.inf
+    displacement, even = problem.apply(pressure), normal.apply(pressure)
+    for _ in range(MAX_CONTRACTIONS):
+        scaled = constraints
+        if not problem.by_load:
+            scaled = replace(constraints, approach=share * constraints.approach)
+        linear = share * (problem.gap + displacement) - even
+        trial = solve_contact(normal, linear, weights, scaled, start=pressure)
+        problem.approach = trial.approach / share
+        problem.spent["contractions"] += 1
+        problem.spent["applications"] += trial.iterations["applications"] + 1
+        moved = normal.apply(trial.pressure)
+        length = (trial.pressure - pressure) @ (moved - even)  # squared, in the norm of N
+        shortened = length < (1.0 - 0.5 * share) * before  # as it must for share < 1.5/(1+k^2)
+        share, before = (share, length) if shortened else (0.5 * share, np.inf)
+        pressure, even = trial.pressure, moved
+        displacement = problem.apply(pressure)
+        if length <= SHORTEST**2 * (pressure @ even):
+            break
+    return _solution(problem, pressure)
+
+
+def _coarse_start(operator, gap, weights, constraints, spent) -> np.ndarray:
+    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle."""
+    count = len(gap)
+    coarse = operator.coarsened() if count >= COARSEST else None
+    if coarse is None:
+        return np.full(count, min(1.0, 0.5 * constraints.hardness))
+    gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
+    start = _coarse_start(coarse, gap, weights, constraints, spent)
+    problem = CoupledEquilibrium(coarse, gap, weights, constraints, spent)
+    pressure, _ = _exchange(problem, start, SETTLED)
+    return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
