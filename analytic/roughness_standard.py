@@ -18,7 +18,13 @@ from itertools import pairwise
 import numpy as np
 from scipy.interpolate import PPoly
 
-from analytic.filters import LONGEST_CUTOFF, SHORTEST_CUTOFF, check_cutoff, filtered
+from analytic.filters import (
+    LONGEST_CUTOFF,
+    REACH,
+    SHORTEST_CUTOFF,
+    check_cutoff,
+    filtered,
+)
 from analytic.profile import Profile
 from analytic.roughness import crossings, figures_of, stretch_of, turning_points
 
@@ -32,6 +38,8 @@ CLASSES = (
     (80.0e-6, 8e-3, 25e-6),
 )
 HEIGHT_DISCRIMINATION = 0.1  # of Rz: lower hills and shallower dales do not end an element
+
+END_SAMPLES = 30  # over which the ends of a spline are forgotten, to rounding
 
 
 @dataclass(frozen=True)
@@ -72,10 +80,15 @@ def standard_roughness(
     profile       without its form, unfiltered
     short_cutoff  [m] None: short waves stay
     """
-    whole = filtered(profile, cutoff, short_cutoff).spline()
+    check_cutoff(profile, cutoff)
     sections = min(SECTIONS, int((profile.length / cutoff - 1.0) * (1.0 + 1e-9)))
     length = sections * cutoff
     start = float(profile.x[0]) + 0.5 * (profile.length - length)
+    # What lies farther away than the filters reach would only cost time.
+    margin = REACH * (cutoff + (short_cutoff or 0.0)) + END_SAMPLES * profile.spacing
+    near = (profile.x >= start - margin) & (profile.x <= start + length + margin)
+    part = Profile(profile.x[near], profile.height[near])
+    whole = filtered(part, cutoff, short_cutoff).spline()
     curve = stretch_of(whole, start, start + length)
     figures = figures_of(curve, level=0.0)
     ends = start + cutoff * np.arange(sections + 1)

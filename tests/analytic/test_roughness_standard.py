@@ -5,7 +5,7 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from analytic.filters import transmission
+from analytic.filters import filtered, transmission
 from analytic.profile import Profile
 from analytic.roughness import figures_of, roughness, stretch_of, turning_points
 from analytic.roughness_standard import (
@@ -112,6 +112,19 @@ def test_whole_sections_lie_in_the_middle(length, sections):
     found = standard_roughness(waves((AMPLITUDE, 50e-6), length=length), CUTOFF)
     assert found.sections == sections
     assert found.start == pytest.approx(-0.5 * sections * CUTOFF, rel=1e-9)
+
+
+@pytest.mark.parametrize("short", [None, 20e-6])
+def test_what_lies_beyond_the_filters_reach_does_not_count(short):
+    whole = self_affine(hurst=0.8, samples=8001, length=16e-3, seed=4, rms_height=1e-6)
+    found = standard_roughness(whole, CUTOFF, short)
+    curve = filtered(whole, CUTOFF, short).spline()
+    wanted = figures_of(stretch_of(curve, -2.5 * CUTOFF, 2.5 * CUTOFF), level=0.0)
+    assert found.ra == pytest.approx(wanted.ra, rel=1e-7)
+    assert found.rt == pytest.approx(wanted.rt, rel=1e-7)
+    assert found.rdq == pytest.approx(wanted.rms_slope, rel=1e-7)
+    far = np.where(np.abs(whole.x) > 3.0e-3 + 5.0 * CUTOFF, 1e-3, 0.0)
+    assert standard_roughness(Profile(whole.x, whole.height + far), CUTOFF, short) == found
 
 
 def test_scales_and_mirrors():
