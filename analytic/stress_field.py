@@ -9,18 +9,15 @@ with zeros between. Four kernels a level serve every friction coefficient and ev
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.fft import irfft, rfft
 from scipy.optimize import brentq
 
 from analytic.plane_stress import PlaneStress
+from analytic.stress_convolution import EACH, MIXED, Products, convolve, on_grid, surface_load
 from analytic.stress_elements import FrictionStress
 from analytic.stress_grid import check_element, uniform_pitch
-from analytic.stress_kernels import Circle, circle
+from analytic.stress_kernels import circle
 from analytic.stress_potential import Element
 from analytic.stress_ring import ring
-from analytic.threads import for_each
-
-_BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 
 @dataclass(frozen=True)
@@ -71,10 +68,21 @@ def stress_field(
     Raises ValueError for input out of these bounds, for a window without a grid point, and for
     strips whose ends, where sx under q is infinite, fall on points of the surface.
     """
-    loads = [pressure] if traction is None else [pressure, traction]
-    x, z, stresses = _fields(x_nodes, loads, x_range, z, subdivisions, element, 1, periodic)
-    stress = stresses[0].at(friction, *stresses[1:])
-    return StressField(x, z, stress)
+    load = np.array(pressure, dtype=float)
+    shear = friction * load
+    if traction is not None:
+        uniform_pitch(x_nodes, traction)
+        shear = shear + traction
+    loads = np.array([load, shear] if np.any(shear) else [load])
+    grid = _grid(x_nodes, loads[0], x_range, z, subdivisions, element, 1)
+    parts, on_surface = _fields(grid, loads, MIXED, periodic)
+    if on_surface is not None:
+        parts[1, 0] = -on_surface[0]
+        if len(loads) > 1:
+            parts[2, 0] = -on_surface[1]
+        else:
+            parts[0, 0] = -on_surface[0]
+    return StressField(grid.x, grid.z, PlaneStress(*parts))
 
 
 def friction_field(
@@ -89,25 +97,41 @@ def friction_field(
     periodic: bool = False,
 ) -> FrictionField:
     """`stress_field` for every friction at once; of the grid's points every `stride`-th is kept."""
-    x, z, (stress,) = _fields(
-        x_nodes, [pressure], x_range, z, subdivisions, element, stride, periodic
-    )
-    return FrictionField(x, z, stress)
+    load = np.array(pressure, dtype=float)
+    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, stride)
+    parts, on_surface = _fields(grid, load[None], EACH, periodic)
+    if on_surface is not None:
+        parts[:2, 0] = -on_surface[0]
+    return FrictionField(grid.x, grid.z, FrictionStress(PlaneStress(*parts[:3]), parts[3]))
 
 
-def _fields(
+@dataclass(frozen=True)
+class _Grid:
+    """Columns `x` and levels `z` [m]; each pitch [m] of the nodes divided into `subdivisions`.
+
+    `first` and `last` column, counted in these steps from the first node; every `stride`-th kept.
+    """
+
+    x: np.ndarray
+    z: np.ndarray
+    pitch: float
+    subdivisions: int
+    first: int
+    last: int
+    stride: int
+    element: Element
+
+
+def _grid(
     x_nodes: np.ndarray,
-    loads: list[np.ndarray],
+    load: np.ndarray,
     x_range: tuple[float, float],
     z: np.ndarray,
     subdivisions: int,
     element: Element,
     stride: int,
-    periodic: bool,
-) -> tuple[np.ndarray, np.ndarray, list[FrictionStress]]:
-    """The places x and z, and the stresses of each load as a pressure."""
-    for load in loads:
-        pitch = uniform_pitch(x_nodes, load)
+) -> _Grid:
+    pitch = uniform_pitch(x_nodes, load)
     check_element(element)
     z = np.asarray(z, dtype=float)
     _check_levels(z)
@@ -121,32 +145,38 @@ def _fields(
         )
     first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
     x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
-    parts = np.zeros((len(loads), 4, len(z), len(x)))
-    sources, start = _on_grid(np.array(loads), subdivisions, whole=periodic)
-    if sources.size:
-        window = (sources.shape[1], first - start, last - start, stride)
-        make = ring if periodic else circle
-        _convolve(sources, make(z / pitch, *window, subdivisions, element), len(z), parts)
-        if z[0] == 0.0:
-            places = np.arange(first - start, last - start + 1, stride)
-            for load, part in zip(sources, parts, strict=True):
-                part[:2, 0] = -_surface_load(load, places, subdivisions, element, periodic)
-    return x, z, [FrictionStress(PlaneStress(*part[:3]), part[3]) for part in parts]
+    return _Grid(x, z, pitch, subdivisions, first, last, stride, element)
 
 
-def _on_grid(loads: np.ndarray, subdivisions: int, whole: bool) -> tuple[np.ndarray, int]:
-    """Loads (k, n) with zeros between their nodes, from the first one loaded, and its step.
+def _fields(
+    grid: _Grid, loads: np.ndarray, products: Products, periodic: bool
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Stresses (products, levels, columns) [Pa] under loads (k, n) [Pa].
 
-    Idle ends are left out, and all if nothing is loaded, unless the `whole` line is wanted.
+    And the loads (k, columns) [Pa] on the surface if that is the first level, else None.
     """
-    loaded = np.flatnonzero(loads.any(axis=0))
-    if len(loaded) == 0:
-        return np.zeros((len(loads), 0)), 0
-    low, high = (0, loads.shape[1]) if whole else (loaded[0], loaded[-1] + 1)
-    count = (high - low) * subdivisions if whole else (high - 1 - low) * subdivisions + 1
-    sources = np.zeros((len(loads), count))
-    sources[:, ::subdivisions] = loads[:, low:high]
-    return sources, low * subdivisions
+    parts = np.zeros((len(products), len(grid.z), len(grid.x)))
+    sources, start = on_grid(loads, grid.subdivisions, whole=periodic)
+    places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
+    if sources.size:
+        make = ring if periodic else circle
+        closed = make(
+            grid.z / grid.pitch,
+            sources.shape[1],
+            grid.first - start,
+            grid.last - start,
+            grid.stride,
+            grid.subdivisions,
+            grid.element,
+        )
+        convolve(sources, closed, products, parts)
+    if grid.z[0] > 0.0:
+        return parts, None
+    surface = [
+        surface_load(source, places, grid.subdivisions, grid.element, periodic)
+        for source in sources
+    ]
+    return parts, np.array(surface)
 
 
 def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
@@ -171,40 +201,6 @@ def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
     log_ratio = brentq(excess, 0.0, bound, xtol=1e-15) if excess(0.0) < 0.0 else 0.0
     levels = np.concatenate([[0.0], np.cumsum(np.exp(log_ratio * order))])
     return depth * levels / levels[-1]
-
-
-def _convolve(sources: np.ndarray, round_line: Circle, levels: int, parts: np.ndarray) -> None:
-    """Fill `parts` (loads, 4, levels, points): sx, sz, txz under p, sx under q, of each load.
-
-    `sources` (loads, S) [Pa], a value a step of the grid.
-    """
-    placed = np.zeros((len(sources), round_line.length))
-    placed[:, round_line.source : round_line.source + sources.shape[1]] = sources
-    spectrum = rfft(placed)
-    step = max(1, _BLOCK // round_line.length)
-
-    def convolve(block: slice) -> None:
-        for row, kernel in enumerate(round_line.spectra(block)):
-            for load, values in enumerate(spectrum):
-                stress = irfft(kernel * (round_line.turns[row] * values), round_line.length)
-                parts[load, row, block] = stress[:, round_line.points]
-
-    for_each(convolve, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
-
-
-def _surface_load(
-    source: np.ndarray, places: np.ndarray, subdivisions: int, element: Element, periodic: bool
-) -> np.ndarray:
-    """The elements' own load at places on the grid [Pa], a strip's end counting half to it."""
-    near = np.arange(-subdivisions, subdivisions + 1) / subdivisions
-    shape = 1.0 - np.abs(near) if element == "hat" else 0.5 + 0.5 * np.sign(0.5 - np.abs(near))
-    if periodic:
-        source = np.pad(source, subdivisions, mode="wrap")
-        places = places % (len(source) - 2 * subdivisions) + subdivisions
-    spread = np.convolve(source, shape)
-    place = places + subdivisions
-    inside = (place >= 0) & (place < len(spread))
-    return np.where(inside, spread[np.where(inside, place, 0)], 0.0)
 
 
 def _window(x_range: tuple[float, float], origin: float, step: float) -> tuple[int, int]:

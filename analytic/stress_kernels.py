@@ -23,6 +23,7 @@ from analytic.stress_potential import FAR_TERMS, NEAREST_FAR, Element, element_p
 # `turns` of the load's spectrum
 Spectra = Callable[[slice], tuple[np.ndarray, ...]]
 MIRRORED = (1.0, 1.0, 1j, 1j)
+_STARTS = [start for start, _ in FAR_TERMS]
 
 
 @dataclass(frozen=True)
@@ -90,22 +91,30 @@ def half_line(
 ) -> Callable[[slice], np.ndarray]:
     """I and z I' (2, levels, reach + 1) of a unit element at the offsets 0 … reach, by levels."""
     x = np.arange(reach + 1) / subdivisions
-    # Few points and the slowest formulas: all levels at once.
-    close, rest = NEAREST_FAR * subdivisions, FAR_TERMS[1][0] * subdivisions
-    near = np.empty((2, len(depths), min(rest, reach + 1)), dtype=complex)
-    unit = unit_stress(*np.broadcast_arrays(x[:close], depths[:, None]), element)
-    near[:, :, :close] = as_potential(unit)
-    if close <= reach:
-        near[:, :, close:] = element_potential(x[close:rest], depths, element, FAR_TERMS[0][1])
-    ends = [start * subdivisions for start, _ in FAR_TERMS[2:]] + [reach + 1]
+    # Next to the element stand few points, with the slowest formulas: all such levels at once.
+    shallow = int(np.searchsorted(depths, NEAREST_FAR))
+    close = x[: NEAREST_FAR * subdivisions]
+    near = as_potential(unit_stress(*np.broadcast_arrays(close, depths[:shallow, None]), element))
 
     def halves(block: slice) -> np.ndarray:
-        found = np.empty((2, len(depths[block]), reach + 1), dtype=complex)
-        found[:, :, : near.shape[2]] = near[:, block]
-        for (start, terms), end in zip(FAR_TERMS[1:], ends, strict=True):
-            far = slice(start * subdivisions, min(end, reach + 1))
-            if far.start < far.stop:
-                found[:, :, far] = element_potential(x[far], depths[block], element, terms)
+        first, last, _ = block.indices(len(depths))
+        found = np.empty((2, last - first, reach + 1), dtype=complex)
+        far = max(0, shallow - first)
+        # A level that is deep itself is far from the element throughout.
+        reached = [start for start, _ in FAR_TERMS if start <= depths[first]]
+        for (start, terms), end in zip(FAR_TERMS, [*_STARTS[1:], np.inf], strict=True):
+            if end in reached:
+                continue
+            low = 0 if start in reached else start * subdivisions
+            run = slice(low, int(min(end * subdivisions, reach + 1)))
+            if run.start < run.stop:
+                found[:, :, run] = element_potential(x[run], depths[first:last], element, terms)
+        if far:
+            found[:, :far, : len(close)] = near[:, first:last]
+            if first + far < last:
+                rest = depths[first + far : last]
+                terms = FAR_TERMS[0][1]
+                found[:, far:, : len(close)] = element_potential(close, rest, element, terms)
         return found
 
     return halves

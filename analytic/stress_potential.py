@@ -20,7 +20,7 @@ Element = Literal["hat", "strip"]
 
 # Distances [pitches] from which that many terms of even moments leave less than 1e-17.
 NEAREST_FAR = 4
-FAR_TERMS = ((4, 14), (16, 7), (128, 4))
+FAR_TERMS = ((4, 14), (16, 7), (128, 4), (512, 3))
 
 
 def element_moments(element: Element, count: int) -> np.ndarray:
@@ -42,9 +42,10 @@ def element_potential(
     """
     value = element_moments(element, 2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
-    w = np.empty((len(z), len(x)), dtype=complex)
-    w.real, w.imag = x, z[:, None]
-    inverse = np.divide(1.0, w, out=w)
+    inverse = np.empty((len(z), len(x)), dtype=complex)
+    square = 1.0 / (x**2 + z[:, None] ** 2)
+    np.multiply(x, square, out=inverse.real)
+    np.multiply(-z[:, None], square, out=inverse.imag)
     square = inverse * inverse
     potential, derivative = square * value[-1], square * slope[-1]
     for order in range(terms - 2, 0, -1):
