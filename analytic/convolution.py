@@ -11,8 +11,12 @@ from collections.abc import Callable
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
+from scipy.linalg import solve_toeplitz
+from scipy.linalg.lapack import dposv
 
 _KEPT = 31 * 2**20  # bytes; glibc's own limit is 32 MiB
+DIRECT = 160  # nodes from which iterating is faster than a Cholesky factor
+DIRECT_IN_A_ROW = 256  # the same for Levinson's recursion
 _MARGIN = 8  # a line is closed to a ring for the inverse by an eighth of its length
 
 
@@ -21,7 +25,8 @@ class Convolution:
 
     column    (n,) [m^2/Pa]; periodic: of the circulant
     symbol    positive S at given cycles per pitch (0 to 1/2) [m^2/Pa], for `precondition`;
-              where it is infinite, at the mean, the inverse is zero
+              where it is infinite, at the mean, the inverse is zero; of a periodic line it is
+              known and need not be given
     row       (n,) [m^2/Pa], row[0] = column[0]; default the column: a symmetric matrix
     periodic  whether element n is element 0
     ring      nodes of the closed line on which `precondition` works: n where periodic, else more
@@ -30,7 +35,7 @@ class Convolution:
     def __init__(
         self,
         column: np.ndarray,
-        symbol: Callable[[np.ndarray], np.ndarray],
+        symbol: Callable[[np.ndarray], np.ndarray] | None,
         row: np.ndarray | None = None,
         periodic: bool = False,
     ) -> None:
@@ -46,7 +51,10 @@ class Convolution:
             self._transfer = np.ascontiguousarray(self._transfer.real)
         reach = self.count + self.count // _MARGIN
         self.ring = self.count if periodic else next_fast_len(reach + 1, real=True)
-        self._inverse_symbol = 1.0 / symbol(np.arange(self.ring // 2 + 1) / self.ring)
+        if symbol is None:
+            self._inverse_symbol = 1.0 / self._transfer.real
+        else:
+            self._inverse_symbol = 1.0 / symbol(np.arange(self.ring // 2 + 1) / self.ring)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
@@ -64,6 +72,30 @@ class Convolution:
         spectrum *= self._inverse_symbol
         return irfft(spectrum, self.ring)[: len(displacement)]
 
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where there are so many that iterating is faster.
+        """
+        count = len(nodes)
+        if count <= DIRECT_IN_A_ROW and self.row is self.column:
+            start = self._start_of_row(nodes)
+            if start is not None:
+                in_a_row = np.roll(right, -start, axis=0)
+                found = solve_toeplitz(self.column[:count], in_a_row, check_finite=False)
+                return np.roll(found, start, axis=0)
+        if count > DIRECT:
+            return None
+        return cholesky_solve(self.block(nodes), right)
+
+    def _start_of_row(self, nodes: np.ndarray) -> int | None:
+        """Which of the nodes starts the row without a gap that they form, None if they do not."""
+        breaks = np.flatnonzero(np.diff(nodes) > 1)
+        if len(breaks) == 0:
+            return 0
+        closed = self.periodic and nodes[0] == 0 and nodes[-1] == self.count - 1
+        return breaks[0] + 1 if closed and len(breaks) == 1 else None
+
     def block(self, nodes: np.ndarray) -> np.ndarray:
         """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
         distance = nodes[:, None] - nodes
@@ -72,6 +104,15 @@ class Convolution:
         if self.row is self.column:
             return self.column[np.abs(distance)]
         return np.where(distance >= 0, self.column[distance], self.row[-distance])
+
+
+def cholesky_solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+    """Solution (m, k), or None where the symmetric matrix is not positive definite.
+
+    Straight from LAPACK: around small matrices checks take longer than the work.
+    """
+    _, solution, failed = dposv(matrix, right, overwrite_a=True)
+    return None if failed else solution
 
 
 def _embedded(column: np.ndarray, row: np.ndarray, length: int) -> np.ndarray:

@@ -9,9 +9,9 @@ inverse over the whole grid of displacements continued from the free nodes
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from analytic.extension import Extension
 
@@ -51,10 +51,7 @@ class Broken:
     softening: np.ndarray
 
     def count(self) -> int:
-        return sum(
-            int(np.count_nonzero(nodes))
-            for nodes in (self.tensile, self.excessive, self.joining, self.softening)
-        )
+        return int(np.count_nonzero(self.tensile | self.excessive | self.joining | self.softening))
 
 
 @dataclass(frozen=True)
@@ -68,7 +65,7 @@ class Sides:
     def of(cls, pressure: np.ndarray, hardness: float) -> "Sides":
         return cls(pressure <= 0.0, pressure >= hardness)
 
-    @property
+    @cached_property
     def free(self) -> np.ndarray:
         return ~(self.lower | self.upper)
 
@@ -103,6 +100,7 @@ class EquilibriumProblem:
         self.constraints, self.spent = constraints, spent
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
+        self._largest_gap, self._largest_weight = np.abs(gap).max(), weights.max()
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         self.spent["applications"] += 1
@@ -156,13 +154,17 @@ class EquilibriumProblem:
     def broken_signs(self, pressure: np.ndarray, gap: np.ndarray, sides: Sides) -> Broken:
         """Sign conditions of the module's head, to SET_TOLERANCE of the largest figures."""
         hardness = self.constraints.hardness
-        slack = SET_TOLERANCE * np.max(np.abs(pressure))
-        overlap = SET_TOLERANCE * np.ptp(gap)
-        free = sides.free
+        slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
+        # where all gaps close alike, nothing but rounding is left of them
+        rounding = ROUNDING * (self._largest_gap + abs(self.approach) * self._largest_weight)
+        overlap = max(SET_TOLERANCE * (gap.max() - gap.min()), rounding)
+        tensile, joining = sides.free & (pressure < -slack), sides.lower & (gap < -overlap)
+        if not np.isfinite(hardness):
+            return Broken(tensile, sides.upper, joining, sides.upper)  # none is at the hardness
         return Broken(
-            tensile=free & (pressure < -slack),
-            excessive=free & (pressure > hardness + slack),
-            joining=sides.lower & (gap < -overlap),
+            tensile=tensile,
+            excessive=sides.free & (pressure > hardness + slack),
+            joining=joining,
             softening=sides.upper & (gap > overlap),
         )
 
@@ -175,29 +177,24 @@ class EquilibriumProblem:
         nodes = np.flatnonzero(sides.free)
         pressure = np.zeros_like(start)
         pressure[sides.upper] = self.constraints.hardness
-        found = self._solve(nodes, pressure) if len(nodes) <= DIRECT else None
+        found = self._solve(nodes, pressure)
         pressure[nodes] = start[nodes] if found is None else found
         accurate = found is not None or self._iterate(nodes, pressure, reduction)
         gap = self.gap + self.apply(pressure)
         return Equilibrium(pressure, gap - self.approach * self.weights, accurate)
 
     def _solve(self, nodes: np.ndarray, pressure: np.ndarray) -> np.ndarray | None:
-        """Pressures (m,) of the free nodes beside `pressure` on the others, by Cholesky.
-
-        None where rounding, or hats finer than a body's elements, leave nothing to factor.
-        """
+        """Pressures (m,) of the free nodes beside `pressure` on the others; None of too many."""
         if len(nodes) == 0:
             return np.empty(0)
-        try:
-            factor = cho_factor(self.operator.block(nodes), overwrite_a=True, check_finite=False)
-        except np.linalg.LinAlgError:
-            return None
         weights = self.weights[nodes]
         gap = self.gap[nodes]
         if pressure.any():
             gap = gap + self.apply(pressure)[nodes]
-        sides = np.stack([gap, weights], axis=1)
-        from_gap, from_weights = cho_solve(factor, sides, check_finite=False).T
+        found = self.operator.solve(nodes, np.array([gap, weights]).T)
+        if found is None:
+            return None
+        from_gap, from_weights = found.T
         if self.by_load:
             load = self.constraints.load - self.weights @ pressure
             self.approach = float((load + weights @ from_gap) / (weights @ from_weights))

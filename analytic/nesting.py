@@ -12,6 +12,8 @@ from analytic.active_set import exchange_blocks
 from analytic.equilibrium import Constraints, EquilibriumProblem
 
 COARSEST = 128  # nodes; below this a coarser start saves nothing
+FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
+FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 SETTLED = 0.01  # of a coarse grid's free nodes may still be on the wrong side
 
 
@@ -26,12 +28,35 @@ def coarse_start(
     count = len(gap)
     coarse = operator.coarsened() if count >= COARSEST else None
     if coarse is None:
-        return np.full(count, min(1.0, 0.5 * constraints.hardness))
+        return foundation_start(operator, gap, weights, constraints)
     gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
     start = coarse_start(coarse, gap, weights, constraints, spent)
     problem = EquilibriumProblem(coarse, gap, weights, constraints, spent)
     pressure = exchange_blocks(problem, start, settled=SETTLED)
     return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
+
+
+def foundation_start(
+    operator, gap: np.ndarray, weights: np.ndarray, constraints: Constraints
+) -> np.ndarray:
+    """Pressures (n,) [Pa] on independent springs in place of the body.
+
+    Under a prescribed load the springs sink, on the average over the grid, by FOUNDATION times
+    what the body does under an even pressure of that load.
+    """
+    height = gap / weights
+    if constraints.load is None:
+        overlap = np.maximum(constraints.approach - height, 0.0)
+        return overlap * min(1.0, 0.5 * constraints.hardness) / (overlap.max() or 1.0)
+    even = np.full(len(gap), constraints.load / weights.sum())
+    sinking = FOUNDATION * np.mean(np.abs(operator.apply(even) / weights))
+    reached = np.sort(height)
+    # the lowest k share the sinking of all; k is the first number that leaves the next one open
+    level = (sinking * len(gap) + np.cumsum(reached)) / np.arange(1, len(gap) + 1)
+    first = np.argmax(np.append(level[:-1] <= reached[1:], True))
+    overlap = np.maximum(level[first] - height, 0.0)
+    pressure = overlap * (constraints.load / (weights @ overlap))
+    return np.minimum(pressure, constraints.hardness)
 
 
 def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:

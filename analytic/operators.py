@@ -18,7 +18,7 @@ from typing import Literal, Protocol
 import numpy as np
 import scipy.linalg
 
-from analytic.convolution import Convolution
+from analytic.convolution import Convolution, cholesky_solve
 from analytic.elements import hat_galerkin, strip_displacement
 
 Element = Literal["hat", "strip"]
@@ -40,7 +40,8 @@ class ModelOperator(ComplianceOperator, Protocol):
     ring          nodes of the closed line that `precondition` takes displacements on;
                   None where it takes those of the grid
     precondition  a positive definite approximation of the inverse
-    block         the matrix's rows and columns of some nodes
+    solve         pressures (m, k) of few nodes (m,) alone that sink by given right sides (m, k),
+                  or None: they are not so few, or nothing can be factored
     coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
     """
 
@@ -50,7 +51,7 @@ class ModelOperator(ComplianceOperator, Protocol):
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
 
-    def block(self, nodes: np.ndarray) -> np.ndarray: ...
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None: ...
 
     def coarsened(self) -> "ModelOperator | None": ...
 
@@ -101,10 +102,13 @@ class HalfPlane(Convolution):
         """
         c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         sine = np.sin(np.pi * c) / np.pi
-        if self.element == "hat":
-            seen = sine**4 * (c**-5 + (1.0 - c) ** -5 + (1.0 + c) ** -5)
+        own, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
+        if self.element == "hat":  # each (sine / |c + j|)^4 / |c + j|
+            seen = sum(
+                (sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in (own, lower, upper)
+            )
         else:
-            seen = sine * (c**-2 + (1.0 - c) ** -2 - (1.0 + c) ** -2)
+            seen = sine * (own**2 + lower**2 - upper**2)
         return self.pitch**2 / (np.pi * self.modulus) * seen
 
 
@@ -145,9 +149,12 @@ class DenseCompliance:
         """The inverse but for a small ridge, close while every element is in contact."""
         return scipy.linalg.cho_solve(self._factor, displacement)
 
-    def block(self, nodes: np.ndarray) -> np.ndarray:
-        """The matrix's rows and columns of these nodes (m,): (m, m) [m^2/Pa]."""
-        return self.matrix[np.ix_(nodes, nodes)]
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where hats finer than a body's elements leave nothing to factor.
+        """
+        return cholesky_solve(self.matrix[np.ix_(nodes, nodes)], right)
 
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""

@@ -41,7 +41,7 @@ class PeriodicHalfPlane(Convolution):
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
         self.coefficients = irfft(self._symbol(cycles), count)
-        super().__init__(self.coefficients, self._symbol, periodic=True)
+        super().__init__(self.coefficients, None, periodic=True)
 
     def coarsened(self) -> "PeriodicHalfPlane | None":
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …
