@@ -22,7 +22,7 @@ from analytic.stress_translations import (
 LEAF = 8  # nodes of the smallest box
 NEIGHBOURS = 3
 # Outer coefficients summed for a box so many boxes away: less than 1e-15 of its load is left out.
-_OUTER_ORDERS = (ORDER, 52, 30, 22)
+_OUTER_ORDERS = (ORDER, 46, 28, 22)
 _BLOCK = 2048  # boxes at a time
 
 

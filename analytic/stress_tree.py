@@ -16,7 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from analytic.stress_boxes import LEAF, NEIGHBOURS, Level, box_levels, inner_sum, outer_sum
+from analytic.stress_boxes import LEAF, NEIGHBOURS, box_levels, inner_sum, outer_sum
 from analytic.stress_multipoles import FARTHER, far_moments, line_multipoles
 from analytic.stress_near import Line, near_stress
 from analytic.stress_potential import Element, stresses
@@ -59,7 +59,9 @@ def _among(line: Line, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     levels = box_levels(line.load, line.element, [box[order[a:b]] for a, b in runs])
     parts = np.empty((4, len(x)))
 
-    def add_up(tree: Level, here: np.ndarray) -> None:
+    def add_up(piece: slice) -> None:
+        here = order[piece]
+        tree = levels[level[here[0]]]
         u = np.empty(len(here), dtype=complex)
         u.real = along[here] / tree.half - (2.0 * box[here] + 1.0)
         u.imag = down[here] / tree.half
@@ -78,10 +80,12 @@ def _among(line: Line, x: np.ndarray, z: np.ndarray) -> np.ndarray:
                 found[:, block] += near_stress(line, x[here[block]], z[here[block]], start, count)
         parts[:, here] = found
 
-    pieces = [
-        (tree, slice(i, min(i + _BLOCK, stop)))
-        for tree, (start, stop) in zip(levels, runs, strict=False)
-        for i in range(start, stop, _BLOCK)
-    ]
-    for_each(lambda piece: add_up(piece[0], order[piece[1]]), pieces)
+    for_each(
+        add_up,
+        (
+            slice(i, min(i + _BLOCK, stop))
+            for start, stop in runs
+            for i in range(start, stop, _BLOCK)
+        ),
+    )
     return parts

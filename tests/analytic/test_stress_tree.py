@@ -6,7 +6,12 @@ import pytest
 from analytic.plane_stress import PlaneStress
 from analytic.stress import friction_stress_at, stress_at
 from analytic.stress_line import direct_stress
-from analytic.stress_potential import element_moments, element_potential, stresses
+from analytic.stress_potential import (
+    FAR_TERMS,
+    element_moments,
+    element_potential,
+    stresses,
+)
 from analytic.stress_translations import (
     ORDER,
     inner_to_child,
@@ -66,7 +71,7 @@ def test_far_from_all_load_each_component_keeps_its_digits(element):
     nodes, load = line(300, signs=False)
     width = nodes[-1] - nodes[0]
     distance, angle = np.meshgrid(
-        np.geomspace(1.1, 1e6, 60) * width, [1e-9, 1e-4, 0.02, 0.7, 1.5, 2.2, 3.1, np.pi - 1e-6]
+        np.geomspace(1.01, 1e6, 60) * width, [1e-9, 1e-4, 0.02, 0.7, 1.5, 2.2, 3.1, np.pi - 1e-6]
     )
     x = 0.5 * (nodes[0] + nodes[-1]) + (distance * np.cos(angle)).ravel()
     z = (distance * np.sin(angle)).ravel()
@@ -204,14 +209,14 @@ def test_moments_are_integrals_of_the_element():
         assert element_moments("strip", 20)[order] == pytest.approx(strip, abs=1e-15)
 
 
-@pytest.mark.parametrize(("start", "terms"), [(4.0, 14), (16.0, 7), (128.0, 4)])
+@pytest.mark.parametrize(("start", "terms"), FAR_TERMS)
 @pytest.mark.parametrize("element", ["hat", "strip"])
 def test_potential_of_an_element_from_its_first_moments(start, terms, element):
     x, z = np.array([1.0, 1.3]) * start, np.array([0.0, 0.3, 5.0]) * start
     found = stresses(*element_potential(x, z, element, terms))
     across, down = (a.ravel() for a in np.meshgrid(x, z))
     expected = direct_stress(np.zeros(1), np.ones(1), 1.0, across, down, element)
-    assert np.abs(found.reshape(4, -1) - expected).max() < 1e-16
+    assert np.abs(found.reshape(4, -1) - expected).max() < 5e-16 / start
     assert len(element_moments(element, ORDER)) == ORDER
 
 
