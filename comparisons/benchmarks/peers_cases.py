@@ -1,0 +1,165 @@
+"""The contact problems on which codes are compared: one surface, seen by each discretisation.
+
+Nodes stand at x_i = i h, 0 <= i < n, and L = n h = 1, E* = 1. Hats take the gap averaged over
+each hat, strips and points take it at the nodes. All peers close the line on itself. For the
+cylinder, whose line has no end, they are given a gap that makes up for it: from
+
+    g0_closed = g0 + (K_free - K_closed) * p_Hertz
+
+Hertz's own pressure follows, on the same nodes, and without the padded transform of a free line.
+
+    n   nodes              E*  combined modulus [Pa]     a   half-width [m]
+    h   pitch [m]          L   length or period [m]      P   load per length [N/m]
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from analytic.contact import ContactSolution, solve_contact
+from analytic.equilibrium import Constraints
+from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
+from analytic.exact.westergaard import westergaard_from_half_width
+from analytic.periodic import PeriodicHalfPlane
+from analytic.synthetic import self_affine
+
+CONTACT_SHARE = 0.1  # of the rough line in contact
+HALF_WIDTH = 0.25  # a/L of the smooth cases
+HEIGHT = 0.01  # peak pressure of the cylinder over E*, amplitude of the sinusoid over L
+HURST, RMS_SLOPE = 0.8, 0.05
+SHORTEST = 16  # pitches in the shortest wave: what is resolved is the surface, not its samples
+REFINED = 8  # nodes of the expected pressures to one of the case
+_CHEBYSHEV = 64  # points that integrate Hertz's pressure against a kernel smooth over a length a
+
+
+@dataclass(frozen=True)
+class Case:
+    """One problem at one size.
+
+    periodic  whether our line closes on itself
+    load      P [N/m]                    pitch     h [m]
+    gaps      (n,) g0 at the nodes [m]   averages  (n,) g0 averaged over hats [m]
+    heights   (n,) -g0 at the nodes of the closed line that the peers solve [m]
+    expected  (REFINED n,) pressures [Pa], exact or of that many hats
+    """
+
+    periodic: bool
+    load: float
+    pitch: float
+    gaps: np.ndarray
+    averages: np.ndarray
+    heights: np.ndarray
+    expected: np.ndarray
+
+    @property
+    def count(self) -> int:
+        return len(self.gaps)
+
+
+def cylinder(count: int) -> Case:
+    """Hertz: half of the nodes in contact, on a line without end."""
+    pitch = 1.0 / count
+    x = np.arange(count) * pitch - 0.5
+    hertz = hertz_from_peak_pressure(HEIGHT, 0.5 * HALF_WIDTH / HEIGHT, 1.0)
+    gaps = x**2 / (2.0 * hertz.radius)
+    fine = np.arange(REFINED * count) * (pitch / REFINED) - 0.5
+    return Case(
+        periodic=False,
+        load=hertz.load_per_length,
+        pitch=pitch,
+        gaps=gaps,
+        averages=gaps + pitch**2 / (12.0 * hertz.radius),
+        heights=-(gaps + _of_closing(hertz, x)),
+        expected=hertz.pressure(fine),
+    )
+
+
+def _of_closing(hertz: HertzContact, x: np.ndarray) -> np.ndarray:
+    """(K_free - K_closed) * p_Hertz [m] at x; K = -2/(pi E*) times ln|x| and ln|sin(pi x)/pi|."""
+    angle = np.arange(1, _CHEBYSHEV + 1) * np.pi / (_CHEBYSHEV + 1)
+    total = hertz.half_width * hertz.peak_pressure * np.pi / (_CHEBYSHEV + 1)
+    moved = np.zeros_like(x)
+    for place, share in zip(hertz.half_width * np.cos(angle), np.sin(angle) ** 2, strict=True):
+        moved += total * share * np.log(np.abs(np.sinc(x - place)))
+    return 2.0 / (np.pi * hertz.combined_modulus) * moved
+
+
+def sinusoid(count: int) -> Case:
+    """Westergaard: one wave, half of it in contact."""
+    pitch = 1.0 / count
+    exact = westergaard_from_half_width(HALF_WIDTH, 1.0, HEIGHT, 1.0)
+    wave = HEIGHT * np.cos(2.0 * np.pi * np.arange(count) * pitch)
+    return Case(
+        periodic=True,
+        load=exact.load_per_wavelength,
+        pitch=pitch,
+        gaps=-wave,
+        averages=-wave * np.sinc(pitch) ** 2,
+        heights=wave,
+        expected=exact.pressure(np.arange(REFINED * count) * (pitch / REFINED)),
+    )
+
+
+def rough(count: int, seed: int) -> Case:
+    """Self-affine line with a tenth of it in contact and waves down to SHORTEST pitches."""
+    waves = rough_waves(count, seed, SHORTEST / count)
+    load = load_for_share(count, waves)
+    heights = sampled(waves, count)
+    return Case(
+        periodic=True,
+        load=load,
+        pitch=1.0 / count,
+        gaps=-heights,
+        averages=averages(waves, count),
+        heights=heights,
+        expected=_solved(waves, REFINED * count, load).pressure,
+    )
+
+
+@lru_cache(maxsize=8)
+def rough_waves(count: int, seed: int, shortest: float) -> np.ndarray:
+    """Coefficients of the waves k = 0 to n/2 of a self-affine line of unit length [m]."""
+    profile = self_affine(
+        hurst=HURST,
+        samples=count + 1,
+        length=1.0,
+        seed=seed,
+        rms_slope=RMS_SLOPE,
+        shortest_wavelength=shortest,
+    )
+    return np.fft.rfft(profile.height[:-1]) / count
+
+
+def sampled(waves: np.ndarray, count: int) -> np.ndarray:
+    """The line of these waves at `count` nodes, as many as it takes or more: (count,) [m]."""
+    return np.fft.irfft(waves * count, count)
+
+
+def averages(waves: np.ndarray, count: int) -> np.ndarray:
+    """Gaps -z averaged over `count` hats [m]: a hat's transform is sinc^2."""
+    return -sampled(waves * np.sinc(np.arange(len(waves)) / count) ** 2, count)
+
+
+def load_for_share(count: int, waves: np.ndarray) -> float:
+    """P [N/m] that brings CONTACT_SHARE of `count` nodes in contact, to a node or so."""
+
+    def excess(load: float) -> float:
+        return np.mean(_solved(waves, count, load).pressure > 0.0) - CONTACT_SHARE
+
+    return _bisected(excess, 1e-3 * RMS_SLOPE, RMS_SLOPE)
+
+
+def _solved(waves: np.ndarray, count: int, load: float) -> ContactSolution:
+    pitch = 1.0 / count
+    operator = PeriodicHalfPlane(count, pitch, 1.0)
+    weights = np.full(count, pitch)
+    return solve_contact(operator, pitch * averages(waves, count), weights, Constraints(load=load))
+
+
+def _bisected(rising: Callable[[float], float], low: float, high: float) -> float:
+    for _ in range(14):
+        middle = np.sqrt(low * high)
+        low, high = (middle, high) if rising(middle) < 0.0 else (low, middle)
+    return float(np.sqrt(low * high))

@@ -1,0 +1,36 @@
+"""This project's solver under comparison.
+
+Strips are what the peers' points are nearest to: one pressure a cell, the contact conditions at its
+middle. Hats, which the rest of the project uses, bound the stresses at every element's edge, and
+are shown beside them.
+"""
+
+from typing import Literal
+
+import numpy as np
+
+from analytic.contact import solve_contact
+from analytic.equilibrium import Constraints
+from analytic.operators import HalfPlane
+from analytic.periodic import PeriodicHalfPlane
+from comparisons.benchmarks.peers_cases import Case
+from comparisons.benchmarks.peers_code import Answer, Code
+
+Element = Literal["strip", "hat"]
+
+
+def codes() -> list[Code]:
+    """Ours with strips, then with hats."""
+    return [
+        Code("crosscheck, strips", "strip", lambda case, *_: _solved(case, "strip")),
+        Code("crosscheck, hats", "hat", lambda case, *_: _solved(case, "hat")),
+    ]
+
+
+def _solved(case: Case, element: Element) -> Answer:
+    kind = PeriodicHalfPlane if case.periodic else HalfPlane
+    operator = kind(case.count, case.pitch, 1.0, element=element)
+    gap = case.averages if element == "hat" else case.gaps
+    weights = np.full(case.count, case.pitch)
+    solution = solve_contact(operator, case.pitch * gap, weights, Constraints(load=case.load))
+    return Answer(solution.pressure, solution.iterations["applications"])
