@@ -15,6 +15,7 @@ PATIENCE = 8  # block exchanges without progress before the primal method
 REDUCTION = 1e-2  # of the residual by each exchange while the set moves; 0.1 may go on for long
 SHARPER = 0.1  # times that, after each exchange without progress
 MAX_EXCHANGES = 200
+PLASTIC = 10  # times as many nodes at the hardness as free ones
 WORTHWHILE = 0.1  # of the energy that the equilibrium would release, taken by one step towards it
 
 
@@ -34,7 +35,7 @@ def exchange_blocks(
         sides = problem.with_a_free_node(sides)
         rest = problem.equilibrium(pressure, sides, reduction)
         pressure = rest.pressure
-        broken = problem.broken_signs(pressure, rest.gap, sides)
+        broken = problem.broken_signs(rest, sides)
         count = broken.count()
         if count == 0 and rest.accurate:
             return pressure
@@ -51,7 +52,10 @@ def exchange_blocks(
             break
         if count == 0:
             reduction = 0.0
-        sides = sides.exchanged(broken)
+        plastic = problem.by_load and np.count_nonzero(sides.upper) > PLASTIC * np.count_nonzero(
+            sides.free
+        )
+        sides = problem.balanced(rest) if plastic and count else sides.exchanged(broken)
     return exchange_feasibly(problem, pressure, sides)
 
 
@@ -76,7 +80,7 @@ def exchange_feasibly(problem: EquilibriumProblem, start: np.ndarray, sides: Sid
         rest_gap = rest.gap + problem.approach * problem.weights
         if np.all((rest.pressure >= 0.0) & (rest.pressure <= hardness)):
             pressure, gap = rest.pressure, rest_gap
-            broken = problem.broken_signs(pressure, rest.gap, sides)
+            broken = problem.broken_signs(rest, sides)
             if not (broken.joining.any() or broken.softening.any()):
                 return pressure
             sides = Sides(sides.lower & ~broken.joining, sides.upper & ~broken.softening)

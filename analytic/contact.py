@@ -23,7 +23,7 @@ from analytic.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
 from analytic.nesting import coarse_start
 from analytic.operators import ModelOperator
 
-EVEN = 1e-6  # of the displacement; rounding leaves 1e-15 of it, which must not count as a residual
+EVEN = 1e-5  # of the displacement: rounding, 1e-14 of it, must not count as a residual
 KKT_TOLERANCE = 1e-8  # all residuals of a solution that counts as converged
 
 
@@ -41,8 +41,8 @@ class Residuals:
     negative_pressure  largest tension / the largest pressure
     excess_pressure    largest pressure above H / H
 
-    The displacement scale is the range of Cp/w over all nodes, or EVEN of its largest value
-    where the surface moves as a whole.
+    The displacement scale is the range of Cp/w over all nodes, or EVEN of its largest amount
+    where the surface moves as a whole; with the approach prescribed it is the largest amount.
     """
 
     load_balance: float
@@ -96,7 +96,9 @@ def contact_residuals(
     hardness = constraints.hardness
     actual = (gap + displacement) / weights - approach
     lowered = displacement / weights
-    scale = max(np.ptp(lowered), EVEN * np.max(np.abs(lowered))) or 1.0
+    largest = np.max(np.abs(lowered))
+    scale = largest if constraints.load is None else max(np.ptp(lowered), EVEN * largest)
+    scale = scale or 1.0
     load = weights @ pressure
     highest = np.max(pressure)
     free = pressure < hardness * (1.0 - SET_TOLERANCE)

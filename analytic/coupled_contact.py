@@ -33,7 +33,7 @@ from analytic.contact import (
 from analytic.coupled_equilibrium import CoupledEquilibrium
 from analytic.coupling import CoupledOperator
 from analytic.equilibrium import Constraints, Sides
-from analytic.nesting import COARSEST, SETTLED, prolonged, restricted
+from analytic.nesting import COARSEST, SETTLED, foundation_start, prolonged, restricted
 
 MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
 MAX_CONTRACTIONS = 400
@@ -107,7 +107,7 @@ def _exchange(
         sides = problem.with_a_free_node(sides)
         rest = problem.equilibrium(pressure, sides, reduction)
         pressure = rest.pressure
-        broken = problem.broken_signs(pressure, rest.gap, sides)
+        broken = problem.broken_signs(rest, sides)
         count = broken.count()
         if count == 0 and rest.accurate:
             return pressure, True
@@ -157,7 +157,7 @@ def _coarse_start(operator, gap, weights, constraints, spent) -> np.ndarray:
     count = len(gap)
     coarse = operator.coarsened() if count >= COARSEST else None
     if coarse is None:
-        return np.full(count, min(1.0, 0.5 * constraints.hardness))
+        return foundation_start(operator, gap, weights, constraints)
     gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
     start = _coarse_start(coarse, gap, weights, constraints, spent)
     problem = CoupledEquilibrium(coarse, gap, weights, constraints, spent)

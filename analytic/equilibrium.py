@@ -18,8 +18,8 @@ from analytic.extension import Extension
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
+STALLED = 40  # steps of conjugate gradients without a new least residual: rounding is reached
 BISECTIONS = 100  # to a shift of pressures right to rounding
-DIRECT = 160  # free nodes from which iterating is faster than a Cholesky factor
 
 _Inverse = Callable[[np.ndarray], np.ndarray]
 
@@ -80,11 +80,13 @@ class Sides:
 class Equilibrium:
     """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] with given sides, the load carried.
 
-    accurate  whether g vanishes on the free nodes to TIGHT, or to rounding
+    overlap   (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
+    accurate  whether g vanishes on the free nodes to TIGHT, or as far as rounding lets it
     """
 
     pressure: np.ndarray
     gap: np.ndarray
+    overlap: np.ndarray
     accurate: bool
 
 
@@ -100,7 +102,8 @@ class EquilibriumProblem:
         self.constraints, self.spent = constraints, spent
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
-        self._largest_gap, self._largest_weight = np.abs(gap).max(), weights.max()
+        self._rounding = ROUNDING * np.abs(gap)
+        self._own_compliance: float | None = None
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         self.spent["applications"] += 1
@@ -120,19 +123,19 @@ class EquilibriumProblem:
     def feasible(self, pressure: np.ndarray, free: np.ndarray) -> np.ndarray:
         """Nearest pressures in the box that carry the load: one shift of the free nodes."""
         hardness = self.constraints.hardness
-        pressure = np.clip(pressure, 0.0, hardness)
+        feasible = np.clip(pressure, 0.0, hardness)
         if not self.by_load:
-            return pressure
+            return feasible
         inside, weights = pressure[free], self.weights[free]
-        wanted = self.constraints.load - self.weights[~free] @ pressure[~free]
+        wanted = self.constraints.load - self.weights[~free] @ feasible[~free]
         mean = wanted / weights.sum()
-        low, high = -np.max(inside), mean + min(hardness, np.max(inside) + mean)
+        low, high = -np.max(inside), min(hardness, mean) - np.min(inside)
         for _ in range(BISECTIONS):
             shift = 0.5 * (low + high)
             carried = weights @ np.clip(inside + shift, 0.0, hardness)
             low, high = (shift, high) if carried < wanted else (low, shift)
-        pressure[free] = np.clip(inside + high, 0.0, hardness)
-        return pressure
+        feasible[free] = np.clip(inside + high, 0.0, hardness)
+        return feasible
 
     def with_a_free_node(self, sides: Sides) -> Sides:
         """The sides, but for one node freed where a prescribed load would find none to balance it.
@@ -151,21 +154,35 @@ class EquilibriumProblem:
         lower[node] = upper[node] = False
         return Sides(lower, upper)
 
-    def broken_signs(self, pressure: np.ndarray, gap: np.ndarray, sides: Sides) -> Broken:
-        """Sign conditions of the module's head, to SET_TOLERANCE of the largest figures."""
-        hardness = self.constraints.hardness
+    def balanced(self, rest: Equilibrium) -> Sides:
+        """Sides that carry the prescribed load while each node sinks for itself.
+
+        Where nearly all that touches is at the hardness, few free nodes bear what is missing of
+        the load, and exchanges by their signs move the approach from node to node.
+        """
+        if self._own_compliance is None:
+            one = np.zeros_like(self.gap)
+            one[len(one) // 2] = 1.0
+            self._own_compliance = self.apply(one)[len(one) // 2]
+        free = np.full(len(self.gap), True)
+        pressure = self.feasible(rest.pressure - rest.gap / self._own_compliance, free)
+        return Sides.of(pressure, self.constraints.hardness)
+
+    def broken_signs(self, rest: Equilibrium, sides: Sides) -> Broken:
+        """Sign conditions of the module's head, pressures to SET_TOLERANCE of the largest."""
+        hardness, pressure = self.constraints.hardness, rest.pressure
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
-        # where all gaps close alike, nothing but rounding is left of them
-        rounding = ROUNDING * (self._largest_gap + abs(self.approach) * self._largest_weight)
-        overlap = max(SET_TOLERANCE * (gap.max() - gap.min()), rounding)
-        tensile, joining = sides.free & (pressure < -slack), sides.lower & (gap < -overlap)
+        tensile, joining = (
+            sides.free & (pressure < -slack),
+            sides.lower & (rest.gap < -rest.overlap),
+        )
         if not np.isfinite(hardness):
             return Broken(tensile, sides.upper, joining, sides.upper)  # none is at the hardness
         return Broken(
             tensile=tensile,
             excessive=sides.free & (pressure > hardness + slack),
             joining=joining,
-            softening=sides.upper & (gap > overlap),
+            softening=sides.upper & (rest.gap > rest.overlap),
         )
 
     def equilibrium(self, start: np.ndarray, sides: Sides, reduction: float) -> Equilibrium:
@@ -180,8 +197,16 @@ class EquilibriumProblem:
         found = self._solve(nodes, pressure)
         pressure[nodes] = start[nodes] if found is None else found
         accurate = found is not None or self._iterate(nodes, pressure, reduction)
-        gap = self.gap + self.apply(pressure)
-        return Equilibrium(pressure, gap - self.approach * self.weights, accurate)
+        return self.at_rest(pressure, self.apply(pressure), accurate)
+
+    def at_rest(
+        self, pressure: np.ndarray, displacement: np.ndarray, accurate: bool
+    ) -> Equilibrium:
+        """The equilibrium of pressures (n,) [Pa] with their Cp (n,) [m^2] at the approach found."""
+        low, high = displacement.min(), displacement.max()
+        overlap = self._rounding + (SET_TOLERANCE * (high - low) + ROUNDING * max(high, -low))
+        gap = self.gap + displacement - self.approach * self.weights
+        return Equilibrium(pressure, gap, overlap, accurate)
 
     def _solve(self, nodes: np.ndarray, pressure: np.ndarray) -> np.ndarray | None:
         """Pressures (m,) of the free nodes beside `pressure` on the others; None of too many."""
@@ -211,17 +236,20 @@ class EquilibriumProblem:
             lift = inverse(weights)
             lift /= weights @ lift  # the pressures that carry a unit load
             pressure[nodes] += (load - self.weights @ pressure) * lift
-        displacement = self.apply(pressure)[nodes]
-        residual = self.gap[nodes] + displacement
+        displacement = self.apply(pressure)
         # what rounding leaves of the sum of gap and displacement cannot be lowered
-        floor = ROUNDING * (np.linalg.norm(self.gap[nodes]) + np.linalg.norm(residual))
+        largest = np.sqrt(len(nodes)) * np.abs(displacement).max()
+        floor = np.linalg.norm(self._rounding[nodes]) + ROUNDING * largest
+        displacement = displacement[nodes]
+        residual = self.gap[nodes] + displacement
         if self.by_load:
             displacement = displacement - displacement.mean()
         tight = max(TIGHT * np.linalg.norm(displacement), floor)
         goal, slope_before = None, 1.0
         found, direction = pressure[nodes], np.zeros_like(residual)
         line = np.zeros_like(pressure)
-        for _ in range(10 * len(nodes) + 10):
+        least, since_least = np.inf, 0
+        while since_least < STALLED:
             if self.by_load:
                 self.approach = float(lift @ residual)
             open_gap = residual - self.approach * weights
@@ -229,6 +257,7 @@ class EquilibriumProblem:
             goal = max(reduction * size, tight) if goal is None else goal
             if size <= goal:
                 break
+            least, since_least = (size, 0) if size < least else (least, since_least + 1)
             step = inverse(open_gap)
             if self.by_load:
                 step -= lift * (weights @ step)
@@ -240,12 +269,12 @@ class EquilibriumProblem:
             image = self.apply(line)[nodes]
             curvature = direction @ image
             if not (slope > 0.0 and curvature > 0.0):
-                size = 0.0  # nothing left but round-off
+                since_least = STALLED
                 break
             found -= (slope / curvature) * direction
             residual -= (slope / curvature) * image
         pressure[nodes] = found
-        return bool(size <= tight)
+        return bool(size <= tight or since_least == STALLED)
 
     def _inverse(self, nodes: np.ndarray) -> _Inverse:
         """Approximate inverse of the compliance of the free nodes."""

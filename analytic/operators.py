@@ -42,6 +42,7 @@ class ModelOperator(ComplianceOperator, Protocol):
     precondition  a positive definite approximation of the inverse
     solve         pressures (m, k) of few nodes (m,) alone that sink by given right sides (m, k),
                   or None: they are not so few, or nothing can be factored
+    block         the matrix's rows and columns of some nodes
     coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
     """
 
@@ -52,6 +53,8 @@ class ModelOperator(ComplianceOperator, Protocol):
     def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None: ...
+
+    def block(self, nodes: np.ndarray) -> np.ndarray: ...
 
     def coarsened(self) -> "ModelOperator | None": ...
 
@@ -154,7 +157,11 @@ class DenseCompliance:
 
         None where hats finer than a body's elements leave nothing to factor.
         """
-        return cholesky_solve(self.matrix[np.ix_(nodes, nodes)], right)
+        return cholesky_solve(self.block(nodes), right)
+
+    def block(self, nodes: np.ndarray) -> np.ndarray:
+        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
+        return self.matrix[np.ix_(nodes, nodes)]
 
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
