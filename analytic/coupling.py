@@ -25,9 +25,10 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+import scipy.linalg
 from numpy.typing import ArrayLike
 
-from analytic.convolution import Convolution
+from analytic.convolution import DIRECT, Convolution
 from analytic.operators import HalfPlane, ModelOperator
 
 
@@ -35,8 +36,6 @@ class SkewOperator(Protocol):
     """Hat tractions (n,) [Pa] to weighted normal displacements (n,) [m^2] that do no work."""
 
     def apply(self, traction: np.ndarray) -> np.ndarray: ...
-
-    def block(self, nodes: np.ndarray) -> np.ndarray: ...
 
     def coarsened(self) -> "SkewOperator | None": ...
 
@@ -128,6 +127,13 @@ class CoupledHalfPlane(Convolution):
         """C alone, the half-planes without what friction does."""
         return self._half_plane(self.count, self.pitch)
 
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where there are so many that iterating is faster.
+        """
+        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
+
     def coarsened(self) -> "CoupledHalfPlane":
         """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
         return CoupledHalfPlane(
@@ -167,9 +173,17 @@ class CoupledPair:
         """Approximate inverse of C, positive definite."""
         return self.normal.precondition(displacement)
 
-    def block(self, nodes: np.ndarray) -> np.ndarray:
-        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
-        return self.normal.block(nodes) + self.friction * self.tangential.block(nodes)
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where there are so many that iterating is faster, or no matrices to take them from.
+        """
+        normal, tangential = self.normal, self.tangential
+        if not (isinstance(normal, Convolution) and isinstance(tangential, Convolution)):
+            return None
+        if len(nodes) > DIRECT:
+            return None
+        return eliminated(normal.block(nodes) + self.friction * tangential.block(nodes), right)
 
     def coarsened(self) -> "CoupledPair | None":
         """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
@@ -177,6 +191,11 @@ class CoupledPair:
         if normal is None or tangential is None:
             return None
         return CoupledPair(normal, tangential, self.friction)
+
+
+def eliminated(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solution (m, k) by Gauss' elimination: Cholesky's factor needs symmetry."""
+    return scipy.linalg.solve(matrix, right, check_finite=False)
 
 
 def _nothing(cycles: np.ndarray) -> np.ndarray:
