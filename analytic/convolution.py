@@ -8,6 +8,7 @@ on a periodic line the matrix is the circulant.
 """
 
 from collections.abc import Callable
+from functools import wraps
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
@@ -16,8 +17,21 @@ from scipy.linalg.lapack import dposv
 
 _KEPT = 31 * 2**20  # bytes; glibc's own limit is 32 MiB
 DIRECT = 160  # nodes from which iterating is faster than a Cholesky factor
-DIRECT_IN_A_ROW = 256  # the same for Levinson's recursion
+LEVINSON, DIRECT_IN_A_ROW = 64, 256  # nodes in a row between which Levinson's recursion is fastest
 _MARGIN = 8  # a line is closed to a ring for the inverse by an eighth of its length
+
+
+def made_once(method: Callable) -> Callable:
+    """A method without arguments whose value is made at the first call and kept."""
+    name = f"_{method.__name__}"
+
+    @wraps(method)
+    def kept(self):
+        if name not in self.__dict__:
+            self.__dict__[name] = method(self)
+        return self.__dict__[name]
+
+    return kept
 
 
 class Convolution:
@@ -78,12 +92,12 @@ class Convolution:
         None where there are so many that iterating is faster.
         """
         count = len(nodes)
-        if count <= DIRECT_IN_A_ROW and self.row is self.column:
+        if LEVINSON <= count <= DIRECT_IN_A_ROW and self.row is self.column:
             start = self._start_of_row(nodes)
             if start is not None:
-                in_a_row = np.roll(right, -start, axis=0)
+                in_a_row = np.concatenate((right[start:], right[:start]))
                 found = solve_toeplitz(self.column[:count], in_a_row, check_finite=False)
-                return np.roll(found, start, axis=0)
+                return np.concatenate((found[count - start :], found[: count - start]))
         if count > DIRECT:
             return None
         return cholesky_solve(self.block(nodes), right)

@@ -61,10 +61,12 @@ def foundation_start(
 
 def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:
     """Integrals over the coarse hats (n // 2,) from those over the fine ones (n,)."""
-    inner = 2 * np.arange(len(values) // 2) + 1
+    half, odd = divmod(len(values), 2)
+    coarse = values[1::2] + 0.5 * values[0 : 2 * half : 2]
+    coarse[:-1] += 0.5 * values[2 : 2 * half : 2]
     # an even count leaves the last coarse hat half a fine one short: a copy stands for it
-    padded = np.append(values, values[0] if periodic else values[-1])
-    return 0.5 * padded[inner - 1] + padded[inner] + 0.5 * padded[inner + 1]
+    coarse[-1] += 0.5 * (values[-1] if odd or not periodic else values[0])
+    return coarse
 
 
 def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:

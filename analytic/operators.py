@@ -18,7 +18,7 @@ from typing import Literal, Protocol
 import numpy as np
 import scipy.linalg
 
-from analytic.convolution import Convolution, cholesky_solve
+from analytic.convolution import Convolution, cholesky_solve, made_once
 from analytic.elements import hat_galerkin, strip_displacement
 
 Element = Literal["hat", "strip"]
@@ -93,6 +93,7 @@ class HalfPlane(Convolution):
         self.coefficients = -scale * (log_integral + np.log(pitch / self.datum))
         super().__init__(self.coefficients, self._symbol)
 
+    @made_once
     def coarsened(self) -> "HalfPlane":
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
         half = self.count // 2
@@ -163,6 +164,7 @@ class DenseCompliance:
         """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
         return self.matrix[np.ix_(nodes, nodes)]
 
+    @made_once
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         inner = 2 * np.arange(self.count // 2) + 1

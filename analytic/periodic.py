@@ -14,7 +14,7 @@ import numpy as np
 from scipy.fft import irfft
 from scipy.special import zeta
 
-from analytic.convolution import Convolution
+from analytic.convolution import Convolution, made_once
 from analytic.operators import Element
 
 FEWEST = 4  # elements of a coarsened period
@@ -43,6 +43,7 @@ class PeriodicHalfPlane(Convolution):
         self.coefficients = irfft(self._symbol(cycles), count)
         super().__init__(self.coefficients, None, periodic=True)
 
+    @made_once
     def coarsened(self) -> "PeriodicHalfPlane | None":
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …
 
