@@ -11,18 +11,20 @@ residual stress. Ground is only ever lowered.
 
     z   height [m]               x_c  position of the roller's centre [m]
     g   gap, averaged over a     d    overlap -g where p = H, else 0 [m]
-        hat [m]                  phi  hat of height 1
+        hat [m]
     p   pressure [Pa]            H    hardness [Pa]
 
-The profile is lowered by sum_i d_i phi_i, at its own samples and, where hats are narrower, at
-their middles as well, which become samples. It meets the overlap to second order in the pitch,
-and never lifts ground.
+The profile is lowered by d_i in the middle of hat i, and between by the C2 cubic spline through
+these, whose kinks attract no pressure, but never lifted nor lowered beside hats that flowed. It
+is lowered at its samples and, where hats are narrower, at their middles as well, which become
+samples. The lowering meets the overlap to second order in the pitch.
 """
 
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from analytic.contact import ContactSolution, solve_contact
 from analytic.equilibrium import SET_TOLERANCE, Constraints
@@ -65,16 +67,20 @@ class Pass:
 class RunIn:
     """A profile after running-in.
 
-    profile   the samples of the profile before, and in the swept stretch the middles of hats
-    lowering  (n,) [m] how far each of its samples was lowered, >= 0
+    before    the profile as it was given
+    profile   its samples, and in the swept stretch the middles of hats, lowered
+    lowering  (n,) [m] how far each of these was lowered, >= 0
+    constraints  load and hardness
     passes    in order; `sweeps` of them over all positions
     pitch     of the pressure hats [m]
     status    shaken down: the last sweep moved at most SETTLED of the volume of all;
               passes spent: it moved more, and no further sweep was allowed
     """
 
+    before: Profile
     profile: Profile
     lowering: np.ndarray
+    constraints: Constraints
     passes: tuple[Pass, ...]
     sweeps: int
     pitch: float
@@ -160,6 +166,7 @@ class _Surface:
         pitch: float,
         positions: np.ndarray,
     ) -> None:
+        self.profile = profile
         self.radius, self.modulus, self.constraints = radius, modulus, constraints
         self.origin = float(profile.x[0])
         self.whole = HatGrid.within(0.0, profile.length, pitch)
@@ -173,7 +180,7 @@ class _Surface:
         swept = (middles >= places.min() - reach) & (middles <= places.max() + reach)
         self.x = _joined(profile.x - self.origin, middles[swept], NEAR * pitch)
         self.widths = trapezoid_widths(self.x)
-        self.before = profile.spline()(np.clip(self.x + self.origin, *profile.x[[0, -1]]))
+        self.height = profile.spline()(np.clip(self.x + self.origin, *profile.x[[0, -1]]))
         self.lowering = np.zeros_like(self.x)
         self.starts: dict[tuple[float, int], np.ndarray] = {}
 
@@ -190,7 +197,9 @@ class _Surface:
         overlap = np.where(capped, np.maximum(-solution.gap, 0.0), 0.0)
         part = self._part(grid, 0)
         # an end of the trace, beyond the last hat's middle, goes down with it
-        taken = np.interp(self.x[part], grid.x, overlap)
+        places = np.clip(self.x[part], *grid.x[[0, -1]])
+        flowed = np.interp(places, grid.x, overlap) > 0.0
+        taken = np.where(flowed, np.maximum(CubicSpline(grid.x, overlap)(places), 0.0), 0.0)
         self.lowering[part] += taken
         first, last = np.flatnonzero(solution.pressure > 0.0)[[0, -1]] + grid.first
         return Pass(
@@ -232,7 +241,7 @@ class _Surface:
     def _gap(self, place: float, grid: HatGrid) -> np.ndarray:
         """Weighted gap (n,) [m^2] under the roller at a place, over the profile as it is now."""
         near = self._part(grid, SPLINE_REACH)
-        height = Profile(self.x[near], (self.before - self.lowering)[near]).spline()
+        height = Profile(self.x[near], (self.height - self.lowering)[near]).spline()
         gap = roller_gap(self.radius, lambda from_centre: height(from_centre + place))
         return grid.average(lambda x: gap(x - place), height.x)
 
@@ -246,7 +255,9 @@ class _Surface:
 
     def result(self, passes: list[Pass], sweeps: int, status: Status) -> RunIn:
         return RunIn(
-            profile=Profile(self.x + self.origin, self.before - self.lowering),
+            before=self.profile,
+            constraints=self.constraints,
+            profile=Profile(self.x + self.origin, self.height - self.lowering),
             lowering=self.lowering,
             passes=tuple(passes),
             sweeps=sweeps,

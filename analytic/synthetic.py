@@ -201,7 +201,8 @@ def _check_wavelengths(shortest: float, longest: float, spacing: float, period: 
         )
     if _whole(longest / period) > 1.0:
         raise ValueError(
-            f"longest_wavelength {longest:g} m does not fit the trace, which holds {period:g} m"
+            f"longest_wavelength {longest:g} m does not fit the trace; allowed is at most "
+            f"{period:g} m"
         )
 
 

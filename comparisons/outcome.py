@@ -33,7 +33,10 @@ class Outcome:
 
     @property
     def converged(self) -> bool:
-        """Whether every level of every model met its contact conditions."""
+        """Whether every level of every model met its contact conditions, and running-in did."""
+        worn = self.problem.scene.worn
+        if worn is not None and not worn.converged:
+            return False
         return all(level.solution.converged for run in self.runs.values() for level in run.levels)
 
     @property

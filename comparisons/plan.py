@@ -7,6 +7,7 @@ leaves nothing out, for the test of that.
 from dataclasses import dataclass, replace
 
 from comparisons.problem import Problem
+from comparisons.running_in import running_in_assumptions
 from comparisons.scene import ResolvedScene
 
 MODELS = ("half_plane", "finite_element")
@@ -25,6 +26,7 @@ class Plan:
     """Steps of a run.
 
     models          of MODELS
+    running_in      the surface is run in before it is pressed
     stress          compute subsurface fields
     tangential      compute the part that friction adds to them
     shared_factor   the roller's block is the body's with another modulus: one factorisation
@@ -34,6 +36,7 @@ class Plan:
     """
 
     models: tuple[str, ...]
+    running_in: bool
     stress: bool
     tangential: bool
     shared_factor: bool
@@ -78,6 +81,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         skipped.append(Skipped("comparison", "it takes both models"))
     return Plan(
         models=models,
+        running_in=scene.running_in is not None,
         stress=stress,
         tangential=tangential,
         shared_factor=shared,
@@ -118,6 +122,8 @@ def _assumptions(problem: Problem) -> tuple[str, ...]:
             "finite elements: the pressure acts on the real, undeformed boundary along the "
             "roller's normal; next to it stresses are those of asperities that do not flatten"
         )
+    if scene.running_in is not None:
+        listed += running_in_assumptions(scene)
     if scene.hardness is not None:
         listed.append("plastic flow is a cap on the pressure (hardness)")
     if any(scene.friction):

@@ -20,6 +20,7 @@ from analytic.patches import contact_patches
 from analytic.profile import surface
 from analytic.roughness import shortest_wavelength
 from comparisons.errors import SceneError
+from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
 
 SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
@@ -38,7 +39,7 @@ MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in 
 class Problem:
     """What both models solve.
 
-    scene      as resolved
+    scene      as resolved, its surface run in where it asks for that
     modulus    E* of roller and body [Pa]
     hertz      the smooth contact under the same load
     gap        initial gap g0(x) [m] but for a constant
@@ -96,9 +97,12 @@ class Problem:
 def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
 
+    The surface is run in first, where the scene asks for it and it was not done yet.
+
     Raises SceneError where the contact would reach beyond the trace, the load exceeds what the
     surface can carry at its hardness, or the pressure elements are too coarse or too many.
     """
+    scene = run_in_scene(scene)
     modulus = combined_modulus(scene.roller, scene.body)
     hertz = _smooth_contact(scene, modulus, load)
     curve = None if scene.profile is None else surface(scene.profile)

@@ -69,8 +69,11 @@ def digest(*arrays: np.ndarray) -> str:
 
 
 def record_of(scene: ResolvedScene, models: tuple[str, ...], hashes: dict[str, str]) -> dict:
-    """record.json: everything that a repetition needs, the profile's samples included."""
-    profile = scene.profile
+    """record.json: everything that a repetition needs, the profile's samples included.
+
+    They are those before any running-in, which a repetition repeats.
+    """
+    profile = scene.unworn
     return {
         "schema": 1,
         "name": scene.name,

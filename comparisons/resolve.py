@@ -18,6 +18,7 @@ from comparisons.scene import (
 from comparisons.scene_errors import scene_error
 from comparisons.scene_file import find_scene, read_toml
 from comparisons.scene_profile import profile_of, sinusoid_length
+from comparisons.scene_running_in import running_in_of
 from comparisons.scene_schema import RollerTable, SceneTables, plain_tables
 
 LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
@@ -58,15 +59,22 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
     position = scene.load.position or 0.0
     if scene.profile is not None:
         if scene.profile.kind == "sinusoid":
-            plain["profile"].setdefault(
-                "length", sinusoid_length(scene.profile, load, scene.roller.radius, roller, body)
-            )
+            length = sinusoid_length(scene.profile, load, scene.roller.radius, roller, body)
+            if scene.running_in is not None:
+                length += scene.running_in.travel(position)
+            plain["profile"].setdefault("length", length)
         profile, info, position = profile_of(
             plain["profile"], scene.load.position, folder=folder, source=source
         )
         if info.cutoff is not None:
             plain["profile"]["cutoff"] = info.cutoff  # of "auto", what it came to
     plain["load"]["position"] = position
+    running_in = None
+    if scene.running_in is not None:
+        running_in, defaults = running_in_of(
+            scene.running_in, scene.body.hardness, position, profile, source
+        )
+        plain["running_in"] |= defaults
     return ResolvedScene(
         name=name,
         source=source,
@@ -81,6 +89,7 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         profile=profile,
         profile_info=info,
         load=load,
+        running_in=running_in,
         friction=scene.load.friction,
         position=position,
         stress=None if scene.stress is None else StressWindow(**dict(scene.stress)),

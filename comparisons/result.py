@@ -5,6 +5,7 @@ from comparisons.level import Level, ModelRun, StressResult
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
+from comparisons.running_in import running_in_account
 from comparisons.unshown import unshown_effects
 from comparisons.verdict import Comparison, half_space_verdict
 
@@ -40,6 +41,7 @@ def result_of(
         "schema": SCHEMA,
         "scene": problem.scene.as_dict(),
         "profile": problem.scene.profile_info and problem.scene.profile_info.surface(),
+        "running_in": running_in_account(problem.scene),
         "groups": groups,
         "hertz": {
             "half_width": hertz.half_width,

@@ -12,6 +12,7 @@ from comparisons.plan import Plan, make_plan
 from comparisons.problem import Problem, problem_of
 from comparisons.record import digest, record_of
 from comparisons.result import result_of
+from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, Stages, silent
 from comparisons.window import window_of
@@ -36,6 +37,9 @@ def run(
     """
     stages = Stages(listener)
     try:
+        if scene.running_in is not None:
+            with stages.stage("running-in", "running the surface in"):
+                scene = run_in_scene(scene)
         with stages.stage("set-up", "finding the reach of the contact"):
             problem = _problem(scene, models, listener)
         return solve(problem, make_plan(problem, models), out, listener)
@@ -81,6 +85,9 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         f"{name}_pressure": digest(level_run.finest.solution.pressure)
         for name, level_run in runs.items()
     }
+    worn = problem.scene.worn
+    if worn is not None:
+        hashes["run_in_profile"] = digest(worn.profile.x, worn.profile.height)
     outcome = Outcome(
         problem=problem,
         plan=plan,

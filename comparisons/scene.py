@@ -14,6 +14,7 @@ from analytic.material import Material
 from analytic.profile import Profile
 from analytic.roughness import Roughness
 from analytic.roughness_standard import StandardRoughness
+from analytic.running_in import RunIn
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,22 @@ class Load:
 
     kind: str
     value: float
+
+
+@dataclass(frozen=True)
+class RunningIn:
+    """How the surface is run in before it is pressed.
+
+    hardness   [Pa] at which asperities flow
+    load       [N/m], None for the scene's own
+    positions  [m] of the roller's centre on the trace as it was given, in order
+    sweeps     over all of them, at most
+    """
+
+    hardness: float
+    load: float | None
+    positions: tuple[float, ...]
+    sweeps: int
 
 
 @dataclass(frozen=True)
@@ -138,12 +155,15 @@ class ResolvedScene:
     thickness, width [m] of the body, None where it is unbounded
     base             bonded | frictionless, None without thickness
     profile          None is a smooth body
+    running_in       None: the surface is pressed as it is
     friction         coefficients, one result for each
     position         [m] where x = 0 lies on the trace as it was given
     stress           None: no field is asked for
     tolerance        relative, by the name of the compared quantity; others are not judged
     tables           the scene file with SI numbers and every default written out: resolving
                      them again, in a folder that holds the profile's file, gives this scene
+    worn             what running-in did to the surface, None until it was done; then the
+                     profile and its figures are those after it
     """
 
     name: str
@@ -159,6 +179,7 @@ class ResolvedScene:
     profile: Profile | None = field(compare=False)
     profile_info: ProfileInfo | None
     load: Load
+    running_in: RunningIn | None
     friction: tuple[float, ...]
     position: float
     stress: StressWindow | None
@@ -167,6 +188,12 @@ class ResolvedScene:
     resolution: Resolution
     budget: Budget
     tables: dict = field(repr=False)
+    worn: RunIn | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def unworn(self) -> Profile | None:
+        """The profile before any running-in."""
+        return self.profile if self.worn is None else self.worn.before
 
     def as_dict(self) -> dict:
         """For JSON: `tables` with the scene's name and what became of its profile."""
@@ -174,6 +201,7 @@ class ResolvedScene:
             "name": self.name,
             "title": self.title,
             "profile": None,
+            "running_in": None,
             "stress": None,
             **copy.deepcopy(self.tables),
             "profile_info": self.profile_info.as_dict() if self.profile_info else None,

@@ -21,6 +21,7 @@ from comparisons.scene_fields import (
     Whole,
 )
 from comparisons.scene_profile_table import ProfileTable
+from comparisons.scene_running_in import RunningInTable
 from comparisons.scene_table import FieldError, Fraction, Length, Table
 from comparisons.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME
 
@@ -138,6 +139,7 @@ class SceneTables(Table):
     body: BodyTable
     profile: ProfileTable | None = None
     load: LoadTable
+    running_in: RunningInTable | None = None
     stress: StressTable | None = None
     tolerance: ToleranceTable = ToleranceTable()
     finite_element: FiniteElementTable = FiniteElementTable()
@@ -152,6 +154,12 @@ class SceneTables(Table):
                 "has no meaning on a half-plane, whose displacement has no datum; "
                 "allowed is per_length or hertz_peak_pressure, or approach with body.thickness",
             )
+        return self
+
+    @model_validator(mode="after")
+    def _running_in_has_what_it_takes(self) -> "SceneTables":
+        if self.running_in is not None:
+            self.running_in.check(self.profile, self.body.hardness, self.load.kind)
         return self
 
     @model_validator(mode="after")
@@ -184,6 +192,7 @@ SECTIONS: dict[str, type[Table]] = {
     "body": BodyTable,
     "profile": ProfileTable,
     "load": LoadTable,
+    "running_in": RunningInTable,
     "stress": StressTable,
     "tolerance": ToleranceTable,
     "finite_element": FiniteElementTable,

@@ -6,9 +6,10 @@ from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.headline import headline
 from comparisons.report.numbers import with_unit
+from comparisons.report.running_in_picture import area
 from comparisons.report.sheet import in_mm
 from comparisons.report.words import LABELS
-from comparisons.scene import ProfileInfo
+from comparisons.scene import ProfileInfo, ResolvedScene
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -37,7 +38,18 @@ STYLES = {
 }
 # Any terminal shows these.
 PLAIN = str.maketrans(
-    {"µ": "u", "−": "-", "–": "-", "₀": "0", "₁": "1", "×": "x", "τ": "tau", "ν": "nu", "β": "beta"}
+    {
+        "µ": "u",
+        "²": "2",
+        "−": "-",
+        "–": "-",
+        "₀": "0",
+        "₁": "1",
+        "×": "x",
+        "τ": "tau",
+        "ν": "nu",
+        "β": "beta",
+    }
 )
 
 
@@ -108,6 +120,16 @@ def surface_text(info: ProfileInfo) -> str:
     return text
 
 
+def run_in_text(scene: ResolvedScene) -> str:
+    """How the surface was run in, and whether it shook down."""
+    worn = scene.worn
+    return (
+        f"{area(worn.volume)} moved in {len(worn.passes)} passes, "
+        f"{'' if worn.status == 'shaken down' else 'not '}shaken down"
+        f"{'' if worn.converged else ', not converged'}"
+    )
+
+
 def _facts(outcome: Outcome) -> "Table":
     from rich.table import Table
     from rich.text import Text
@@ -122,6 +144,8 @@ def _facts(outcome: Outcome) -> "Table":
     info = outcome.problem.scene.profile_info
     if info is not None:
         facts.add_row("surface", Text(surface_text(info).translate(PLAIN)))
+    if outcome.problem.scene.worn is not None:
+        facts.add_row("run in", Text(run_in_text(outcome.problem.scene).translate(PLAIN)))
     facts.add_row("time", times)
     facts.add_row("report", Text(str(outcome.directory / "report.html")))
     facts.add_row("figures", Text(str(outcome.directory / "result.json")))

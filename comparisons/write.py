@@ -12,6 +12,7 @@ from comparisons.outcome import Outcome
 from comparisons.problem import Problem
 from comparisons.rank import is_first
 from comparisons.record import as_json
+from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener
 
 
@@ -30,6 +31,8 @@ def write_files(outcome: Outcome, listener: Listener) -> None:
                 from meshes.store import write_msh
 
                 write_msh(run.finest.mesh, folder / name / "mesh.msh")
+        if outcome.problem.scene.worn is not None:
+            write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
         listener("drawing the report")
@@ -54,6 +57,21 @@ def write_contact(path: Path, problem: Problem, level: Level) -> None:
         delimiter=",",
         fmt="%.12g",
         header="x [m],pressure [Pa],gap [m],deformed height [m]",
+        comments="",
+    )
+
+
+def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
+    """run_in_profile.csv: the trace as it was given along x, its height before and after."""
+    worn = scene.worn
+    after = worn.profile.height
+    columns = np.column_stack([worn.profile.x + scene.position, after + worn.lowering, after])
+    np.savetxt(
+        path,
+        columns,
+        delimiter=",",
+        fmt="%.12g",
+        header="x [m],height before running-in [m],height [m]",
         comments="",
     )
 

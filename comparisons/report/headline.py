@@ -120,9 +120,14 @@ def _one_model(outcome: Outcome) -> str:
 
 
 def _unconverged(outcome: Outcome) -> str:
-    return ", ".join(
+    found = [
         f"{MODELS[name]}, pressure elements of {given(level.grid.pitch, 'm')}"
         for name, run in outcome.runs.items()
         for level in run.levels
         if not level.solution.converged
-    )
+    ]
+    worn = outcome.problem.scene.worn
+    if worn is not None and not worn.converged:
+        failed = sum(not one.converged for one in worn.passes)
+        found.insert(0, f"running-in, {failed} of {len(worn.passes)} passes")
+    return ", ".join(found)

@@ -28,6 +28,7 @@ class Pictures:
     """All pictures of a run; empty for what does not apply."""
 
     problem: Picture
+    running_in: Picture | None
     pressure: Picture
     close_up: Picture
     surface: Picture
@@ -79,12 +80,14 @@ def draw(outcome: Outcome) -> Pictures:
     from comparisons.report.mesh_picture import mesh_pictures
     from comparisons.report.pressure_pictures import close_up_picture, pressure_picture
     from comparisons.report.problem_picture import problem_picture
+    from comparisons.report.running_in_picture import running_in_picture
     from comparisons.report.section_pictures import section_pictures
     from comparisons.report.surface_picture import surface_picture
 
     with drawing():
         return Pictures(
             problem=problem_picture(outcome),
+            running_in=running_in_picture(outcome),
             pressure=pressure_picture(outcome),
             close_up=close_up_picture(outcome),
             surface=surface_picture(outcome),

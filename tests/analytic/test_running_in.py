@@ -199,6 +199,13 @@ class TestRefinement:
             WAVY.spline()(found.profile.x[found.lowering == 0.0]), abs=1e-20
         )
 
+    def test_hats_wider_than_the_samples_leave_no_kinks(self):
+        """Straight between the middles of hats, ground would press 10 % above the hardness."""
+        found = worn(pitch=2.0 * WAVY.spacing)
+        _, solution = pressed(found.profile, PLACES[1], WAVY.spacing / 4.0)
+        assert solution.pressure.max() < 1.04 * CAPPED.hardness
+        assert np.all(found.lowering >= 0.0)
+
     def test_samples_need_not_be_even(self):
         """Samples anywhere, hats from the same places: the same surface wears the same way."""
         generator = np.random.default_rng(3)

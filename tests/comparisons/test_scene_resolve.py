@@ -16,7 +16,7 @@ from analytic.material import Material, combined_modulus
 from comparisons.errors import SceneError
 from comparisons.quantities import QUANTITIES
 from comparisons.resolve import load_scene, resolve_tables
-from comparisons.scene import Budget, Extent, FiniteElementSettings, Load, Resolution
+from comparisons.scene import Budget, Extent, FiniteElementSettings, Load, Resolution, RunningIn
 from comparisons.scene_file import SCENES, scene_names
 from comparisons.scene_schema import SECTIONS, ToleranceTable
 
@@ -47,6 +47,12 @@ FULL = {
         "longest_wavelength": "1 mm",
     },
     "load": {"hertz_peak_pressure": "2 GPa", "friction": [0, 0.1], "position": "0.1 mm"},
+    "running_in": {
+        "hardness": "6 GPa",
+        "load": "3 N/um",
+        "positions": ["-0.2 mm", 3e-4],
+        "sweeps": 3,
+    },
     "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
     "tolerance": {"peak_pressure": 0.01, "tau1_field_deep": "5 %"},
     "finite_element": {"geometry": "rough", "block": 200, "growth": 0.1},
@@ -89,6 +95,7 @@ def test_everything_that_can_be_said():
     assert scene.load == Load("hertz_peak_pressure", 2e9)
     assert scene.friction == (0.0, 0.1)
     assert scene.position == 1e-4
+    assert scene.running_in == RunningIn(6e9, 3e6, (-2e-4, 3e-4), 3)
     assert scene.stress.depth == Extent(512.3456789e-6, in_half_widths=False)
     assert scene.stress.half_range == Extent(1.5, in_half_widths=True)
     assert scene.stress.points == (30, 20)

@@ -146,6 +146,7 @@ def test_every_scene_is_named_here():
     assert set(scene_names()) == {
         "ground-polished",
         "ground-run-in",
+        "ground-running-in",
         "ground-unrun",
         "self-affine",
         "sinusoid",
