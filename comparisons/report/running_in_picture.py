@@ -64,7 +64,7 @@ def _drawn(outcome: Outcome, width: float) -> "Figure":
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
     drawn = figure(width, 3.2)
     left = 0.8 / width
-    axes = drawn.add_axes((left, 0.16, 0.98 - left, 0.8))
+    axes = drawn.add_axes((left, 0.16, 0.98 - left, 0.73))
     axes.plot(x / along.factor, before / up.factor, label="before running-in", **BEFORE)
     axes.plot(x / along.factor, after / up.factor, label="after", **AFTER)
     axes.set(
@@ -72,5 +72,5 @@ def _drawn(outcome: Outcome, width: float) -> "Figure":
         xlabel=f"x [{along.name}]",
         ylabel=f"height [{up.name}]",
     )
-    axes.legend(loc="lower right", ncol=2)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2)
     return drawn
