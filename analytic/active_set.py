@@ -15,7 +15,6 @@ PATIENCE = 8  # block exchanges without progress before the primal method
 REDUCTION = 1e-2  # of the residual by each exchange while the set moves; 0.1 may go on for long
 SHARPER = 0.1  # times that, after each exchange without progress
 MAX_EXCHANGES = 200
-PLASTIC = 10  # times as many nodes at the hardness as free ones
 WORTHWHILE = 0.1  # of the energy that the equilibrium would release, taken by one step towards it
 
 
@@ -24,9 +23,9 @@ def exchange_blocks(
 ) -> np.ndarray:
     """Primal-dual active set: every node that breaks its sign condition changes sides at once.
 
-    It ends when no more than `settled` of the free nodes' number break theirs, and with
-    settled = 0 when none does in an accurate equilibrium. With settled > 0 it gives up instead
-    of starting the primal method.
+    It ends when no more than `settled` of the edges' number break theirs, and with settled = 0
+    when none does in an accurate equilibrium. With settled > 0 it gives up instead of starting
+    the primal method.
     """
     pressure, reduction = start, REDUCTION
     sides = Sides.of(start, problem.constraints.hardness)
@@ -39,7 +38,7 @@ def exchange_blocks(
         count = broken.count()
         if count == 0 and rest.accurate:
             return pressure
-        if settled and count <= settled * np.count_nonzero(sides.free):
+        if settled and count <= settled * sides.edges():
             return pressure
         if count < fewest:
             fewest, patience = count, PATIENCE
@@ -52,10 +51,8 @@ def exchange_blocks(
             break
         if count == 0:
             reduction = 0.0
-        plastic = problem.by_load and np.count_nonzero(sides.upper) > PLASTIC * np.count_nonzero(
-            sides.free
-        )
-        sides = problem.balanced(rest) if plastic and count else sides.exchanged(broken)
+        plastic = problem.by_load and count > 0 and sides.mostly_upper()
+        sides = problem.balanced(rest) if plastic else sides.exchanged(broken)
     return exchange_feasibly(problem, pressure, sides)
 
 

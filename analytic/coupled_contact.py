@@ -98,7 +98,7 @@ def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
 def _exchange(
     problem: CoupledEquilibrium, start: np.ndarray, settled: float = 0.0
 ) -> tuple[np.ndarray, bool]:
-    """Block exchanges until no more than `settled` of the free nodes' number break their sign
+    """Block exchanges until no more than `settled` of the edges' number break their sign
     conditions, with 0 until none does in an accurate equilibrium; and whether that was reached."""
     pressure, reduction = start, REDUCTION
     sides = Sides.of(start, problem.constraints.hardness)
@@ -111,7 +111,7 @@ def _exchange(
         count = broken.count()
         if count == 0 and rest.accurate:
             return pressure, True
-        if settled and count <= settled * np.count_nonzero(sides.free):
+        if settled and count <= settled * sides.edges():
             return pressure, True
         if count == 0:
             reduction = 0.0

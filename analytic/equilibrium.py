@@ -19,6 +19,7 @@ ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
 STALLED = 40  # steps of conjugate gradients without a new least residual: rounding is reached
+PLASTIC = 10  # nodes at the hardness to each free one, from which these alone do not lead on
 BISECTIONS = 100  # to a shift of pressures right to rounding
 
 _Inverse = Callable[[np.ndarray], np.ndarray]
@@ -68,6 +69,14 @@ class Sides:
     @cached_property
     def free(self) -> np.ndarray:
         return ~(self.lower | self.upper)
+
+    def edges(self) -> int:
+        """Places where the free nodes begin or end."""
+        return int(np.count_nonzero(self.free[1:] != self.free[:-1]))
+
+    def mostly_upper(self) -> bool:
+        """Whether PLASTIC times as many nodes are at the hardness as are free."""
+        return bool(np.count_nonzero(self.upper) > PLASTIC * np.count_nonzero(self.free))
 
     def exchanged(self, broken: Broken) -> "Sides":
         return Sides(

@@ -14,7 +14,6 @@ iterations nearly independent of the number of patches.
 """
 
 import numpy as np
-from scipy.sparse import csr_array
 
 
 class Extension:
@@ -26,35 +25,41 @@ class Extension:
     """
 
     def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
-        free = len(nodes)
-        marks = np.zeros(count, dtype=np.int32)
+        marks = np.zeros(count, dtype=np.intp)
         marks[nodes] = 1
-        before = np.cumsum(marks, dtype=np.int32) - 1  # -1 is the last node, from a turn before
-        after = before + 1
-        after[nodes[-1] :] = 0
+        before = np.cumsum(marks) - 1  # the last free node, here -1 before the first of them
         widths = np.diff(nodes, append=nodes[0] + count)  # from each free node to the next
         steps = np.arange(count) - nodes[before]
         steps[: nodes[0]] += count
         share = _share_of_next(steps, widths[before])
-        before[: nodes[0]] = free - 1
         if not closed:
             share[: nodes[0]] = 1.0
             share[nodes[-1] :] = 0.0
-        columns = np.empty(2 * count, dtype=np.int32)
-        columns[0::2], columns[1::2] = before, after
-        values = np.empty(2 * count)
-        values[0::2], values[1::2] = 1.0 - share, share
-        rows = np.arange(0, 2 * count + 1, 2, dtype=np.int32)
-        self._matrix = csr_array((values, columns, rows), shape=(count, free))
-        self._transpose = self._matrix.T
+        self._before, self._share = before, share
+        # the line before the first free node belongs to the gap behind the last
+        self._split = bool(nodes[0] > 0)
+        self._gaps = np.concatenate(([0], nodes)) if self._split else nodes
 
     def extend(self, values: np.ndarray) -> np.ndarray:
         """E v: displacements (count,) from those (m,) of the free nodes."""
-        return self._matrix @ values
+        rise = np.concatenate((values[1:], values[:1])) - values  # over each gap
+        extended = rise[self._before]
+        extended *= self._share
+        extended += values[self._before]
+        return extended
 
     def gather(self, values: np.ndarray) -> np.ndarray:
         """E' v: the grid's (count,) forces as forces (m,) on the free nodes."""
-        return self._transpose @ values
+        whole = np.add.reduceat(values, self._gaps)
+        of_next = np.add.reduceat(values * self._share, self._gaps)
+        if self._split:
+            whole[-1] += whole[0]
+            of_next[-1] += of_next[0]
+            whole, of_next = whole[1:], of_next[1:]
+        whole -= of_next
+        whole[1:] += of_next[:-1]
+        whole[0] += of_next[-1]
+        return whole
 
 
 def _share_of_next(steps: np.ndarray, widths: np.ndarray) -> np.ndarray:

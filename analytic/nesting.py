@@ -14,7 +14,7 @@ from analytic.equilibrium import Constraints, EquilibriumProblem
 COARSEST = 128  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
-SETTLED = 0.01  # of a coarse grid's free nodes may still be on the wrong side
+SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
 
 
 def coarse_start(
