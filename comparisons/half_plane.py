@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 
-from analytic.contact import solve_contact
+from analytic.coupled_contact import solve_coupled
+from analytic.coupling import CoupledHalfPlane
+from analytic.gap import HatGrid
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.stress_field import friction_field
@@ -18,13 +20,28 @@ def half_plane_level(
     problem: Problem, plan: Plan, pitch: float, window: Window | None, stages: Stages
 ) -> Level:
     """Solve one level: contact, and where asked for the stresses on the window."""
-    scene = problem.scene
+    frictions, grid = problem.scene.friction, problem.grid(pitch)
+    return half_plane_on(problem, grid, problem.coupling, frictions, window, stages)
+
+
+def half_plane_on(
+    problem: Problem,
+    grid: HatGrid,
+    friction_dundurs: float,
+    frictions: tuple[float, ...],
+    window: Window | None,
+    stages: Stages,
+) -> Level:
+    """The half-plane on any pressure elements.
+
+    friction_dundurs  mu beta by which sliding traction moves the surfaces; 0 leaves it out
+    frictions         coefficients that stresses are computed for
+    """
     with stages.stage("contact", "half-plane: contact"):
-        grid = problem.grid(pitch)
-        operator = HalfPlane(grid.count, pitch, problem.modulus)
+        operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
         average = grid.average(problem.gap, problem.knots)
-        solution = solve_contact(operator, average, grid.weights, problem.constraints())
-        body = HalfPlane(grid.count, pitch, scene.body.plane_strain_modulus)
+        solution = solve_coupled(operator, average, grid.weights, problem.constraints())
+        body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
         level = Level(
             grid=grid,
             solution=solution,
@@ -36,12 +53,12 @@ def half_plane_level(
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "half-plane: stresses"):
-        stresses = _stresses(problem, plan, level, window)
+        stresses = _stresses(problem, frictions, level, window)
     return replace(level, stresses=stresses, peak_memory=peak_memory())
 
 
 def _stresses(
-    problem: Problem, plan: Plan, level: Level, window: Window
+    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window
 ) -> tuple[StressResult, ...]:
     """Fields on the window and extremes off the grid, one set for each friction coefficient."""
     x, pressure = level.grid.x, level.solution.pressure
@@ -57,7 +74,7 @@ def _stresses(
         for points in (window, search_window(problem, window))
     )
     results = []
-    for friction in problem.scene.friction:
+    for friction in frictions:
         found = stress_maxima(
             x, pressure, friction, searched.at(friction), problem.scene.body.poissons_ratio
         )

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.coupling import Coupling
 from comparisons.exit_status import ExitStatus
 from comparisons.level import ModelRun, Window
 from comparisons.plan import Plan
@@ -20,6 +21,8 @@ class Outcome:
     result       the content of result.json
     record       the content of record.json
     directory    where the files are
+    couplings    what friction changes on the half-plane by moving the surfaces, one a friction
+                 coefficient; empty where it moves nothing
     """
 
     problem: Problem
@@ -30,6 +33,7 @@ class Outcome:
     result: dict
     record: dict
     directory: Path
+    couplings: tuple[Coupling, ...] = ()
 
     @property
     def converged(self) -> bool:
@@ -37,7 +41,10 @@ class Outcome:
         worn = self.problem.scene.worn
         if worn is not None and not worn.converged:
             return False
-        return all(level.solution.converged for run in self.runs.values() for level in run.levels)
+        levels = [level for run in self.runs.values() for level in run.levels]
+        return all(level.solution.converged for level in levels) and all(
+            coupling.converged for coupling in self.couplings
+        )
 
     @property
     def exit_status(self) -> ExitStatus:

@@ -30,6 +30,7 @@ class Plan:
     stress          compute subsurface fields
     tangential      compute the part that friction adds to them
     shared_factor   the roller's block is the body's with another modulus: one factorisation
+    coupling        what friction does to the contact by moving the surfaces, on the half-plane
     domain_check    repeat the coarsest finite-element level on a block of half the size
     skipped         what is left out, each with its reason
     assumptions     what both models of this run take for granted
@@ -40,6 +41,7 @@ class Plan:
     stress: bool
     tangential: bool
     shared_factor: bool
+    coupling: bool
     domain_check: bool
     skipped: tuple[Skipped, ...]
     assumptions: tuple[str, ...]
@@ -56,6 +58,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     stress = scene.stress is not None
     tangential = stress and any(scene.friction)
     shared = finite_elements and _shares_factor(scene)
+    uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
+    coupling = "half_plane" in models and not all(uncoupled)
     domain_check = finite_elements and (scene.thickness is None or scene.width is None)
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
@@ -69,6 +73,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
     skip(stress and not tangential, "stresses of the sliding traction", "there is no friction")
     skip(scene.hardness is None, "hardness cap", "the body has no hardness")
+    if "half_plane" in models:
+        skip(not coupling, "coupling", uncoupled[-1])
     if finite_elements:
         skip(scene.roller is None, "mesh of the roller", "it is rigid")
         skip(
@@ -85,10 +91,20 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         stress=stress,
         tangential=tangential,
         shared_factor=shared,
+        coupling=coupling,
         domain_check=domain_check,
         skipped=tuple(skipped),
         assumptions=_assumptions(problem),
     )
+
+
+def no_coupling(problem: Problem, friction: float) -> str | None:
+    """Why friction does not move the contact by moving the surfaces, or None if it does."""
+    if friction == 0.0:
+        return "there is no friction"
+    if problem.dundurs_beta == 0.0:
+        return "the bodies have equal constants: Dundurs' beta is 0"
+    return None
 
 
 def unpruned(plan: Plan) -> Plan:
@@ -129,7 +145,9 @@ def _assumptions(problem: Problem) -> tuple[str, ...]:
     if any(scene.friction):
         size = max(scene.friction) * abs(beta)
         listed.append(
-            "the sliding traction does not change the pressure"
+            f"the sliding traction moves the surfaces (friction times Dundurs' beta is {size:.3g})"
+            if scene.coupled
+            else "the sliding traction does not change the pressure"
             + (
                 " (exact: Dundurs' beta is 0)"
                 if beta == 0.0

@@ -10,12 +10,12 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.contact import solve_contact
+from analytic.coupled_contact import solve_coupled
+from analytic.coupling import CoupledHalfPlane
 from analytic.equilibrium import Constraints
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.gap import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
-from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.profile import surface
 from analytic.roughness import shortest_wavelength
@@ -84,6 +84,12 @@ class Problem:
     def dundurs_beta(self) -> float:
         return dundurs_constants(self.scene.body, self.scene.roller)[1]
 
+    @property
+    def coupling(self) -> float:
+        """Friction times Dundurs' beta, by which traction moves the half-plane's surfaces; 0 where
+        the scene leaves that out."""
+        return self.scene.friction[0] * self.dundurs_beta if self.scene.coupled else 0.0
+
     def grid(self, pitch: float) -> HatGrid:
         """The pressure elements of a level."""
         return HatGrid.within(*self.extent, pitch)
@@ -116,7 +122,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
         pitches=(),
     )
     plain = scene.profile is None and scene.width is None and scene.hardness is None
-    if not plain:
+    if not plain or problem.coupling:
         problem = replace(problem, extent=_reach(problem))
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
@@ -131,16 +137,21 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
     return hertz_from_load(load, scene.roller_radius, modulus)
 
 
+def ground(scene: ResolvedScene) -> tuple[float, float]:
+    """Ends [m] of the trace or the body, whichever come first; infinite without either."""
+    start, stop = -np.inf, np.inf
+    if scene.profile is not None:
+        start, stop = scene.profile.x[[0, -1]]
+    if scene.width is not None:
+        start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    return start, stop
+
+
 def _reach(problem: Problem) -> tuple[float, float]:
     """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
     scene, half_width = problem.scene, problem.hertz.half_width
-    start, stop = -np.inf, np.inf
-    relief = 0.0
-    if scene.profile is not None:
-        start, stop = scene.profile.x[[0, -1]]
-        relief = float(np.ptp(scene.profile.height))
-    if scene.width is not None:
-        start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    start, stop = ground(scene)
+    relief = 0.0 if scene.profile is None else float(np.ptp(scene.profile.height))
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
     # ground this far out is lower than the roller even if the highest peak stood there
@@ -178,8 +189,8 @@ def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float
     """First and last contact [m] of the half-plane between `low` and `high`, by SCOUT_HATS
     pressures; and how near to the ends [m] that is too near."""
     grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
-    solution = solve_contact(
-        HalfPlane(grid.count, grid.pitch, problem.modulus),
+    solution = solve_coupled(
+        CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling),
         grid.average(problem.gap, problem.knots),
         grid.weights,
         problem.constraints(),

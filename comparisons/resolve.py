@@ -91,6 +91,7 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         load=load,
         running_in=running_in,
         friction=scene.load.friction,
+        coupled=scene.load.coupled,
         position=position,
         stress=None if scene.stress is None else StressWindow(**dict(scene.stress)),
         tolerance={name: value for name, value in scene.tolerance if value is not None},

@@ -1,8 +1,9 @@
 """The content of result.json, by the names that other people's scripts rely on."""
 
 from comparisons.compare import uncertainties
+from comparisons.coupling import Coupling
 from comparisons.level import Level, ModelRun, StressResult
-from comparisons.plan import Plan
+from comparisons.plan import Plan, no_coupling
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.running_in import running_in_account
@@ -18,11 +19,16 @@ def result_of(
     runs: dict[str, ModelRun],
     comparisons: tuple[Comparison, ...],
     refinement: str,
+    couplings: tuple[Coupling, ...] = (),
 ) -> dict:
-    """All figures of a run: SI units, None for what is unknown; `refinement`: why it stopped."""
+    """All figures of a run: SI units, None for what is unknown.
+
+    refinement  why it stopped
+    couplings   of the half-plane, one a friction coefficient
+    """
     hertz = problem.hertz
     groups = _groups(problem, runs)
-    unshown = unshown_effects(problem, runs)
+    unshown = unshown_effects(problem, runs, couplings)
     verdict, why = half_space_verdict(list(comparisons), unshown)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
@@ -51,7 +57,7 @@ def result_of(
             "tau1_max_depth": hertz.tau1_max_depth,
         },
         "models": {
-            name: [_model(problem, run, friction) for friction in problem.scene.friction]
+            name: [_model(problem, run, mu, couplings) for mu in problem.scene.friction]
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
@@ -77,7 +83,9 @@ def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | No
     }
 
 
-def _model(problem: Problem, run: ModelRun, friction: float) -> dict:
+def _model(
+    problem: Problem, run: ModelRun, friction: float, couplings: tuple[Coupling, ...]
+) -> dict:
     level = run.finest
     residuals = level.solution.residuals
     return {
@@ -107,7 +115,16 @@ def _model(problem: Problem, run: ModelRun, friction: float) -> dict:
             "unknowns": level.unknowns,
             "peak_memory": _peak_memory(problem, run),
         },
+        **(_coupling(problem, friction, couplings) if run.name == "half_plane" else {}),
     }
+
+
+def _coupling(problem: Problem, friction: float, couplings: tuple[Coupling, ...]) -> dict:
+    """What friction changes by moving the surfaces, or why there is nothing of that."""
+    found = next((c for c in couplings if c.friction == friction), None)
+    if found is None:
+        return {"coupling": None, "coupling_why": no_coupling(problem, friction)}
+    return {"coupling": found.as_dict(), "coupling_why": found.why}
 
 
 def _contact(problem: Problem, model: str, level: Level) -> dict:

@@ -5,6 +5,7 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compare
+from comparisons.coupling import couplings
 from comparisons.errors import InputError, SceneError
 from comparisons.ladder import refined
 from comparisons.outcome import Outcome
@@ -36,6 +37,11 @@ def run(
     nothing is written then.
     """
     stages = Stages(listener)
+    if scene.coupled and "finite_element" in models:
+        raise SceneError(
+            f"{scene.source}: load.coupled: is true, but the finite elements leave out that "
+            "friction moves the surfaces; allowed is true with --models half-plane, else false"
+        )
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
@@ -66,6 +72,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
     checkpoint = Checkpoint(out, problem.scene, plan)
     try:
         runs, stop = refined(problem, plan, window, checkpoint, listener)
+        moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     except (ContactError, InputError, MeshError):
@@ -80,7 +87,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
                 runs["half_plane"], runs["finite_element"], problem, friction, window
             )
         )
-    result = result_of(problem, plan, runs, comparisons, stop)
+    result = result_of(problem, plan, runs, comparisons, stop, moved)
     hashes = {
         f"{name}_pressure": digest(level_run.finest.solution.pressure)
         for name, level_run in runs.items()
@@ -97,6 +104,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         result=result,
         record=record_of(problem.scene, plan.models, hashes),
         directory=out,
+        couplings=moved,
     )
     write_files(outcome, listener)
     checkpoint.discard()

@@ -157,6 +157,7 @@ class ResolvedScene:
     profile          None is a smooth body
     running_in       None: the surface is pressed as it is
     friction         coefficients, one result for each
+    coupled          the half-plane's surfaces are moved by the sliding traction
     position         [m] where x = 0 lies on the trace as it was given
     stress           None: no field is asked for
     tolerance        relative, by the name of the compared quantity; others are not judged
@@ -181,6 +182,7 @@ class ResolvedScene:
     load: Load
     running_in: RunningIn | None
     friction: tuple[float, ...]
+    coupled: bool
     position: float
     stress: StressWindow | None
     tolerance: dict[str, float]

@@ -77,6 +77,7 @@ class LoadTable(Table):
     approach: Length | None = None
     friction: Frictions = (0.0,)
     position: Annotated[float, Number(LENGTH)] | None = None
+    coupled: Annotated[bool, Truth()] = False
 
     KINDS: ClassVar[tuple[str, ...]] = ("per_length", "hertz_peak_pressure", "approach")
 
@@ -93,6 +94,16 @@ class LoadTable(Table):
                 given[1] if given else "per_length",
                 f"is {f'given beside {given[0]}' if given else 'missing'}; "
                 "allowed is exactly one of " + ", ".join(self.KINDS),
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _one_friction_where_it_moves_the_contact(self) -> "LoadTable":
+        if self.coupled and len(self.friction) != 1:
+            raise FieldError(
+                "coupled",
+                f"is true with {len(self.friction)} friction coefficients, each of which has "
+                "pressures of its own then; allowed is one friction coefficient",
             )
         return self
 

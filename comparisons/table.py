@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
+from comparisons.report.coupling import coupling_line
 from comparisons.report.headline import headline
 from comparisons.report.numbers import with_unit
 from comparisons.report.running_in_picture import area
@@ -146,6 +147,9 @@ def _facts(outcome: Outcome) -> "Table":
         facts.add_row("surface", Text(surface_text(info).translate(PLAIN)))
     if outcome.problem.scene.worn is not None:
         facts.add_row("run in", Text(run_in_text(outcome.problem.scene).translate(PLAIN)))
+    moved = coupling_line(outcome)
+    if moved is not None:
+        facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))
     facts.add_row("time", times)
     facts.add_row("report", Text(str(outcome.directory / "report.html")))
     facts.add_row("figures", Text(str(outcome.directory / "result.json")))

@@ -126,6 +126,11 @@ def _unconverged(outcome: Outcome) -> str:
         for level in run.levels
         if not level.solution.converged
     ]
+    found += [
+        f"half-plane with surfaces moved by friction {plain(coupling.friction)}"
+        for coupling in outcome.couplings
+        if not coupling.converged
+    ]
     worn = outcome.problem.scene.worn
     if worn is not None and not worn.converged:
         failed = sum(not one.converged for one in worn.passes)

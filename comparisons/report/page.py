@@ -6,6 +6,7 @@ from pathlib import Path
 
 from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
+from comparisons.report.coupling import coupling_table
 from comparisons.report.evidence import (
     check_table,
     commands,
@@ -64,6 +65,7 @@ def render(outcome: Outcome) -> str:
         skipped=outcome.plan.skipped,
         refinement=outcome.result["refinement"],
         convergence=convergence_tables(outcome),
+        coupling=coupling_table(outcome),
         shared=shared_table(outcome),
         checks=check_table(outcome),
         cost=cost_table(outcome),

@@ -1,0 +1,313 @@
+"""What friction does by moving the surfaces: measured, told, judged, and left out where nothing."""
+
+import io
+import json
+from dataclasses import replace
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from analytic.material import Material, combined_modulus, dundurs_constants
+from comparisons.coupling import OFF_THE_GROUND, SHIFT, couplings
+from comparisons.errors import SceneError
+from comparisons.exit_status import ExitStatus
+from comparisons.half_plane import half_plane_level
+from comparisons.level import ModelRun
+from comparisons.outcome import Outcome
+from comparisons.plan import make_plan
+from comparisons.problem import problem_of
+from comparisons.report.coupling import coupling_line, coupling_table
+from comparisons.resolve import resolve_tables
+from comparisons.run import run
+from comparisons.stages import Stages, silent
+from comparisons.table import summary
+from comparisons.unshown import unshown_effects
+
+REFERENCES = json.loads(
+    (Path(__file__).resolve().parents[1] / "data" / "f_rounded_punch_and_sliding.json").read_text(
+        encoding="utf-8"
+    )
+)["sliding_cylinder"]
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+RIGID = {
+    "title": "Rigid roller",
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6, "friction": [0.0, 0.1, 0.3]},
+}
+FIELD = {"points": [60, 20]}
+HALF_PLANE = ("half_plane",)
+
+
+def scene_of(tables: dict, **load):
+    tables = {**tables, "load": {**tables["load"], **load}}
+    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+
+
+def solved(tables: dict, **load) -> Outcome:
+    """A run that leaves no files: drawing them takes longer than all the rest."""
+    with patch("comparisons.run.write_files"):
+        return run(scene_of(tables, **load), Path("made"), HALF_PLANE)
+
+
+def half_plane_of(problem) -> ModelRun:
+    plan = make_plan(problem, HALF_PLANE)
+    levels = (
+        half_plane_level(problem, plan, pitch, None, Stages(silent)) for pitch in problem.pitches
+    )
+    return ModelRun("half_plane", tuple(levels))
+
+
+@pytest.fixture(scope="module")
+def rigid(tmp_path_factory) -> Outcome:
+    """Three friction coefficients, with a field."""
+    scene = scene_of(RIGID | {"stress": FIELD})
+    return run(scene, tmp_path_factory.mktemp("rigid") / "out", HALF_PLANE)
+
+
+@pytest.fixture(scope="module")
+def rigid_coupled() -> Outcome:
+    return solved(RIGID | {"stress": FIELD}, friction=0.3, coupled=True)
+
+
+class TestFigures:
+    @pytest.mark.parametrize("entry", [1, 2])
+    def test_changes_are_those_of_the_exact_sliding_cylinder(self, rigid, entry):
+        """Rigid on nu = 0.3: beta = 2/7, mu = 0.1 and 0.3."""
+        reference = REFERENCES[entry - 1]
+        model = rigid.result["models"]["half_plane"][entry]
+        assert model["friction"] == float(reference["mu"]) and reference["beta"] == "2/7"
+        found, hertz = model["coupling"], rigid.problem.hertz
+        wider = float(reference["ahalf_over_aHertz_same_load"])
+        peak = float(reference["peak_over_p0Hertz_same_load"])
+        shift = float(reference["load_line_x_over_ahalf"]) * wider
+        assert found["peak_pressure"]["difference"] == pytest.approx(peak - 1.0, abs=2e-5)
+        assert found["peak_pressure"]["value"] / hertz.peak_pressure == pytest.approx(
+            peak, rel=2e-5
+        )
+        assert found["contact_length"]["value"] / hertz.half_width == pytest.approx(
+            2.0 * wider, rel=1e-3
+        )
+        assert found[SHIFT]["difference"] == pytest.approx(shift, rel=1e-3)
+        assert found[SHIFT]["value"] == pytest.approx(shift * hertz.half_width, rel=1e-3)
+        assert found["converged"] is True and model["coupling_why"] is None
+
+    def test_the_model_s_own_figures_stay_without_it(self, rigid):
+        own = [model["contact"] for model in rigid.result["models"]["half_plane"]]
+        assert own[0] == own[1] == own[2]
+        assert own[0]["peak_pressure"] == pytest.approx(rigid.problem.hertz.peak_pressure, rel=1e-4)
+
+    def test_no_friction_no_change(self, rigid):
+        model = rigid.result["models"]["half_plane"][0]
+        assert model["coupling"] is None and model["coupling_why"] == "there is no friction"
+        assert "coupling" not in {item["step"] for item in rigid.result["skipped"]}
+
+    def test_stresses_are_compared_too(self, rigid):
+        found = rigid.result["models"]["half_plane"][2]["coupling"]
+        # on the surface tau1 = mu p where sx + p is what the coupling changes most
+        assert -0.05 < found["tau1_max"]["difference"] < -0.005
+        assert found["tau1_field_near"]["value"] is None
+        near, deep = (found[f"tau1_field_{part}"]["difference"] for part in ("near", "deep"))
+        assert 0.01 < deep < near < found["pressure_l2"]["difference"]
+
+    @pytest.mark.parametrize("friction", [0.0, 0.3])
+    def test_equal_materials_skip_it(self, friction):
+        tables = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
+        outcome = solved(tables, friction=friction)
+        model = outcome.result["models"]["half_plane"][0]
+        skipped = {item["step"]: item["because"] for item in outcome.result["skipped"]}
+        why = "equal constants" if friction else "no friction"
+        assert model["coupling"] is None and why in model["coupling_why"]
+        assert skipped["coupling"] == model["coupling_why"]
+        assert outcome.couplings == () and coupling_table(outcome) is None
+        assert coupling_line(outcome) is None
+
+    def test_softer_roller_moves_the_contact_the_other_way(self):
+        soft = {"youngs_modulus": 3e9, "poissons_ratio": 0.3}
+        one = solved(RIGID, friction=0.3)
+        swapped = RIGID | {
+            "roller": {"radius": 8e-3, **soft},
+            "load": {"hertz_peak_pressure": 5e7},
+        }
+        other = solved(swapped, friction=0.3)
+        assert one.couplings[0].changes[SHIFT].value < 0.0
+        assert other.problem.dundurs_beta < 0.0 < other.couplings[0].changes[SHIFT].value
+
+
+class TestSwitch:
+    def test_coupled_answer_is_the_exact_one(self, rigid_coupled):
+        reference = REFERENCES[1]
+        half = rigid_coupled.problem.hertz.half_width * float(
+            reference["ahalf_over_aHertz_same_load"]
+        )
+        contact = rigid_coupled.result["models"]["half_plane"][0]["contact"]
+        [edges] = contact["patches"]
+        assert edges[0] == pytest.approx(
+            -half * float(reference["b_trailing_over_ahalf"]), rel=1e-3
+        )
+        assert edges[1] == pytest.approx(half * float(reference["c_leading_over_ahalf"]), rel=1e-3)
+
+    def test_both_ways_round_tell_the_same_change(self, rigid, rigid_coupled):
+        one, other = rigid.couplings[2].changes, rigid_coupled.couplings[0].changes
+        for name in ("peak_pressure", SHIFT, "pressure_l2", "tau1_max"):
+            assert one[name].difference == pytest.approx(other[name].difference, rel=0.03)
+
+    def test_default_is_the_published_way(self):
+        assert not scene_of(RIGID).coupled
+        assert scene_of(RIGID).as_dict()["load"]["coupled"] is False
+        assert problem_of(scene_of(RIGID)).coupling == 0.0
+
+    def test_strong_coupling_finds_its_ground(self):
+        """mu beta = 0.75 reaches beyond 1.5 Hertz half-widths, where the other answer ends."""
+        tables = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}
+        shift = np.arctan(0.75) / np.pi
+        half = 1.0 / np.sqrt(1.0 - 4.0 * shift**2)
+        outcome = solved(tables, friction=1.5, coupled=True)
+        other = solved(tables, friction=1.5)
+        a = outcome.problem.hertz.half_width
+        [edges] = outcome.runs["half_plane"].finest.patches / a
+        assert edges == pytest.approx(
+            np.array([-1.0 - 2.0 * shift, 1.0 - 2.0 * shift]) * half, abs=5e-3
+        )
+        assert other.problem.extent[0] / a == pytest.approx(-1.5) and edges[0] < -1.5
+        length = other.couplings[0].changes["contact_length"].value
+        assert length / a == pytest.approx(2.0 * half, rel=2e-3)
+
+    def test_finite_elements_refuse_it(self, tmp_path):
+        scene = scene_of(RIGID, friction=0.3, coupled=True)
+        with pytest.raises(SceneError, match=r"load\.coupled: is true.*--models half-plane"):
+            run(scene, tmp_path / "out", ("half_plane", "finite_element"))
+        assert not (tmp_path / "out").exists()
+
+    def test_one_friction_alone(self):
+        with pytest.raises(SceneError, match=r"load\.coupled: is true with 3 friction.*allowed"):
+            scene_of(RIGID, coupled=True)
+
+    def test_equal_materials_are_the_same_either_way(self):
+        tables = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
+        one = solved(tables, friction=0.3)
+        other = solved(tables, friction=0.3, coupled=True)
+        for key in ("contact", "coupling", "stress"):
+            first, second = (o.result["models"]["half_plane"][0][key] for o in (one, other))
+            assert first == second
+
+
+class TestRoughGround:
+    WAVY = RIGID | {
+        "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+        "body": {**STEEL, "hardness": 4e9},
+        "load": {"hertz_peak_pressure": 1e9, "friction": 0.3},
+    }
+
+    def test_change_under_a_hardness(self):
+        outcome = solved(self.WAVY)
+        [coupling] = outcome.couplings
+        assert coupling.converged
+        assert coupling.changes["peak_pressure"].value <= 4e9
+        assert coupling.changes[SHIFT].value < 0.0
+
+    def test_no_change_is_told_where_the_trace_ends(self):
+        problem = problem_of(scene_of(self.WAVY))
+        run_of_it = half_plane_of(problem)
+        [found] = couplings(problem, run_of_it, None, silent)
+        assert found.changes
+        edge = run_of_it.finest.patches[0, 0] - 0.5e-6
+        # a trace that ends just beyond the contact at rest
+        cut = problem.scene.profile
+        keep = (cut.x >= edge) & (cut.x <= -edge)
+        short = replace(cut, x=cut.x[keep], height=cut.height[keep])
+        ended = replace(problem, scene=replace(problem.scene, profile=short))
+        level = run_of_it.finest
+        grid = replace(
+            level.grid,
+            first=int(np.ceil(short.x[0] / level.grid.pitch)) + 1,
+            last=int(np.floor(short.x[-1] / level.grid.pitch)) - 1,
+        )
+        inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
+        solution = replace(level.solution, pressure=level.solution.pressure[inside])
+        ending = replace(run_of_it, levels=(replace(level, grid=grid, solution=solution),))
+        [found] = couplings(ended, ending, None, silent)
+        assert found.changes == {} and found.why == OFF_THE_GROUND
+        assert found.as_dict() is None
+
+
+class TestVerdict:
+    def test_measured_effects_replace_the_estimate(self, rigid):
+        effects = unshown_effects(rigid.problem, rigid.runs, rigid.couplings)
+        last = rigid.couplings[2].changes
+        for name in ("peak_pressure", "contact_length", "pressure_l2", "tau1_max_depth"):
+            moved = effects[name]["friction moving the surfaces"]
+            assert moved == abs(last[name].difference)
+
+    def test_what_was_not_measured_is_estimated(self, rigid):
+        effects = unshown_effects(rigid.problem, rigid.runs, ())
+        size = 0.3 * rigid.problem.dundurs_beta
+        moved = effects["pressure_l2"]["friction moving the surfaces"]
+        assert moved == pytest.approx(0.64 * size)
+        without = [replace(c, changes={}, why=OFF_THE_GROUND) for c in rigid.couplings]
+        assert unshown_effects(rigid.problem, rigid.runs, tuple(without)) == effects
+
+    def test_what_is_contained_is_not_missing(self, rigid_coupled):
+        effects = unshown_effects(
+            rigid_coupled.problem, rigid_coupled.runs, rigid_coupled.couplings
+        )
+        assert "friction moving the surfaces" not in str(effects)
+
+    def test_equal_materials_have_no_such_effect(self, wavy_outcome):
+        assert wavy_outcome.problem.dundurs_beta == 0.0
+        assert "friction moving" not in str(wavy_outcome.result["half_space"])
+
+    def test_an_unconverged_change_is_told(self, rigid):
+        broken = replace(rigid.couplings[2], converged=False)
+        outcome = replace(rigid, couplings=(broken,))
+        assert outcome.exit_status == ExitStatus.NOT_CONVERGED
+        assert rigid.exit_status == ExitStatus.DONE
+        assert "surfaces moved by friction 0.3" in " ".join(text_of(outcome).split())
+
+
+def text_of(outcome: Outcome, width: int = 100) -> str:
+    from rich.console import Console
+
+    console = Console(width=width, record=True, file=io.StringIO())
+    console.print(summary(outcome))
+    return console.export_text()
+
+
+class TestTelling:
+    def test_terminal_has_one_line(self, rigid, rigid_coupled):
+        line = coupling_line(rigid)
+        assert line.startswith(
+            "friction 0.3 moves the surfaces (left out): the contact by −15.3 µm"
+        )
+        assert "−7.3 % of a" in line and "peak pressure −0.071 %" in line
+        assert "(contained)" in coupling_line(rigid_coupled)
+        shown = " ".join(text_of(rigid).split())
+        assert (
+            "coupling friction 0.3 moves the surfaces (left out): the contact by -15.3 um" in shown
+        )
+
+    def test_report_has_a_table(self, rigid):
+        table = coupling_table(rigid)
+        assert table.head == ("", "friction 0.1", "change", "friction 0.3", "change")
+        rows = {row[0]: row[1:] for row in table.rows}
+        assert rows["peak pressure"][2:] == ("3.028 GPa", "−0.071 %")
+        assert rows["shift of the pressure's centroid"][3] == "−7.3 % of a"
+        assert rows["pressures, relative L2 difference"][0] == ""
+        page = (rigid.directory / "report.html").read_text(encoding="utf-8")
+        assert "Half-plane, surfaces moved by friction" in page
+
+    def test_report_of_equal_materials_has_none(self, wavy_outcome):
+        assert coupling_table(wavy_outcome) is None
+
+    def test_result_file_holds_it(self, rigid):
+        text = (rigid.directory / "result.json").read_text(encoding="utf-8")
+        [_, one, other] = json.loads(text)["models"]["half_plane"]
+        assert one["coupling"][SHIFT]["value"] > other["coupling"][SHIFT]["value"]
+        assert set(other["coupling"]) >= {"peak_pressure", "contact_length", SHIFT}
+
+
+def test_reference_case_is_the_scene_s_material():
+    assert dundurs_constants(Material(**STEEL), None)[1] == pytest.approx(2.0 / 7.0)
+    assert combined_modulus(None, Material(**STEEL)) == pytest.approx(210e9 / 0.91)
