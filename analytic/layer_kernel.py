@@ -66,7 +66,7 @@ def _smooth(distance: np.ndarray, ratio: float, layer: Contrast, near: bool) -> 
     surface, ground = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
     depth = max(2.0, 3.0 * ratio)  # s/t; no less than three pitches
     reach = 2.0 * ratio * (np.max(distance, initial=0.0) + 2.0)
-    w, weights = _path(reach if near else 0.0)
+    w, weights = wave_panels(_HIGHEST, reach if near else 0.0)
     if not near:
         w, weights = _TURN * w, _TURN * weights
     weights = weights * (normal(layer, w) - (surface + (ground - surface) * np.exp(-depth * w)) / w)
@@ -80,9 +80,12 @@ def _smooth(distance: np.ndarray, ratio: float, layer: Contrast, near: bool) -> 
     return integral + (surface - ground) * _mean_log(distance, depth / ratio)
 
 
-def _path(reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """Gauss points and weights on 0 <= w <= _HIGHEST, dense enough for cos(reach w / 2)."""
-    edges = np.append(0.0, _HIGHEST * 0.5 ** np.arange(_PANELS, -1.0, -1.0))
+def wave_panels(highest: float, reach: float) -> tuple[np.ndarray, np.ndarray]:
+    """Gauss points and weights on 0 <= w <= highest, dense enough for cos(reach w / 2).
+
+    The panels halve towards w = 0.
+    """
+    edges = np.append(0.0, highest * 0.5 ** np.arange(_PANELS, -1.0, -1.0))
     pieces = np.maximum(1, np.ceil(0.5 * reach * np.diff(edges) / _SWING)).astype(int)
     first = np.repeat(edges[:-1], pieces)
     width = np.repeat(np.diff(edges) / pieces, pieces)
