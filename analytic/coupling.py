@@ -21,7 +21,6 @@ positive definite as before, and its contact problem has exactly one solution.
     C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]
 """
 
-from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -105,6 +104,7 @@ class CoupledHalfPlane(Convolution):
 
     count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`
     friction_dundurs  mu beta, positive for sliding traction on the body in +x
+    normal            C alone
     """
 
     def __init__(
@@ -118,14 +118,10 @@ class CoupledHalfPlane(Convolution):
         self.pitch, self.modulus, self.friction_dundurs = pitch, modulus, friction_dundurs
         self.datum = (count + 1) * pitch if datum is None else datum
         self.skew = friction_dundurs != 0.0
-        even = self._half_plane(count, pitch).coefficients
+        self.normal = HalfPlane(count, pitch, modulus, self.datum)
+        even = self.normal.coefficients
         odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
         super().__init__(even + odd, self._symbol, row=even - odd)
-
-    @cached_property
-    def normal(self) -> HalfPlane:
-        """C alone, the half-planes without what friction does."""
-        return self._half_plane(self.count, self.pitch)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
@@ -139,9 +135,6 @@ class CoupledHalfPlane(Convolution):
         return CoupledHalfPlane(
             self.count // 2, 2.0 * self.pitch, self.modulus, self.friction_dundurs, self.datum
         )
-
-    def _half_plane(self, count: int, pitch: float) -> HalfPlane:
-        return HalfPlane(count, pitch, self.modulus, self.datum)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2/(E*|k|) (1 - i mu beta sign k) seen through two hats, with the nearest aliases."""

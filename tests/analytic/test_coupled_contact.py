@@ -1,6 +1,7 @@
 """Sliding contact with the surfaces moved by friction: exact solution, limits, termination."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from scipy.linalg import toeplitz
 from analytic import coupled_contact
 from analytic.contact import ContactError, contact_residuals, solve_contact
 from analytic.coupled_contact import solve_coupled
-from analytic.coupled_equilibrium import krylov_step
+from analytic.coupled_equilibrium import CoupledEquilibrium, krylov_step
 from analytic.coupling import CoupledHalfPlane, CoupledPair, TangentialHalfPlane, hat_sign
 from analytic.equilibrium import Constraints
 from analytic.exact.hertz import hertz_from_load
@@ -288,6 +289,22 @@ class TestContraction:
     def test_what_does_not_converge_says_so(self, monkeypatch, unsettled):
         monkeypatch.setattr(coupled_contact, "MAX_CONTRACTIONS", 2)
         assert not pressed(ROUGH_GRID, rough_gap(1), 0.75).converged
+
+
+def test_a_set_that_returns_ends_the_exchanges(monkeypatch):
+    """A node that changes sides for ever: the contraction finishes what they cannot."""
+    own = CoupledEquilibrium.broken_signs
+
+    def restless(self, rest, sides):
+        broken = own(self, rest, sides)
+        tensile, joining = broken.tensile.copy(), broken.joining.copy()
+        tensile[0], joining[0] = not sides.lower[0], sides.lower[0]
+        return replace(broken, tensile=tensile, joining=joining)
+
+    monkeypatch.setattr(CoupledEquilibrium, "broken_signs", restless)
+    found = pressed(ROUGH_GRID, rough_gap(1), 0.3)
+    assert found.converged and found.iterations["contractions"] > 1
+    assert found.iterations["exchanges"] < 100
 
 
 class TestCost:
