@@ -14,6 +14,7 @@ Method: a primal-dual active set (`analytic.active_set`) on nested grids, each s
 next coarser one (`analytic.nesting`); on a fixed set conjugate gradients (`analytic.equilibrium`).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -176,6 +177,20 @@ def solve_contact(
         spent,
     )
     return replace(solution, approach=solution.approach + common)
+
+
+def solve_contacts(
+    operator: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Sequence[Constraints],
+) -> tuple[ContactSolution, ...]:
+    """One surface under several loads, approaches or hardnesses, in the order given.
+
+    Operators and their coarser versions are made once for all. Each load starts from its own
+    coarse grids: that costs less than the way from another load a tenth away.
+    """
+    return tuple(solve_contact(operator, gap, weights, each) for each in constraints)
 
 
 def common_gap(gap: np.ndarray, weights: np.ndarray, constraints: Constraints) -> float:

@@ -44,6 +44,7 @@ class Convolution:
     row       (n,) [m^2/Pa], row[0] = column[0]; default the column: a symmetric matrix
     periodic  whether element n is element 0
     ring      nodes of the closed line on which `precondition` works: n where periodic, else more
+    inverse_symbol  (ring // 2 + 1,) 1/S [Pa/m^2]
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class Convolution:
     ) -> None:
         _keep_large_buffers()
         self.column, self.row = column, column if row is None else row
+        self.symmetric = row is None
         self.count = len(column)
         self.periodic = periodic
         self.applications = 0
@@ -66,9 +68,9 @@ class Convolution:
         reach = self.count + self.count // _MARGIN
         self.ring = self.count if periodic else next_fast_len(reach + 1, real=True)
         if symbol is None:
-            self._inverse_symbol = 1.0 / self._transfer.real
+            self.inverse_symbol = 1.0 / self._transfer.real
         else:
-            self._inverse_symbol = 1.0 / symbol(np.arange(self.ring // 2 + 1) / self.ring)
+            self.inverse_symbol = 1.0 / symbol(np.arange(self.ring // 2 + 1) / self.ring)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
@@ -83,7 +85,7 @@ class Convolution:
         Of displacements on the ring, or on as many of its nodes as are given.
         """
         spectrum = rfft(displacement, self.ring)
-        spectrum *= self._inverse_symbol
+        spectrum *= self.inverse_symbol
         return irfft(spectrum, self.ring)[: len(displacement)]
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
@@ -92,7 +94,7 @@ class Convolution:
         None where there are so many that iterating is faster.
         """
         count = len(nodes)
-        if LEVINSON <= count <= DIRECT_IN_A_ROW and self.row is self.column:
+        if LEVINSON <= count <= DIRECT_IN_A_ROW and self.symmetric:
             start = self._start_of_row(nodes)
             if start is not None:
                 in_a_row = np.concatenate((right[start:], right[:start]))
@@ -115,7 +117,7 @@ class Convolution:
         distance = nodes[:, None] - nodes
         if self.periodic:
             return self.column[distance % self.count]
-        if self.row is self.column:
+        if self.symmetric:
             return self.column[np.abs(distance)]
         return np.where(distance >= 0, self.column[distance], self.row[-distance])
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from analytic.active_set import exchange_blocks
 from analytic.equilibrium import Constraints, EquilibriumProblem
+from analytic.operators import ModelOperator
 
 COARSEST = 128  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
@@ -18,7 +19,7 @@ SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
 
 
 def coarse_start(
-    operator,
+    operator: ModelOperator,
     gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
@@ -37,7 +38,7 @@ def coarse_start(
 
 
 def foundation_start(
-    operator, gap: np.ndarray, weights: np.ndarray, constraints: Constraints
+    operator: ModelOperator, gap: np.ndarray, weights: np.ndarray, constraints: Constraints
 ) -> np.ndarray:
     """Pressures (n,) [Pa] on independent springs in place of the body.
 

@@ -132,6 +132,31 @@ class SumOfBodies:
         return sum(factor * body.apply(pressure) for body, factor in pairs)
 
 
+class SumOfConvolutions(Convolution):
+    """Two surfaces or more on the same elements as one: their matrices and symbols added.
+
+    bodies  with the same count, pitch and periodicity, of any kind
+    """
+
+    def __init__(self, *bodies: Convolution) -> None:
+        if len({(body.count, body.periodic) for body in bodies}) != 1:
+            raise ValueError("bodies to be added must have the same elements")
+        self.bodies = bodies
+        inverse = 1.0 / sum(1.0 / body.inverse_symbol for body in bodies)
+        super().__init__(
+            sum(body.column for body in bodies),
+            lambda cycles: 1.0 / inverse,
+            None if all(body.symmetric for body in bodies) else sum(body.row for body in bodies),
+            periodic=bodies[0].periodic,
+        )
+
+    @made_once
+    def coarsened(self) -> "SumOfConvolutions | None":
+        """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        coarser = [body.coarsened() for body in self.bodies]
+        return None if None in coarser else SumOfConvolutions(*coarser)
+
+
 class DenseCompliance:
     """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
 

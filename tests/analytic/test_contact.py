@@ -8,7 +8,7 @@ from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
 from analytic import active_set
-from analytic.contact import ContactError, contact_residuals, solve_contact
+from analytic.contact import ContactError, contact_residuals, solve_contact, solve_contacts
 from analytic.equilibrium import Constraints, EquilibriumProblem
 from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
@@ -302,6 +302,19 @@ class TestProperties:
             for depth in np.linspace(0.05e-6, 6e-6, 12)
         ]
         assert np.all(np.diff(loads) > 0.0)
+
+
+def test_several_loads_in_one_call_share_the_operators():
+    operator = HalfPlane(ROUGH_GRID.count, ROUGH_GRID.pitch, MODULUS)
+    average = ROUGH_GRID.average(rough_gap(4))
+    loads = [Constraints(load=share * LOAD) for share in (0.1, 0.7, 0.4)]
+    together = solve_contacts(operator, average, ROUGH_GRID.weights, loads)
+    coarser = operator.coarsened()
+    for each, solution in zip(loads, together, strict=True):
+        alone = pressed(ROUGH_GRID, rough_gap(4), each)
+        assert solution.converged
+        assert solution.pressure == pytest.approx(alone.pressure, abs=1e-10 * alone.pressure.max())
+    assert operator.coarsened() is coarser
 
 
 def test_residuals_see_each_kind_of_error():

@@ -6,7 +6,8 @@ from numpy.polynomial.legendre import leggauss
 from scipy.linalg import toeplitz
 
 from analytic.elements import hat_displacement
-from analytic.operators import HalfPlane, SumOfBodies
+from analytic.operators import HalfPlane, SumOfBodies, SumOfConvolutions
+from analytic.periodic import PeriodicHalfPlane
 
 PITCH, MODULUS = 0.7e-6, 115e9
 
@@ -75,3 +76,44 @@ def test_sum_of_bodies_is_the_half_plane_of_the_combined_modulus():
     assert both.apply(pressure) == pytest.approx(combined.apply(pressure), rel=1e-13)
     scaled = SumOfBodies(HalfPlane(40, PITCH, 210e9), factors=(4.0,))
     assert scaled.apply(pressure) == pytest.approx(combined.apply(pressure), rel=1e-13)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_sum_of_convolutions_is_one_body_of_the_combined_modulus(periodic):
+    kind = PeriodicHalfPlane if periodic else HalfPlane
+    both = SumOfConvolutions(kind(600, PITCH, 70e9), kind(600, PITCH, 210e9))
+    combined = kind(600, PITCH, 1.0 / (1.0 / 70e9 + 1.0 / 210e9))
+    values = np.random.default_rng(8).uniform(size=600)
+    assert both.apply(values) == pytest.approx(combined.apply(values), rel=1e-12)
+    inverse = combined.precondition(values)
+    assert both.precondition(values) == pytest.approx(inverse, abs=1e-11 * np.abs(inverse).max())
+    coarse, alone = both.coarsened(), combined.coarsened()
+    assert coarse.apply(values[:300]) == pytest.approx(alone.apply(values[:300]), rel=1e-12)
+    assert coarse is both.coarsened()
+
+
+def test_bodies_with_other_elements_are_not_added():
+    with pytest.raises(ValueError, match="the same elements"):
+        SumOfConvolutions(HalfPlane(20, PITCH, 70e9), HalfPlane(21, PITCH, 70e9))
+
+
+@pytest.mark.parametrize("nodes", [np.arange(7, 150), np.array([3, 4, 9, 40]), np.arange(5)])
+def test_few_nodes_are_solved_for_directly(nodes):
+    operator = HalfPlane(200, PITCH, MODULUS)
+    right = np.random.default_rng(9).normal(size=(len(nodes), 2))
+    matrix = toeplitz(operator.column)[np.ix_(nodes, nodes)]
+    assert operator.solve(nodes, matrix @ right) == pytest.approx(right, abs=1e-10)
+
+
+def test_a_row_that_closes_over_the_end_of_a_period_is_solved_for_directly():
+    operator = PeriodicHalfPlane(200, PITCH, MODULUS)
+    nodes = np.flatnonzero(np.abs(np.arange(200) - 100) > 30)
+    right = np.random.default_rng(10).normal(size=(len(nodes), 2))
+    assert len(nodes) < 200 and nodes[0] == 0 and nodes[-1] == 199
+    matrix = operator.block(nodes)
+    assert matrix == pytest.approx(toeplitz(operator.column)[np.ix_(nodes, nodes)], rel=1e-9)
+    assert operator.solve(nodes, matrix @ right) == pytest.approx(right, abs=1e-10)
+
+
+def test_many_nodes_are_left_to_iterations():
+    assert HalfPlane(2000, PITCH, MODULUS).solve(np.arange(0, 2000, 2), np.ones((1000, 2))) is None
