@@ -93,7 +93,7 @@ def hat_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.ndarra
 
     cycles = 0 needs a rigid base.
     """
-    beyond = 1 + int(np.ceil(0.5 + _HALF_PLANE * pitch / (2.0 * np.pi * body.thickness)))
+    beyond = aliases_of(pitch, body)
     total = np.zeros(len(cycles))
     for alias in range(1 - beyond, beyond):
         seen = np.abs(cycles + alias)
@@ -101,6 +101,11 @@ def hat_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.ndarra
         total += pitch * wave * np.sinc(seen) ** 4
     scale = pitch**2 / (np.pi * body.material.plane_strain_modulus)
     return total + scale * hat_aliases(cycles, beyond)
+
+
+def aliases_of(pitch: float, body: LayeredBody) -> int:
+    """The first alias j > 0 from which a hat's waves see a half-plane, whatever their cycles."""
+    return 1 + int(np.ceil(0.5 + _HALF_PLANE * pitch / (2.0 * np.pi * body.thickness)))
 
 
 def free_coefficients(count: int, pitch: float, body: LayeredBody, datum: float) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Compliance of a layered body between two hats on a free line, without a period.
+"""Displacements of a layered body between two hats on a free line, without a period.
 
     h   pitch [m]               C    compliance of a wave k [m/Pa]      d   distance [pitches]
     t   thickness [m]           w    k t                                s   depth [m]
@@ -11,16 +11,21 @@ At large k the layer is a half-plane, at small k what it lies on is one, or noth
     2 G C = (1+e)/k + (m0 - 1 - e) e^-ks/k + t f(w),      f finite at 0, falling like e^-2w
 
 The first two terms have closed forms, -ln|x| and -ln sqrt(x^2 + s^2) averaged over the hats, and
-where m0 is not zero a datum; f is integrated numerically, on panels that halve towards w = 0 where
-a stiff or soft layer has scales of its own. From two pitches on the path is turned into the
-complex plane, where e^ikx decays and f has no poles. All but ln|x| is smooth: it is interpolated
-on intervals that double.
+where m0 is not zero a datum; for uz under tractions, which is odd, angles take their place, pi/2
+sign x and atan x/s. f is integrated numerically, on panels that halve towards w = 0 where a stiff
+or soft layer has scales of its own. From two pitches on the path is turned into the complex plane,
+where e^ikx decays and f has no poles. All but ln|x| is smooth: it is interpolated on intervals that
+double.
 """
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
+from analytic.coupling import hat_sign
 from analytic.elements import hat_galerkin
-from analytic.layered_waves import Contrast, normal
+from analytic.layered_waves import Contrast, coupling, normal
 
 _ORDER = 24  # points of a panel, and of an interval of d; their errors stay below rounding
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(_ORDER)
@@ -29,55 +34,85 @@ _TURN = np.exp(1j * np.pi / 6.0)  # of the path; the poles of f lie beyond 50 de
 _SWING = 12.0  # phase of a cosine on one panel [rad]
 
 
+@dataclass(frozen=True)
+class _Response:
+    """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the `ground`.
+
+    odd  the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
+    """
+
+    share: Callable[[np.ndarray], np.ndarray]
+    surface: float
+    ground: float
+    odd: bool
+
+
 def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float = 0.0) -> np.ndarray:
-    """2 pi G T(d) / h^2 at d = 0 … count - 1, (count,).
+    """2 pi G T(d) / h^2 of uz under pressures at d = 0 … count - 1, (count,).
 
     ratio      h/t
     log_datum  ln(L/h) of the datum L; without effect on a rigid base
     """
-    distance = np.arange(float(count))
     surface, ground = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
-    smooth = np.empty(count)
+    response = _Response(lambda w: normal(layer, w), surface, ground, odd=False)
+    smooth = _by_intervals(count, ratio, response)
+    return smooth - surface * hat_galerkin(np.arange(float(count))) + ground * log_datum
+
+
+def hat_coupling(count: int, ratio: float, layer: Contrast) -> np.ndarray:
+    """2 pi G T(d) / h^2 of uz under tractions in +x at d = 0 … count - 1, (count,), odd in d."""
+    ground = 0.5 * (1.0 - layer.e) if layer.slides else -layer.softness * layer.base_e
+    response = _Response(lambda w: coupling(layer, w) / w, -layer.e, ground, odd=True)
+    smooth = _by_intervals(count, ratio, response)
+    return 0.5 * np.pi * layer.e * hat_sign(np.arange(float(count))) - smooth
+
+
+def _by_intervals(count: int, ratio: float, response: _Response) -> np.ndarray:
+    """`_smooth` at distances 0 … count - 1."""
+    distance, smooth = np.arange(float(count)), np.empty(count)
     lower, upper = 0.0, max(2.0, 1.0 / ratio)
     while lower < count:
         here = slice(int(np.ceil(lower)), int(np.ceil(min(upper, count))))
-        smooth[here] = _interpolated(distance[here], lower, upper, ratio, layer)
+        smooth[here] = _interpolated(distance[here], lower, upper, ratio, response)
         lower, upper = upper, 2.0 * upper
-    return smooth - surface * hat_galerkin(distance) + ground * log_datum
+    return smooth
 
 
 def _interpolated(
-    distance: np.ndarray, lower: float, upper: float, ratio: float, layer: Contrast
+    distance: np.ndarray, lower: float, upper: float, ratio: float, response: _Response
 ) -> np.ndarray:
     """`_smooth` at distances within an interval, by Chebyshev's points where they are fewer."""
     if len(distance) <= _ORDER:
-        return _smooth(distance, ratio, layer, near=lower == 0.0)
+        return _smooth(distance, ratio, response, near=lower == 0.0)
     cosines = np.cos(np.pi * (np.arange(_ORDER) + 0.5) / _ORDER)
     places = 0.5 * (lower + upper) + 0.5 * (upper - lower) * cosines
-    values = _smooth(places, ratio, layer, near=lower == 0.0)
+    values = _smooth(places, ratio, response, near=lower == 0.0)
     series = np.polynomial.chebyshev.chebfit(cosines, values, _ORDER - 1)
     return np.polynomial.chebyshev.chebval(
         (2.0 * distance - lower - upper) / (upper - lower), series
     )
 
 
-def _smooth(distance: np.ndarray, ratio: float, layer: Contrast, near: bool) -> np.ndarray:
-    """All but -(1+e) ln|x| and the datum, on the real path or the turned one."""
-    surface, ground = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
+def _smooth(distance: np.ndarray, ratio: float, response: _Response, near: bool) -> np.ndarray:
+    """All but the singular term and the datum, on the real path or the turned one."""
+    gain = response.ground - response.surface
     depth = max(2.0, 3.0 * ratio)  # s/t; no less than three pitches
     reach = 2.0 * ratio * (np.max(distance, initial=0.0) + 2.0)
     w, weights = wave_panels(_HIGHEST, reach if near else 0.0)
     if not near:
         w, weights = _TURN * w, _TURN * weights
-    weights = weights * (normal(layer, w) - (surface + (ground - surface) * np.exp(-depth * w)) / w)
+    known = (response.surface + gain * np.exp(-depth * w)) / w
+    weights = weights * (response.share(w) - known)
     if near:
         weights = weights * np.sinc(w * ratio / (2.0 * np.pi)) ** 4
-        integral = np.cos(ratio * np.outer(distance, w)) @ weights
+        turn = np.sin if response.odd else np.cos
+        integral = turn(ratio * np.outer(distance, w)) @ weights
     else:
         phase = 1j * ratio * w
         weights = weights * (np.expm1(phase) / phase) ** 4  # e^2ikh sinc^4
-        integral = (np.exp(np.outer(distance - 2.0, phase)) @ weights).real
-    return integral + (surface - ground) * _mean_log(distance, depth / ratio)
+        integral = np.exp(np.outer(distance - 2.0, phase)) @ weights
+        integral = integral.imag if response.odd else integral.real
+    return integral + gain * _mean_of_depth(distance, depth / ratio, response.odd)
 
 
 def wave_panels(highest: float, reach: float) -> tuple[np.ndarray, np.ndarray]:
@@ -95,11 +130,14 @@ def wave_panels(highest: float, reach: float) -> tuple[np.ndarray, np.ndarray]:
     return points.ravel(), (0.5 * width[:, None] * _WEIGHTS).ravel()
 
 
-def _mean_log(distance: np.ndarray, depth: float) -> np.ndarray:
-    """ln sqrt(d^2 + depth^2) averaged over two hats, all in pitches, depth >= 3."""
+def _mean_of_depth(distance: np.ndarray, depth: float, odd: bool) -> np.ndarray:
+    """int e^-ks cos kx dk/k, that is -ln sqrt(d^2 + depth^2), or with the sine atan(d/depth).
+
+    Averaged over two hats; all in pitches, depth >= 3.
+    """
     points, weights = np.polynomial.legendre.leggauss(12)
     place = np.concatenate([0.5 * (1.0 + points), 1.5 + 0.5 * points])
     spline = np.where(place < 1.0, 4.0 - 6.0 * place**2 + 3.0 * place**3, (2.0 - place) ** 3) / 6.0
-    share = 0.5 * np.tile(weights, 2) * spline
+    share = np.tile(0.5 * np.tile(weights, 2) * spline, 2)
     both = distance[:, None] + np.concatenate([-place, place])
-    return np.log(np.hypot(both, depth)) @ np.tile(share, 2)
+    return (np.arctan(both / depth) if odd else -np.log(np.hypot(both, depth))) @ share
