@@ -9,6 +9,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+import comparisons.coupling
 from analytic.material import Material, combined_modulus, dundurs_constants
 from comparisons.coupling import OFF_THE_GROUND, SHIFT, couplings
 from comparisons.errors import SceneError
@@ -207,6 +208,33 @@ class TestRoughGround:
         assert coupling.converged
         assert coupling.changes["peak_pressure"].value <= 4e9
         assert coupling.changes[SHIFT].value < 0.0
+
+    def test_a_trace_that_ends_on_one_side_changes_nothing(self):
+        """Ground is added to the grid where there is some, here behind the contact alone."""
+        problem = problem_of(scene_of(self.WAVY))
+        run_of_it = half_plane_of(problem)
+        trace, edge = problem.scene.profile, run_of_it.finest.grid.x[-1] + 2e-6
+        keep = trace.x <= edge
+        short = replace(trace, x=trace.x[keep], height=trace.height[keep])
+        ended = replace(problem, scene=replace(problem.scene, profile=short))
+        [one] = couplings(problem, run_of_it, None, silent)
+        [other] = couplings(ended, run_of_it, None, silent)
+        for name, change in one.changes.items():
+            assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
+
+    def test_a_contact_that_goes_far_is_followed(self, monkeypatch):
+        """The first stretches are too short for it."""
+        tables = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}
+        problem = problem_of(scene_of(tables, friction=1.5))
+        run_of_it = half_plane_of(problem)
+        [expected] = couplings(problem, run_of_it, None, silent)
+        stretched = comparisons.coupling._stretched
+        monkeypatch.setattr(
+            comparisons.coupling, "_stretched", lambda p, g, stretch: stretched(p, g, stretch / 64)
+        )
+        [found] = couplings(problem, run_of_it, None, silent)
+        for name, change in expected.changes.items():
+            assert found.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
     def test_no_change_is_told_where_the_trace_ends(self):
         problem = problem_of(scene_of(self.WAVY))
