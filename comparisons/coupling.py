@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.gap import HatGrid
+from analytic.patches import CLEAR
 from comparisons.compare import figures, norms
 from comparisons.half_plane import half_plane_on
 from comparisons.level import Level, ModelRun, Window
@@ -89,16 +90,17 @@ def _coupling(
     size = friction * problem.dundurs_beta
     # of the level's own answer and of the other one, the one with the surfaces moved
     other_size = 0.0 if problem.coupling else size
-    stretch = abs(size)
+    # friction moves the contact by at most about mu beta of its own half-length
+    more = int(np.ceil(0.5 * abs(size) * own.grid.count))
     while True:
-        grid = _stretched(problem, own.grid, stretch)
+        grid = _stretched(problem, own.grid, more)
         other = half_plane_on(problem, grid, other_size, (friction,), window, stages)
         pressure = other.solution.pressure
-        if pressure[0] == 0.0 == pressure[-1]:
+        if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
             break
-        if _stretched(problem, own.grid, 2.0 * stretch) == grid:
+        more *= 2
+        if _stretched(problem, own.grid, more) == grid:
             return Coupling(friction, {}, why=OFF_THE_GROUND)
-        stretch *= 2.0
     own = _spread(own, grid)
     moved, still = (own, other) if problem.coupling else (other, own)
     return Coupling(
@@ -110,11 +112,9 @@ def _coupling(
     )
 
 
-def _stretched(problem: Problem, grid: HatGrid, stretch: float) -> HatGrid:
-    """The grid with a part `stretch` of half its length more at either end, as far as there is
-    ground: friction moves the contact by at most about that of its own half-length."""
+def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
+    """The grid with so many more elements at either end, as far as there is ground."""
     start, stop = ground(problem.scene)
-    more = int(np.ceil(0.5 * stretch * grid.count))
     first, last = grid.first - more, grid.last + more
     if np.isfinite(start):
         widest = HatGrid.within(start, stop, grid.pitch)

@@ -230,7 +230,9 @@ class TestRoughGround:
         [expected] = couplings(problem, run_of_it, None, silent)
         stretched = comparisons.coupling._stretched
         monkeypatch.setattr(
-            comparisons.coupling, "_stretched", lambda p, g, stretch: stretched(p, g, stretch / 64)
+            comparisons.coupling,
+            "_stretched",
+            lambda p, g, more: stretched(p, g, 1 + more // 64),
         )
         [found] = couplings(problem, run_of_it, None, silent)
         for name, change in expected.changes.items():
