@@ -17,7 +17,7 @@ from scipy.fft import irfft, next_fast_len
 
 from analytic.convolution import Convolution
 from analytic.layer_kernel import hat_compliance
-from analytic.layered import LayeredBody, wave_compliance
+from analytic.layered import LayeredBody, normal_compliance
 from analytic.periodic import FEWEST, hat_aliases
 
 _HALF_PLANE = 22.0  # k t from which a layer is a half-plane to rounding
@@ -67,7 +67,7 @@ class PeriodicLayeredSurface(Convolution):
         self.pitch = pitch
         self.body = body
         longest = 2.0 * np.pi / (count * pitch)
-        self._mean = pitch * float(wave_compliance(body, 0.0 if body.rigid else longest).normal)
+        self._mean = pitch * float(normal_compliance(body, 0.0 if body.rigid else longest))
         self.coefficients = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)
         super().__init__(self.coefficients, self._symbol, periodic=True)
 
@@ -97,10 +97,18 @@ def hat_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.ndarra
     total = np.zeros(len(cycles))
     for alias in range(1 - beyond, beyond):
         seen = np.abs(cycles + alias)
-        wave = wave_compliance(body, 2.0 * np.pi * seen / pitch).normal
-        total += pitch * wave * np.sinc(seen) ** 4
+        total += pitch * _normal(body, 2.0 * np.pi * seen / pitch) * np.sinc(seen) ** 4
     scale = pitch**2 / (np.pi * body.material.plane_strain_modulus)
     return total + scale * hat_aliases(cycles, beyond)
+
+
+def _normal(body: LayeredBody, k: np.ndarray) -> np.ndarray:
+    """C(k) [m/Pa], from k t = _HALF_PLANE on that of a half-plane."""
+    compliance = np.empty(len(k))
+    long = k * body.thickness < _HALF_PLANE
+    compliance[long] = normal_compliance(body, k[long])
+    compliance[~long] = 2.0 / (body.material.plane_strain_modulus * k[~long])
+    return compliance
 
 
 def aliases_of(pitch: float, body: LayeredBody) -> int:

@@ -29,7 +29,7 @@ from analytic.layered_waves import Contrast, coupling, normal
 
 _ORDER = 24  # points of a panel, and of an interval of d; their errors stay below rounding
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(_ORDER)
-_HIGHEST, _PANELS = 32.0, 45  # w beyond which e^-2w is nothing; panels halved from there
+_HIGHEST = 32.0  # w beyond which e^-2w is nothing
 _TURN = np.exp(1j * np.pi / 6.0)  # of the path; the poles of f lie beyond 50 degrees
 _SWING = 12.0  # phase of a cosine on one panel [rad]
 
@@ -38,13 +38,15 @@ _SWING = 12.0  # phase of a cosine on one panel [rad]
 class _Response:
     """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the `ground`.
 
-    odd  the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
+    odd     the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
+    finest  w below which nothing of a scale of its own is left
     """
 
     share: Callable[[np.ndarray], np.ndarray]
     surface: float
     ground: float
     odd: bool
+    finest: float
 
 
 def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float = 0.0) -> np.ndarray:
@@ -54,7 +56,7 @@ def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float =
     log_datum  ln(L/h) of the datum L; without effect on a rigid base
     """
     surface, ground = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
-    response = _Response(lambda w: normal(layer, w), surface, ground, odd=False)
+    response = _Response(lambda w: normal(layer, w), surface, ground, False, finest_scale(layer))
     smooth = _by_intervals(count, ratio, response)
     return smooth - surface * hat_galerkin(np.arange(float(count))) + ground * log_datum
 
@@ -62,7 +64,9 @@ def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float =
 def hat_coupling(count: int, ratio: float, layer: Contrast) -> np.ndarray:
     """2 pi G T(d) / h^2 of uz under tractions in +x at d = 0 … count - 1, (count,), odd in d."""
     ground = 0.5 * (1.0 - layer.e) if layer.slides else -layer.softness * layer.base_e
-    response = _Response(lambda w: coupling(layer, w) / w, -layer.e, ground, odd=True)
+    response = _Response(
+        lambda w: coupling(layer, w) / w, -layer.e, ground, True, finest_scale(layer)
+    )
     smooth = _by_intervals(count, ratio, response)
     return 0.5 * np.pi * layer.e * hat_sign(np.arange(float(count))) - smooth
 
@@ -98,7 +102,9 @@ def _smooth(distance: np.ndarray, ratio: float, response: _Response, near: bool)
     gain = response.ground - response.surface
     depth = max(2.0, 3.0 * ratio)  # s/t; no less than three pitches
     reach = 2.0 * ratio * (np.max(distance, initial=0.0) + 2.0)
-    w, weights = wave_panels(_HIGHEST, reach if near else 0.0)
+    # on the turned path the factor e^ikx ends the integral early
+    finest = min(response.finest / depth, 2.0 / reach)
+    w, weights = wave_panels(_HIGHEST, reach if near else 0.0, finest)
     if not near:
         w, weights = _TURN * w, _TURN * weights
     known = (response.surface + gain * np.exp(-depth * w)) / w
@@ -115,12 +121,18 @@ def _smooth(distance: np.ndarray, ratio: float, response: _Response, near: bool)
     return integral + gain * _mean_of_depth(distance, depth / ratio, response.odd)
 
 
-def wave_panels(highest: float, reach: float) -> tuple[np.ndarray, np.ndarray]:
+def finest_scale(layer: Contrast) -> float:
+    """w up to which one panel is enough: a soft base brings poles at about -G2/G."""
+    return 0.5 / max(1.0, layer.softness)
+
+
+def wave_panels(highest: float, reach: float, finest: float) -> tuple[np.ndarray, np.ndarray]:
     """Gauss points and weights on 0 <= w <= highest, dense enough for cos(reach w / 2).
 
-    The panels halve towards w = 0.
+    The panels halve towards w = 0 until one reaches from there to no more than `finest`.
     """
-    edges = np.append(0.0, highest * 0.5 ** np.arange(_PANELS, -1.0, -1.0))
+    halvings = np.ceil(np.log2(highest / finest))
+    edges = np.append(0.0, highest * 0.5 ** np.arange(halvings, -1.0, -1.0))
     pieces = np.maximum(1, np.ceil(0.5 * reach * np.diff(edges) / _SWING)).astype(int)
     first = np.repeat(edges[:-1], pieces)
     width = np.repeat(np.diff(edges) / pieces, pieces)

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from analytic.layer_kernel import wave_panels
+from analytic.layer_kernel import finest_scale, wave_panels
 from analytic.layered import LayeredBody, added_stress
 from analytic.plane_stress import PlaneStress
 from analytic.stress_field import StressField, friction_field
@@ -155,7 +155,7 @@ def _by_panels(
     nodes, pressure = x_nodes[loaded], pressure[loaded]
     middle = 0.5 * (nodes[0] + nodes[-1])
     far = max(abs(x[0] - middle), abs(x[-1] - middle)) + nodes[-1] - middle + 2.0 * pitch
-    w, weights = wave_panels(_FADED, 2.0 * far / body.thickness)
+    w, weights = wave_panels(_FADED, 2.0 * far / body.thickness, finest_scale(body.contrast))
     for first in range(0, len(w), _BLOCK):
         k = w[first : first + _BLOCK] / body.thickness
         share = weights[first : first + _BLOCK] * pitch / (np.pi * body.thickness)

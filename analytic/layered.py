@@ -94,10 +94,16 @@ def wave_compliance(body: LayeredBody, wavenumber: ArrayLike) -> WaveCompliance:
     layer = body.contrast
     with np.errstate(over="ignore"):
         return WaveCompliance(
-            scale * normal(layer, w),
+            normal_compliance(body, k),
             scale * (coupling(layer, w) / w),
             scale * (tangential(layer, w) / w),
         )
+
+
+def normal_compliance(body: LayeredBody, wavenumber: ArrayLike) -> np.ndarray:
+    """`wave_compliance(…).normal` alone [m/Pa]."""
+    w = np.maximum(np.asarray(wavenumber, dtype=float) * body.thickness, _LONGEST)
+    return body.thickness / (2.0 * body.material.shear_modulus) * normal(body.contrast, w)
 
 
 def wave_stress(
