@@ -182,7 +182,7 @@ def residuals(case: Scene, solution: ContactSolution, matrix: np.ndarray) -> dic
     sunk = matrix @ pressure / weights
     reach = (case.gap - lowest * weights) / weights + sunk
     free = (pressure > 0.0) & (pressure < hardness)
-    scale = max(np.ptp(sunk), 1e-3 * np.max(np.abs(sunk))) or 1.0
+    scale = max(np.ptp(sunk), 1e-2 * np.max(np.abs(sunk))) or 1.0  # a flat sinks evenly
     approach = solution.approach - lowest
     if case.constraints.load is not None and free.any():
         approach = np.mean(reach[free])  # as the touching nodes tell it
@@ -286,6 +286,19 @@ def test_the_scenes_are_as_varied_as_they_claim():
     assert min(words[shape.__name__] for shape in SHAPES) > 80
     assert min(f.touching for f in found if f.touching > 0.0) < 2e-3
     assert sum(f.touching == 1.0 for f in found) > 50
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 7, 128, 129, 513])
+@pytest.mark.parametrize("share", [1e-6, 0.5, 0.9, 0.999, 1.0 - 1e-9])
+def test_loads_up_to_what_the_hardness_carries(count, share):
+    limits = Constraints(load=share * count, hardness=1.0)
+    heights = np.random.default_rng(count).standard_normal(count)
+    for amplitude in (0.0, 1e-3, 1.0):
+        case = Scene(f"amplitude {amplitude}", False, 1.0, 1.0, amplitude * heights, limits)
+        solution = case.solved()
+        assert solution.converged, case.label
+        assert max(residuals(case, solution, case.matrix()).values()) <= RESIDUAL, case.label
+        assert solution.iterations["applications"] <= APPLICATIONS
 
 
 def test_residuals_see_a_wrong_solution():
