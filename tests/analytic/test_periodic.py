@@ -20,19 +20,7 @@ COUNTS = (128, 256, 512, 1024, 2048)
 
 
 def solved(operator, gap, weights, load):
-    """Contact on a periodic grid, each level started from the coarser one around the circle."""
-    coarse = operator.coarsened()
-    if coarse is None or operator.count < 64:
-        start = np.full(operator.count, load / weights.sum())
-    else:
-
-        def restrict(values):
-            return 0.5 * values[::2] + values[1::2] + 0.5 * np.roll(values[::2], -1)
-
-        inner = solved(coarse, restrict(gap), restrict(weights), load).pressure
-        start = np.empty(operator.count)
-        start[1::2], start[::2] = inner, 0.5 * (inner + np.roll(inner, 1))
-    solution = solve_contact(operator, gap, weights, Constraints(load=load), start)
+    solution = solve_contact(operator, gap, weights, Constraints(load=load))
     assert solution.converged
     return solution
 
@@ -118,7 +106,7 @@ def test_coefficients_are_those_of_the_half_plane_and_all_its_images(element, co
 
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
-@pytest.mark.parametrize("count", [1, 2, 3, 50, 257])
+@pytest.mark.parametrize("count", [1, 2, 3, 50, 129])
 def test_operator_is_positive_definite_and_its_preconditioner_the_inverse(count, element):
     operator = PeriodicHalfPlane(count, PITCH, MODULUS, element)
     columns = np.eye(count)
