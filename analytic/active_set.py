@@ -9,7 +9,8 @@ after finitely many. Symbols as in `analytic.contact`.
 
 import numpy as np
 
-from analytic.equilibrium import EquilibriumProblem, Sides
+from analytic.equilibrium import EquilibriumProblem
+from analytic.sides import Sides
 
 PATIENCE = 8  # block exchanges without progress before the primal method
 REDUCTION = 1e-2  # of the residual by each exchange while the set moves; 0.1 may go on for long
@@ -51,8 +52,10 @@ def exchange_blocks(
             break
         if count == 0:
             reduction = 0.0
-        plastic = problem.by_load and count > 0 and sides.mostly_upper()
-        sides = problem.balanced(rest) if plastic else sides.exchanged(broken)
+        if count > 0 and problem.short_of_free_nodes(sides):
+            sides = problem.balanced(rest)
+        else:
+            sides = sides.exchanged(broken)
     return exchange_feasibly(problem, pressure, sides)
 
 

@@ -32,8 +32,9 @@ from analytic.contact import (
 )
 from analytic.coupled_equilibrium import CoupledEquilibrium
 from analytic.coupling import CoupledOperator
-from analytic.equilibrium import Constraints, Sides
+from analytic.equilibrium import Constraints
 from analytic.nesting import COARSEST, SETTLED, foundation_start, prolonged, restricted
+from analytic.sides import Sides
 
 MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
 MAX_CONTRACTIONS = 400

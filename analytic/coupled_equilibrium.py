@@ -13,7 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.equilibrium import Equilibrium, EquilibriumProblem, Sides
+from analytic.equilibrium import Equilibrium, EquilibriumProblem
+from analytic.sides import Sides
 
 TIGHT = 1e-10  # error of accurate pressures, in the 2-norm
 SPAN = 60  # directions at most; rough contacts were seen to take up to 25
@@ -39,32 +40,28 @@ class CoupledEquilibrium(EquilibriumProblem):
         self.approach += left
         return replace(rest, gap=rest.gap - left * self.weights)
 
-    def _iterate(self, nodes: np.ndarray, pressure: np.ndarray, reduction: float) -> bool:
-        """Bring the free nodes of `pressure` (n,) to rest by GMRES; whether accurately."""
-        weights, inverse = self.weights[nodes], self._inverse(nodes)
+    def _iterate(
+        self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
+    ) -> tuple[np.ndarray, bool]:
+        """Bring the free nodes of `pressure` (n,) to rest by GMRES; Cp, and whether accurately."""
+        weights, search = self.weights[nodes], self.search(nodes)
         if self.by_load:
-            lift = inverse(weights)
-            lift /= weights @ lift  # the pressures that carry a unit load
-            pressure[nodes] += (self.constraints.load - self.weights @ pressure) * lift
-        gap = self.gap[nodes] + self.apply(pressure)[nodes]
+            pressure[nodes] += (self.constraints.load - self.weights @ pressure) * search.lift
+        gap = self.gap[nodes] + self.displacement(pressure)[nodes]
         if self.by_load:
             self.approach = float((weights @ gap) / (weights @ weights))
-
-        def corrected(values: np.ndarray) -> np.ndarray:
-            step = inverse(values)
-            return step - lift * (weights @ step) if self.by_load else step
 
         def moved(values: np.ndarray) -> np.ndarray:
             line = np.zeros_like(pressure)
             line[nodes] = values
-            return corrected(self.apply(line)[nodes])
+            return search.step(self.apply(line)[nodes])
 
-        error = corrected(gap - self.approach * weights)
+        error = search.step(gap - self.approach * weights)
         tight = TIGHT * np.linalg.norm(pressure[nodes])
         goal = max(reduction * np.linalg.norm(error), tight)
         step, left = krylov_step(moved, error, goal)
         pressure[nodes] -= step
-        return left <= tight
+        return self.apply(pressure), left <= tight
 
 
 def krylov_step(apply: _Vectors, target: np.ndarray, goal: float) -> tuple[np.ndarray, float]:

@@ -7,22 +7,19 @@ inverse over the whole grid of displacements continued from the free nodes
 (`analytic.extension`). Symbols as in `analytic.contact`.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
-from analytic.extension import Extension
+from analytic.free_search import FreeSearch
+from analytic.operators import ModelOperator
+from analytic.sides import Broken, Sides
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
 STALLED = 40  # steps of conjugate gradients without a new least residual: rounding is reached
-PLASTIC = 10  # nodes at the hardness to each free one, from which these alone do not lead on
 BISECTIONS = 100  # to a shift of pressures right to rounding
-
-_Inverse = Callable[[np.ndarray], np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -40,49 +37,6 @@ class Constraints:
             raise ValueError(f"the load per length must be positive, not {self.load:g} N/m")
         if not self.hardness > 0.0:
             raise ValueError(f"the hardness must be positive, not {self.hardness:g} Pa")
-
-
-@dataclass(frozen=True)
-class Broken:
-    """Nodes whose sign condition fails: tension, pressure beyond H, overlap, a gap under p = H."""
-
-    tensile: np.ndarray
-    excessive: np.ndarray
-    joining: np.ndarray
-    softening: np.ndarray
-
-    def count(self) -> int:
-        return int(np.count_nonzero(self.tensile | self.excessive | self.joining | self.softening))
-
-
-@dataclass(frozen=True)
-class Sides:
-    """Which nodes are held at p = 0 (`lower`) and at p = H (`upper`); the others are free."""
-
-    lower: np.ndarray
-    upper: np.ndarray
-
-    @classmethod
-    def of(cls, pressure: np.ndarray, hardness: float) -> "Sides":
-        return cls(pressure <= 0.0, pressure >= hardness)
-
-    @cached_property
-    def free(self) -> np.ndarray:
-        return ~(self.lower | self.upper)
-
-    def edges(self) -> int:
-        """Places where the free nodes begin or end."""
-        return int(np.count_nonzero(self.free[1:] != self.free[:-1]))
-
-    def mostly_upper(self) -> bool:
-        """Whether PLASTIC times as many nodes are at the hardness as are free."""
-        return bool(np.count_nonzero(self.upper) > PLASTIC * np.count_nonzero(self.free))
-
-    def exchanged(self, broken: Broken) -> "Sides":
-        return Sides(
-            (self.lower & ~broken.joining) | broken.tensile,
-            (self.upper & ~broken.softening) | broken.excessive,
-        )
 
 
 @dataclass(frozen=True)
@@ -106,13 +60,22 @@ class EquilibriumProblem:
     approach  d [m] of the last equilibrium, or as prescribed
     """
 
-    def __init__(self, operator, gap, weights, constraints, spent) -> None:
+    def __init__(
+        self,
+        operator: ModelOperator,
+        gap: np.ndarray,
+        weights: np.ndarray,
+        constraints: Constraints,
+        spent: dict[str, int],
+    ) -> None:
         self.operator, self.gap, self.weights = operator, gap, weights
         self.constraints, self.spent = constraints, spent
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
         self._rounding = ROUNDING * np.abs(gap)
         self._own_compliance: float | None = None
+        self._last: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
+        self._search: FreeSearch | None = None
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         self.spent["applications"] += 1
@@ -124,6 +87,10 @@ class EquilibriumProblem:
             return True
         rest = self.constraints.load - self._load_of(sides.upper)
         return bool(0.0 < rest <= self._load_of(sides.free))
+
+    def short_of_free_nodes(self, sides: Sides) -> bool:
+        """Whether so few nodes are free that they cannot balance a prescribed load, or hardly."""
+        return self.by_load and (sides.mostly_upper() or not self.can_carry(sides))
 
     def _load_of(self, nodes: np.ndarray) -> float:
         """What these nodes carry at the hardness [N/m]."""
@@ -204,14 +171,18 @@ class EquilibriumProblem:
         pressure = np.zeros_like(start)
         pressure[sides.upper] = self.constraints.hardness
         found = self._solve(nodes, pressure)
-        pressure[nodes] = start[nodes] if found is None else found
-        accurate = found is not None or self._iterate(nodes, pressure, reduction)
-        return self.at_rest(pressure, self.apply(pressure), accurate)
+        if found is not None:
+            pressure[nodes] = found
+            return self.at_rest(pressure, self.apply(pressure), True)
+        pressure[nodes] = start[nodes]
+        displacement, accurate = self._iterate(nodes, pressure, reduction)
+        return self.at_rest(pressure, displacement, accurate)
 
     def at_rest(
         self, pressure: np.ndarray, displacement: np.ndarray, accurate: bool
     ) -> Equilibrium:
         """The equilibrium of pressures (n,) [Pa] with their Cp (n,) [m^2] at the approach found."""
+        self._last = pressure, displacement
         low, high = displacement.min(), displacement.max()
         overlap = self._rounding + (SET_TOLERANCE * (high - low) + ROUNDING * max(high, -low))
         gap = self.gap + displacement - self.approach * self.weights
@@ -234,58 +205,68 @@ class EquilibriumProblem:
             self.approach = float((load + weights @ from_gap) / (weights @ from_weights))
         return self.approach * from_weights - from_gap
 
-    def _iterate(self, nodes: np.ndarray, pressure: np.ndarray, reduction: float) -> bool:
-        """Bring the free nodes of `pressure` (n,) to rest by conjugate gradients.
+    def _iterate(
+        self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
+    ) -> tuple[np.ndarray, bool]:
+        """Bring the free nodes of `pressure` (n,) to rest; Cp (n,) [m^2], and whether accurately.
 
-        With the load prescribed the search stays in w'p = P and the approach is the multiplier.
+        By conjugate gradients. With the load prescribed the search stays in w'p = P and the
+        approach is the multiplier.
         """
-        weights, load = self.weights[nodes], self.constraints.load
-        inverse = self._inverse(nodes)
+        search, weights = self.search(nodes), self.weights[nodes]
         if self.by_load:
-            lift = inverse(weights)
-            lift /= weights @ lift  # the pressures that carry a unit load
-            pressure[nodes] += (load - self.weights @ pressure) * lift
-        displacement = self.apply(pressure)
+            missing = self.constraints.load - self.weights @ pressure
+            # rounding of a load that is carried needs no correction, and no application
+            if abs(missing) > ROUNDING * self.constraints.load:
+                pressure[nodes] += missing * search.lift
+        displacement = self.displacement(pressure)
         # what rounding leaves of the sum of gap and displacement cannot be lowered
         largest = np.sqrt(len(nodes)) * np.abs(displacement).max()
         floor = np.linalg.norm(self._rounding[nodes]) + ROUNDING * largest
-        displacement = displacement[nodes]
-        residual = self.gap[nodes] + displacement
+        balanced = displacement[nodes]
         if self.by_load:
-            displacement = displacement - displacement.mean()
-        tight = max(TIGHT * np.linalg.norm(displacement), floor)
-        goal, slope_before = None, 1.0
-        found, direction = pressure[nodes], np.zeros_like(residual)
+            balanced = balanced - balanced.mean()
+        tight = max(TIGHT * np.linalg.norm(balanced), floor)
+        total = self.gap + displacement
+        found, direction = pressure[nodes], np.zeros(len(nodes))
         line = np.zeros_like(pressure)
-        least, since_least = np.inf, 0
+        goal, slope_before, least, since_least = None, 1.0, np.inf, 0
         while since_least < STALLED:
+            residual = total[nodes]
             if self.by_load:
-                self.approach = float(lift @ residual)
-            open_gap = residual - self.approach * weights
-            size = np.linalg.norm(open_gap)
+                self.approach = float(search.lift @ residual)
+            residual -= self.approach * weights
+            size = np.linalg.norm(residual)
             goal = max(reduction * size, tight) if goal is None else goal
             if size <= goal:
                 break
             least, since_least = (size, 0) if size < least else (least, since_least + 1)
-            step = inverse(open_gap)
-            if self.by_load:
-                step -= lift * (weights @ step)
-            slope = open_gap @ step
+            step = search.step(residual)
+            slope = residual @ step
             direction *= slope / slope_before
             direction += step
             slope_before = slope
             line[nodes] = direction
-            image = self.apply(line)[nodes]
-            curvature = direction @ image
+            image = self.apply(line)
+            curvature = direction @ image[nodes]
             if not (slope > 0.0 and curvature > 0.0):
                 since_least = STALLED
                 break
             found -= (slope / curvature) * direction
-            residual -= (slope / curvature) * image
+            image *= slope / curvature
+            total -= image
         pressure[nodes] = found
-        return bool(size <= tight or since_least == STALLED)
+        return total - self.gap, bool(size <= tight or since_least == STALLED)
 
-    def _inverse(self, nodes: np.ndarray) -> _Inverse:
-        """Approximate inverse of the compliance of the free nodes."""
-        extension = Extension(nodes, self.operator.ring or len(self.gap), bool(self.operator.ring))
-        return lambda values: extension.gather(self.operator.precondition(extension.extend(values)))
+    def displacement(self, pressure: np.ndarray) -> np.ndarray:
+        """Cp (n,) [m^2]; of the last pressures it is known."""
+        if self._last is not None and np.array_equal(pressure, self._last[0]):
+            return self._last[1]
+        return self.apply(pressure)
+
+    def search(self, nodes: np.ndarray) -> FreeSearch:
+        """Where to look for the pressures of these nodes; kept until others are asked for."""
+        if self._search is None or not np.array_equal(nodes, self._search.nodes):
+            weights = self.weights[nodes] if self.by_load else None
+            self._search = FreeSearch(self.operator, len(self.gap), nodes, weights)
+        return self._search

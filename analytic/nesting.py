@@ -29,6 +29,7 @@ def coarse_start(
     count = len(gap)
     coarse = operator.coarsened() if count >= COARSEST else None
     if coarse is None:
+        spent["applications"] += 1
         return foundation_start(operator, gap, weights, constraints)
     gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
     start = coarse_start(coarse, gap, weights, constraints, spent)
@@ -46,17 +47,17 @@ def foundation_start(
     what the body does under an even pressure of that load.
     """
     height = gap / weights
+    even = np.ones(len(gap))
+    softness = FOUNDATION * np.mean(np.abs(operator.apply(even) / weights))
     if constraints.load is None:
-        overlap = np.maximum(constraints.approach - height, 0.0)
-        return overlap * min(1.0, 0.5 * constraints.hardness) / (overlap.max() or 1.0)
-    even = np.full(len(gap), constraints.load / weights.sum())
-    sinking = FOUNDATION * np.mean(np.abs(operator.apply(even) / weights))
-    reached = np.sort(height)
-    # the lowest k share the sinking of all; k is the first number that leaves the next one open
-    level = (sinking * len(gap) + np.cumsum(reached)) / np.arange(1, len(gap) + 1)
-    first = np.argmax(np.append(level[:-1] <= reached[1:], True))
-    overlap = np.maximum(level[first] - height, 0.0)
-    pressure = overlap * (constraints.load / (weights @ overlap))
+        level = constraints.approach
+    else:
+        sinking = softness * constraints.load / weights.sum()
+        reached = np.sort(height)
+        # the lowest k share the sinking of all; k is the first that leaves the next one open
+        shared = (sinking * len(gap) + np.cumsum(reached)) / np.arange(1, len(gap) + 1)
+        level = shared[np.argmax(np.append(shared[:-1] <= reached[1:], True))]
+    pressure = np.maximum(level - height, 0.0) / softness
     return np.minimum(pressure, constraints.hardness)
 
 

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from analytic import equilibrium
-from analytic.equilibrium import Constraints, EquilibriumProblem, Sides
+from analytic import free_search
+from analytic.equilibrium import Constraints, EquilibriumProblem
 from analytic.extension import Extension
 from analytic.operators import HalfPlane
 from analytic.periodic import PeriodicHalfPlane
+from analytic.sides import Sides
 
 COUNT = 60
 SETS = {
@@ -160,7 +161,7 @@ class TestIterations:
     def test_without_the_continuation_it_does(self, monkeypatch):
         continued = [self.applications(patches) for patches in (20, 400)]
 
-        monkeypatch.setattr(equilibrium, "Extension", CutOff)
+        monkeypatch.setattr(free_search, "Extension", CutOff)
         cut = [self.applications(patches) for patches in (20, 400)]
         assert cut[1] > 2.0 * continued[1]
         assert cut[1] / cut[0] > 1.3 * continued[1] / continued[0]

@@ -1,0 +1,43 @@
+"""Search directions for the pressures of some nodes: what conjugate gradients need of an operator.
+
+The approximate inverse over the whole grid is given displacements continued from the nodes
+(`analytic.extension`), and a unit load is taken off what would change the load.
+"""
+
+import numpy as np
+
+from analytic.extension import Extension
+from analytic.operators import ModelOperator
+
+
+class FreeSearch:
+    """The approximate inverse of the compliance of some nodes (m,), and pressures without load.
+
+    lift  (m,) the pressures that carry a unit load, with `weights` (m,) given; then `step` stays
+          in w'p = const
+    """
+
+    def __init__(
+        self,
+        operator: ModelOperator,
+        count: int,
+        nodes: np.ndarray,
+        weights: np.ndarray | None,
+    ) -> None:
+        self.nodes, self._operator, self._weights = nodes, operator, weights
+        self._extension = Extension(nodes, operator.ring or count, bool(operator.ring))
+        if weights is not None:
+            lift = self.inverse(weights)
+            self.lift = lift / (weights @ lift)
+
+    def inverse(self, displacement: np.ndarray) -> np.ndarray:
+        """Pressures (m,) under which the nodes sink by about `displacement` (m,)."""
+        extended = self._extension.extend(displacement)
+        return self._extension.gather(self._operator.precondition(extended))
+
+    def step(self, residual: np.ndarray) -> np.ndarray:
+        """The same less the load that they carry."""
+        step = self.inverse(residual)
+        if self._weights is not None:
+            step -= self.lift * (self._weights @ step)
+        return step
