@@ -63,6 +63,21 @@ def test_yardstick_rejects_wrong_pressures(name):
     assert measure(case, right, other).worst > TOLERANCE
 
 
+def test_yardstick_sees_one_node_that_overlaps():
+    case = sinusoid(COUNT)
+    code = peers_crosscheck.codes()[0]
+    pressure = code.solve(case, 0.0, 0).pressure
+    moved = displacements(pressure, code.element, True)
+    open_gap = case.gaps + moved
+    open_gap -= pressure @ open_gap / np.sum(pressure)
+    node = np.argmax(open_gap)
+    raised = case.gaps.copy()
+    raised[node] -= open_gap[node] + 1e-6 * np.ptp(moved)
+    found = measure(replace(case, gaps=raised), pressure, code.element)
+    assert found.penetration == pytest.approx(1e-6, rel=1e-6)
+    assert found.complementarity < TOLERANCE
+
+
 def test_hertz_solves_the_closed_line_that_the_peers_are_given():
     """Up to what points leave of a pressure that ends as a root."""
     left = []
