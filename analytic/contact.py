@@ -161,16 +161,17 @@ def solve_contact(
             f"hardness: {constraints.hardness * weights.sum():g} N/m"
         )
     spent = {"exchanges": 0, "applications": 0}
+    common, constraints = common_gap(gap, weights, constraints)
+    gap = gap - common * weights
     if start is None:
         start = coarse_start(operator, gap, weights, constraints, spent)
-    common = common_gap(gap, weights, constraints)
-    problem = EquilibriumProblem(operator, gap - common * weights, weights, constraints, spent)
+    problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
     solution = assessed(
         problem.apply(pressure),
         pressure,
-        problem.gap,
+        gap,
         weights,
         problem.approach,
         constraints,
@@ -193,9 +194,13 @@ def solve_contacts(
     return tuple(solve_contact(operator, gap, weights, each) for each in constraints)
 
 
-def common_gap(gap: np.ndarray, weights: np.ndarray, constraints: Constraints) -> float:
-    """The part of the gap [m] that an approach found by the load absorbs.
+def common_gap(
+    gap: np.ndarray, weights: np.ndarray, constraints: Constraints
+) -> tuple[float, Constraints]:
+    """The part of the gap [m] that the approach absorbs, and the constraints without it.
 
     Far larger than what a light load closes, it would drown that in rounding.
     """
-    return 0.0 if constraints.load is None else float(np.min(gap / weights))
+    if constraints.approach is None:
+        return float(np.min(gap / weights)), constraints
+    return constraints.approach, replace(constraints, approach=0.0)

@@ -68,7 +68,7 @@ def solve_coupled(
             f"hardness: {carried:g} N/m"
         )
     spent = {"exchanges": 0, "applications": 0, "contractions": 0}
-    common = common_gap(gap, weights, constraints)
+    common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
     problem = CoupledEquilibrium(operator, gap, weights, constraints, spent)
     settled = False

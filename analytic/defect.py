@@ -44,7 +44,7 @@ def solve_with_model(
     MAX_STEPS, or stops improving, is returned with `converged` False.
     `iterations` counts the steps and the applications of C and of D.
     """
-    common = common_gap(gap, weights, constraints)
+    common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
     trial = solve_contact(model, gap, weights, constraints, start)
     pressure, displacement = trial.pressure, operator.apply(trial.pressure)

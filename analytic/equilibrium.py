@@ -17,8 +17,10 @@ from analytic.sides import Broken, Sides
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
-TIGHT = 1e-11  # residual of an accurate equilibrium, over the displacements it balances
-STALLED = 40  # steps of conjugate gradients without a new least residual: rounding is reached
+TIGHT = 1e-13  # residual of an accurate equilibrium, over the displacements it balances
+# steps of conjugate gradients without a new least residual, after which rounding is reached:
+PATIENT = 15
+IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of TIGHT
 BISECTIONS = 100  # to a shift of pressures right to rounding
 
 
@@ -231,7 +233,7 @@ class EquilibriumProblem:
         found, direction = pressure[nodes], np.zeros(len(nodes))
         line = np.zeros_like(pressure)
         goal, slope_before, least, since_least = None, 1.0, np.inf, 0
-        while since_least < STALLED:
+        while since_least < (PATIENT if least > ROUNDED * tight else IMPATIENT):
             residual = total[nodes]
             if self.by_load:
                 self.approach = float(search.lift @ residual)
@@ -239,8 +241,11 @@ class EquilibriumProblem:
             size = np.linalg.norm(residual)
             goal = max(reduction * size, tight) if goal is None else goal
             if size <= goal:
-                break
-            least, since_least = (size, 0) if size < least else (least, since_least + 1)
+                pressure[nodes] = found
+                return total - self.gap, bool(size <= tight)
+            since_least += 1
+            if size < least:
+                best, least, since_least = found.copy(), size, 0
             step = search.step(residual)
             slope = residual @ step
             direction *= slope / slope_before
@@ -250,13 +255,16 @@ class EquilibriumProblem:
             image = self.apply(line)
             curvature = direction @ image[nodes]
             if not (slope > 0.0 and curvature > 0.0):
-                since_least = STALLED
                 break
             found -= (slope / curvature) * direction
             image *= slope / curvature
             total -= image
-        pressure[nodes] = found
-        return total - self.gap, bool(size <= tight or since_least == STALLED)
+        # rounding is reached; what followed the least residual drifts off
+        pressure[nodes] = best
+        displacement = self.apply(pressure)
+        if self.by_load:
+            self.approach = float(search.lift @ (self.gap + displacement)[nodes])
+        return displacement, True
 
     def displacement(self, pressure: np.ndarray) -> np.ndarray:
         """Cp (n,) [m^2]; of the last pressures it is known."""

@@ -82,6 +82,8 @@ def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:
     between = 0.5 * (padded[:-1] + padded[1:])
     between[1:][_ends_short(padded)] = 0.0
     between[:-1][_ends_short(padded[::-1])[::-1]] = 0.0
+    if periodic:  # the first and the last are the same place
+        between[0] = min(between[0], between[-1])
     fine = np.empty(count)
     fine[1::2] = pressure[: len(fine[1::2])]
     fine[0::2] = between[: len(fine[0::2])]

@@ -109,6 +109,15 @@ def test_a_coarse_start_is_close_to_the_solution(kind, count):
         assert weights @ start == pytest.approx(0.03, rel=0.05)
         assert 0.25 < np.count_nonzero(start) / count < 0.6
 
+    @pytest.mark.parametrize("edge", [0.3, 1.7])
+    def test_an_edge_across_the_seam(self, edge):
+        x = np.arange(1.0, 64.0, 2.0)
+        coarse = np.sqrt(np.maximum(1.0 - ((x - 31.0) / (12.0 + edge)) ** 2, 0.0))
+        here = prolonged(coarse, 64, periodic=True)
+        for turn in range(1, 32):
+            there = prolonged(np.roll(coarse, turn), 64, periodic=True)
+            np.testing.assert_allclose(there, np.roll(here, 2 * turn), atol=1e-15)
+
 
 def cylinder(count: int):
     """Half-width 2/3 of the window's half, on the free half-plane."""
