@@ -27,6 +27,7 @@ element (relative 3e-15 at whole offsets) and to rounding from there out to any 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -54,6 +55,8 @@ class _Far:
         total = np.empty_like(x)
         far = x >= _FAR * self.join
         for part, terms in ((far, _SERIES_TERMS_FAR), (~far, _SERIES_TERMS)):
+            if not part.any():
+                continue
             step = x[part] ** -2.0
             value = np.zeros_like(step)
             for coefficient in coefficients[terms - 1 :: -1]:
@@ -112,6 +115,17 @@ def hat_galerkin(offset: ArrayLike) -> np.ndarray:
         return _scaled_difference(x, (1.0, -4.0, 6.0, -4.0, 1.0)) - 25.0 / 12.0
 
     return _joined(offset, closed, _SPLINE.log_mean, _SPLINE.join)
+
+
+def at_whole_offsets(kernel: _Curve, count: int) -> np.ndarray:
+    """`kernel`, one of this module, at 0, 1, … `count` - 1 pitches (count,); near ones are kept."""
+    near = _near(kernel)[:count]
+    return np.concatenate((near, kernel(np.arange(len(near), count, dtype=float))))
+
+
+@cache
+def _near(kernel: _Curve) -> np.ndarray:
+    return kernel(np.arange(_FAR * _SPLINE.join))
 
 
 def strip_slope(offset: ArrayLike) -> np.ndarray:

@@ -19,7 +19,7 @@ import numpy as np
 import scipy.linalg
 
 from analytic.convolution import Convolution, cholesky_solve, made_once
-from analytic.elements import hat_galerkin, strip_displacement
+from analytic.elements import at_whole_offsets, hat_galerkin, strip_displacement
 
 Element = Literal["hat", "strip"]
 
@@ -88,7 +88,7 @@ class HalfPlane(Convolution):
         self.modulus = modulus
         self.datum = (count + 1) * pitch if datum is None else datum
         kernel = hat_galerkin if element == "hat" else strip_displacement
-        log_integral = kernel(np.arange(count, dtype=float))
+        log_integral = at_whole_offsets(kernel, count)
         scale = 2.0 * pitch**2 / (np.pi * modulus)
         self.coefficients = -scale * (log_integral + np.log(pitch / self.datum))
         super().__init__(self.coefficients, self._symbol)

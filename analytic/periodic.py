@@ -4,20 +4,25 @@
 
 (Westergaard 1939; Johnson 1985, section 13.2). The wave e^ikx of p sinks by 2/(E* |k|), and the
 elements of the grid see every wave together with its aliases k + 2 pi j/h. These infinite sums
-are Hurwitz zeta functions: the symbol is right to rounding, and so are the coefficients.
+are Hurwitz zeta functions, here the nearest terms and a power series of the others: the symbol is
+right to rounding, and so are the coefficients.
 
     h   pitch [m]             E*  modulus [Pa]               c  cycles per pitch, k h/(2 pi)
     L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]
 """
 
+from functools import cache
+
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from scipy.fft import irfft
-from scipy.special import zeta
+from scipy.special import binom, zeta
 
 from analytic.convolution import Convolution, made_once
 from analytic.operators import Element
 
 FEWEST = 4  # elements of a coarsened period
+TERMS = 14  # of series in (c/2)^2 <= 1/16: the rest is below 1e-16
 
 
 class PeriodicHalfPlane(Convolution):
@@ -69,16 +74,37 @@ def hat_aliases(cycles: np.ndarray, beyond: int = 0) -> np.ndarray:
     With `beyond` = J > 0 only over |j| >= J.
     """
     power = (np.sin(np.pi * cycles) / np.pi) ** 4
-    upward = zeta(5.0, cycles + beyond)
-    return power * (upward + zeta(5.0, max(beyond, 1) - cycles))
+    first = max(beyond, 2)
+    total = polyval(cycles**2, _hat_series(first))
+    for alias in range(beyond, first):
+        total = total + _fifth(alias + cycles)
+        total = total + _fifth(alias - cycles) if alias else total
+    return power * total
 
 
 def strip_aliases(cycles: np.ndarray) -> np.ndarray:
     """sum over j of sinc(c + j) / |c + j|, any shape, for 0 < c <= 1/2."""
+    nearest = cycles**-2 + (1.0 - cycles) ** -2 - (1.0 + cycles) ** -2
+    farther = cycles * polyval(cycles**2, _strip_series())
+    return np.sin(np.pi * cycles) / np.pi * (nearest + farther)
 
-    def alternating(first: np.ndarray) -> np.ndarray:
-        """sum over j >= 0 of (-1)^j / (first + j)^2."""
-        return 0.25 * (zeta(2.0, 0.5 * first) - zeta(2.0, 0.5 * first + 0.5))
 
-    sine = np.sin(np.pi * cycles) / np.pi
-    return sine * (alternating(cycles) + alternating(1.0 - cycles))
+@cache
+def _hat_series(first: int) -> np.ndarray:
+    """sum over |j| >= J of |c + j|^-5 in powers of c^2: 2 (4+2k over 4) zeta(5+2k, J)."""
+    k = np.arange(TERMS)
+    return 2.0 * binom(4.0 + 2.0 * k, 4.0) * zeta(5.0 + 2.0 * k, first)
+
+
+@cache
+def _strip_series() -> np.ndarray:
+    """sum over j >= 2 of (-1)^j ((j+c)^-2 - (j-c)^-2), over c, in powers of c^2."""
+    s = 2.0 * np.arange(TERMS) + 3.0
+    alternating = 2.0**-s * (zeta(s, 1.0) - zeta(s, 1.5))  # sum over j >= 2 of (-1)^j j^-s
+    return -2.0 * (s - 1.0) * alternating
+
+
+def _fifth(value: np.ndarray) -> np.ndarray:
+    """value^-5, by products."""
+    inverse = 1.0 / value
+    return (inverse * inverse) ** 2 * inverse
