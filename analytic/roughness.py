@@ -50,6 +50,16 @@ def roughness(profile: Profile) -> Roughness:
     return replace(found, mean=offset + found.mean)
 
 
+def moments(profile: Profile) -> tuple[float, float, float]:
+    """Mean height [m], root mean square height about it [m] and root mean square slope."""
+    curve = profile.spline()
+    points, weights = _gauss_points(profile.x)
+    heights = curve(points)
+    mean = np.sum(weights * heights)
+    rq = np.sqrt(np.sum(weights * (heights - mean) ** 2))
+    return float(mean), float(rq), float(np.sqrt(np.sum(weights * curve(points, 1) ** 2)))
+
+
 def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
     """Roughness figures of a piecewise cubic height [m], counted from `level` [m] (None: its mean).
 
@@ -128,8 +138,22 @@ def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def _zeros(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
     """Where a piecewise polynomial takes `value` [m], ascending, without its constant pieces."""
+    if len(piecewise.c) <= 3 and value == 0.0:
+        return _zeros_of_quadratics(piecewise)
     zeros = piecewise.solve(value, discontinuity=False, extrapolate=False)
     return zeros[np.isfinite(zeros)]
+
+
+def _zeros_of_quadratics(piecewise: PPoly) -> np.ndarray:
+    """The same for pieces of degree 2 at most, all at once; a zero at a break counts twice."""
+    c, b, a = [*piecewise.c[::-1], np.zeros(len(piecewise.x) - 1)][:3]
+    root = np.sqrt(np.maximum(b**2 - 4.0 * a * c, 0.0))
+    sum_of_one_sign = -0.5 * (b + np.copysign(root, b))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        steps = np.stack([sum_of_one_sign / a, c / sum_of_one_sign])
+    steps[:, b**2 < 4.0 * a * c] = np.nan
+    inside = (steps >= 0.0) & (steps <= np.diff(piecewise.x))
+    return np.sort((piecewise.x[:-1] + steps)[inside])
 
 
 def _mean_deviation(curve: PPoly, mean: float) -> float:

@@ -11,7 +11,7 @@ from math import ceil, exp, floor
 import numpy as np
 
 from analytic.profile import MAX_SAMPLES, Profile
-from analytic.roughness import roughness
+from analytic.roughness import moments
 
 MIN_SAMPLES = 8
 SAMPLES_PER_WAVELENGTH = 64  # leaves 3e-7 of the amplitude between the spline and the cosine
@@ -99,10 +99,10 @@ def self_affine(
     period = np.fft.irfft(waves, samples - 1)
     trace = smooth(length=length, samples=samples)
     raw = Profile(trace.x, np.append(period, period[0]) / np.std(period))
-    figures = roughness(raw)
+    mean, rq, slope = moments(raw)
     by_slope = rms_height is None
-    factor = rms_slope / figures.rms_slope if by_slope else rms_height / figures.rq
-    return Profile(raw.x, factor * (raw.height - figures.mean))
+    factor = rms_slope / slope if by_slope else rms_height / rq
+    return Profile(raw.x, factor * (raw.height - mean))
 
 
 def ground_texture(
