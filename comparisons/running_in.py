@@ -8,6 +8,7 @@ from analytic.contact import ContactError
 from analytic.equilibrium import Constraints
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
+from analytic.profile import Profile
 from analytic.roughness import roughness, shortest_wavelength
 from analytic.running_in import run_in
 from comparisons.errors import SceneError
@@ -16,7 +17,8 @@ from comparisons.scene import ResolvedScene
 # Of the shortest wave: 1.5 % of the volume moved on ground surfaces. Twice as many would leave
 # 0.4 %, and edges of plateaus so sharp that both models take one level more to resolve them.
 HATS_PER_WAVE = 20.0
-MOST_HATS = 4000  # on the Hertz contact
+MOST_HATS = 60_000  # on the Hertz contact; a pass on so many takes about a tenth of a second
+COARSE = 1.5  # times the pitch wanted: less than that is the rounding to a power of two
 SMOOTH_HATS = 80  # and at least so many on its half-width
 
 
@@ -62,9 +64,14 @@ def _pitch(scene: ResolvedScene, half_width: float) -> float:
     """[m], the sample spacing over a power of two, so that hats nest in samples, or times one where
     the contact has too many."""
     spacing = scene.profile.spacing
-    wanted = min(shortest_wavelength(scene.profile) / HATS_PER_WAVE, half_width / SMOOTH_HATS)
-    wanted = max(min(wanted, spacing), 2.0 * half_width / MOST_HATS)
+    wanted = min(_wanted(scene.profile), half_width / SMOOTH_HATS)
+    wanted = max(wanted, 2.0 * half_width / MOST_HATS)
     return spacing * 2.0 ** round(np.log2(wanted / spacing))
+
+
+def _wanted(profile: Profile) -> float:
+    """The pitch [m] that resolves the surface."""
+    return min(shortest_wavelength(profile) / HATS_PER_WAVE, profile.spacing)
 
 
 def running_in_account(scene: ResolvedScene) -> dict | None:
@@ -96,6 +103,12 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
         f"running-in: at {settings.hardness:g} Pa asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
+    if worn is not None and worn.pitch > COARSE * _wanted(worn.before):
+        listed.append(
+            f"running-in: its pressures stood {worn.pitch:g} m apart, too coarse for the shortest "
+            f"waves of the surface ({shortest_wavelength(worn.before):g} m): asperities between "
+            "them have not flowed enough"
+        )
     if worn is not None and worn.status != "shaken down":
         listed.append(
             f"running-in: the surface has not shaken down in {worn.sweeps} sweeps over "

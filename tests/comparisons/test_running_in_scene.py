@@ -335,6 +335,17 @@ class TestTelling:
         said = running_in_in_words(scene)
         assert "it has not shaken down." in said and "an end of the trace" in said
 
+    def test_hats_too_coarse_for_the_surface_are_told(self, monkeypatch):
+        monkeypatch.setattr(comparisons.running_in, "MOST_HATS", 100)
+        problem = problem_of(resolved())
+        worn = problem.scene.worn
+        [said] = [
+            text
+            for text in make_plan(problem, MODELS).assumptions
+            if "too coarse for the shortest waves" in text
+        ]
+        assert f"{worn.pitch:g} m apart" in said
+
     def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Outcome):
         assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE)
         problem = outcome.problem
