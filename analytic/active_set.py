@@ -10,6 +10,7 @@ after finitely many. Symbols as in `analytic.contact`.
 import numpy as np
 
 from analytic.equilibrium import EquilibriumProblem
+from analytic.foresight import foreseen
 from analytic.sides import Sides
 
 PATIENCE = 8  # block exchanges without progress before the primal method
@@ -55,7 +56,7 @@ def exchange_blocks(
         if count > 0 and problem.short_of_free_nodes(sides):
             sides = problem.balanced(rest)
         else:
-            sides = sides.exchanged(broken)
+            sides = sides.exchanged(foreseen(broken, sides) if patience == PATIENCE else broken)
     return exchange_feasibly(problem, pressure, sides)
 
 

@@ -33,10 +33,11 @@ from analytic.contact import (
 from analytic.coupled_equilibrium import CoupledEquilibrium
 from analytic.coupling import CoupledOperator
 from analytic.equilibrium import Constraints
-from analytic.nesting import COARSEST, SETTLED, foundation_start, prolonged, restricted
+from analytic.nesting import SETTLED, foundation_start, prolonged, restricted
 from analytic.sides import Sides
 
 MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
+COARSEST = 128  # nodes; below this a coarser start saves nothing
 MAX_CONTRACTIONS = 400
 SHORTEST = 1e-10  # a contraction step this small, relative in the norm of N, is the last
 

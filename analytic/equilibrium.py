@@ -18,8 +18,8 @@ from analytic.sides import Broken, Sides
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
 TIGHT = 1e-13  # residual of an accurate equilibrium, over the displacements it balances
-# steps of conjugate gradients without a new least residual, after which rounding is reached:
-PATIENT = 15
+# steps of conjugate gradients without PROGRESS in the residual, after which rounding is reached:
+PATIENT, PROGRESS = 15, 0.7
 IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of TIGHT
 BISECTIONS = 100  # to a shift of pressures right to rounding
 
@@ -243,9 +243,9 @@ class EquilibriumProblem:
             if size <= goal:
                 pressure[nodes] = found
                 return total - self.gap, bool(size <= tight)
-            since_least += 1
+            since_least = 0 if size < PROGRESS * least else since_least + 1
             if size < least:
-                best, least, since_least = found.copy(), size, 0
+                best, least = found.copy(), size
             step = search.step(residual)
             slope = residual @ step
             direction *= slope / slope_before

@@ -12,7 +12,7 @@ from analytic.active_set import exchange_blocks
 from analytic.equilibrium import Constraints, EquilibriumProblem
 from analytic.operators import ModelOperator
 
-COARSEST = 128  # nodes; below this a coarser start saves nothing
+COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
