@@ -14,8 +14,9 @@ from analytic.foresight import foreseen
 from analytic.sides import Sides
 
 PATIENCE = 8  # block exchanges without progress before the primal method
-REDUCTION = 1e-2  # of the residual by each exchange while the set moves; 0.1 may go on for long
+REDUCTION = 3e-3  # of the residual by each exchange while the set moves; 0.1 may go on for long
 SHARPER = 0.1  # times that, after each exchange without progress
+NEARLY = 0.02  # of the edges still move: the next equilibrium is worth making accurate
 MAX_EXCHANGES = 200
 WORTHWHILE = 0.1  # of the energy that the equilibrium would release, taken by one step towards it
 
@@ -51,7 +52,7 @@ def exchange_blocks(
             if settled:
                 return pressure
             break
-        if count == 0:
+        if count == 0 or (not settled and count <= max(2, NEARLY * sides.edges())):
             reduction = 0.0
         if count > 0 and problem.short_of_free_nodes(sides):
             sides = problem.balanced(rest)

@@ -37,7 +37,8 @@ class Residuals:
     """How well the contact conditions hold; all dimensionless, zero when exact.
 
     load_balance       |w'p - P| / P (zero when the approach is prescribed)
-    complementarity    p'|g| over the free nodes / (P times the displacement scale)
+    complementarity    p'|g| over the nodes below the hardness and p'g over those at it that are
+                       open / (P times the displacement scale)
     penetration        largest overlap where p < H / the displacement scale
     negative_pressure  largest tension / the largest pressure
     excess_pressure    largest pressure above H / H
@@ -104,7 +105,8 @@ def contact_residuals(
     highest = np.max(pressure)
     free = pressure < hardness * (1.0 - SET_TOLERANCE)
     error = 0.0 if constraints.load is None else abs(load - constraints.load) / constraints.load
-    work = np.sum(weights[free] * np.abs(pressure[free] * actual[free]))
+    apart = np.where(free, np.abs(actual), np.maximum(actual, 0.0))
+    work = np.sum(weights * np.abs(pressure) * apart)
     residuals = Residuals(
         load_balance=error,
         complementarity=work / (load * scale) if load > 0.0 else 0.0,

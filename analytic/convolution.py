@@ -18,6 +18,7 @@ from scipy.linalg.lapack import dposv
 _KEPT = 31 * 2**20  # bytes; glibc's own limit is 32 MiB
 DIRECT = 160  # nodes from which iterating is faster than a Cholesky factor
 LEVINSON, DIRECT_IN_A_ROW = 64, 256  # nodes in a row between which Levinson's recursion is fastest
+CROPS, CROPPED_FROM = 8, 4096  # lengths of stretches, and nodes from which they pay
 _MARGIN = 8  # a line is closed to a ring for the inverse by an eighth of its length
 
 
@@ -57,6 +58,7 @@ class Convolution:
         _keep_large_buffers()
         self.column, self.row = column, column if row is None else row
         self.symmetric = row is None
+        self._symbol_at, self._shorter = symbol, {}
         self.count = len(column)
         self.periodic = periodic
         self.applications = 0
@@ -103,6 +105,20 @@ class Convolution:
         if count > DIRECT:
             return None
         return cholesky_solve(self.block(nodes), right)
+
+    def cropped(self, span: int) -> "Convolution | None":
+        """The same on a stretch of the line that holds `span` nodes, of a few lengths; kept.
+
+        None where it would not be much shorter, and on a periodic line.
+        """
+        length = -(-CROPS * span // self.count) * self.count // CROPS
+        length = max(length, span)
+        if self.periodic or self.count < CROPPED_FROM or length > 0.75 * self.count:
+            return None
+        if length not in self._shorter:
+            row = None if self.symmetric else self.row[:length]
+            self._shorter[length] = Convolution(self.column[:length], self._symbol_at, row)
+        return self._shorter[length]
 
     def _start_of_row(self, nodes: np.ndarray) -> int | None:
         """Which of the nodes starts the row without a gap that they form, None if they do not."""

@@ -27,7 +27,7 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import ArrayLike
 
-from analytic.convolution import DIRECT, Convolution
+from analytic.convolution import DIRECT, Convolution, made_once
 from analytic.operators import HalfPlane, ModelOperator
 
 
@@ -89,6 +89,7 @@ class TangentialHalfPlane(Convolution):
         # in a circulant the entries above the diagonal follow from the column
         super().__init__(self.coefficients, _nothing, row=-self.coefficients, periodic=periodic)
 
+    @made_once
     def coarsened(self) -> "TangentialHalfPlane | None":
         """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
         if self.periodic and self.count % 2:
@@ -130,6 +131,7 @@ class CoupledHalfPlane(Convolution):
         """
         return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
 
+    @made_once
     def coarsened(self) -> "CoupledHalfPlane":
         """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
         return CoupledHalfPlane(
@@ -178,6 +180,10 @@ class CoupledPair:
             return None
         return eliminated(normal.block(nodes) + self.friction * tangential.block(nodes), right)
 
+    def cropped(self, span: int) -> None:
+        """Not offered: the parts may be bodies whose compliance depends on more than distances."""
+
+    @made_once
     def coarsened(self) -> "CoupledPair | None":
         """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
         normal, tangential = self.normal.coarsened(), self.tangential.coarsened()

@@ -13,19 +13,24 @@ from analytic.operators import ModelOperator
 class FreeSearch:
     """The approximate inverse of the compliance of some nodes (m,), and pressures without load.
 
-    lift  (m,) the pressures that carry a unit load, with `weights` (m,) given; then `step` stays
-          in w'p = const
+    operator  of a stretch of the line that holds the nodes
+    stretch   where on the line that is; the whole of it where `cropped` is False
+    lift      (m,) the pressures that carry a unit load, with `weights` (m,) given; then `step`
+              stays in w'p = const
     """
 
     def __init__(
-        self,
-        operator: ModelOperator,
-        count: int,
-        nodes: np.ndarray,
-        weights: np.ndarray | None,
+        self, operator: ModelOperator, nodes: np.ndarray, weights: np.ndarray | None
     ) -> None:
-        self.nodes, self._operator, self._weights = nodes, operator, weights
-        self._extension = Extension(nodes, operator.ring or count, bool(operator.ring))
+        shorter = operator.cropped(int(nodes[-1] - nodes[0]) + 1)
+        self.nodes, self._weights = nodes, weights
+        self.cropped = shorter is not None
+        self.operator = shorter or operator
+        count = self.operator.count
+        first = min(int(nodes[0]), operator.count - count)
+        self.stretch = slice(first, first + count)
+        ring = self.operator.ring
+        self._extension = Extension(nodes - first, ring or count, closed=ring is not None)
         if weights is not None:
             lift = self.inverse(weights)
             self.lift = lift / (weights @ lift)
@@ -33,7 +38,7 @@ class FreeSearch:
     def inverse(self, displacement: np.ndarray) -> np.ndarray:
         """Pressures (m,) under which the nodes sink by about `displacement` (m,)."""
         extended = self._extension.extend(displacement)
-        return self._extension.gather(self._operator.precondition(extended))
+        return self._extension.gather(self.operator.precondition(extended))
 
     def step(self, residual: np.ndarray) -> np.ndarray:
         """The same less the load that they carry."""

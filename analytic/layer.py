@@ -15,7 +15,7 @@ leaves them undefined up to a constant, as in `analytic.operators`.
 import numpy as np
 from scipy.fft import irfft, next_fast_len
 
-from analytic.convolution import Convolution
+from analytic.convolution import Convolution, made_once
 from analytic.layer_kernel import hat_compliance
 from analytic.layered import LayeredBody, normal_compliance
 from analytic.periodic import FEWEST, hat_aliases
@@ -43,6 +43,7 @@ class LayeredSurface(Convolution):
         self.coefficients = free_coefficients(count, pitch, body, self.datum)
         super().__init__(self.coefficients, self._symbol)
 
+    @made_once
     def coarsened(self) -> "LayeredSurface":
         """The same body under elements twice as wide, centred on nodes 1, 3, 5, …"""
         return LayeredSurface(self.count // 2, 2.0 * self.pitch, self.body, self.datum)
@@ -71,6 +72,7 @@ class PeriodicLayeredSurface(Convolution):
         self.coefficients = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)
         super().__init__(self.coefficients, self._symbol, periodic=True)
 
+    @made_once
     def coarsened(self) -> "PeriodicLayeredSurface | None":
         """The same body under elements twice as wide, centred on nodes 1, 3, 5, …
 

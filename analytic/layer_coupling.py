@@ -14,7 +14,7 @@ import numpy as np
 from scipy.fft import irfft
 from scipy.special import zeta
 
-from analytic.convolution import Convolution
+from analytic.convolution import Convolution, made_once
 from analytic.layer import aliases_of
 from analytic.layer_kernel import hat_coupling
 from analytic.layered import LayeredBody, wave_compliance
@@ -47,6 +47,7 @@ class TangentialLayer(Convolution):
             periodic=periodic,
         )
 
+    @made_once
     def coarsened(self) -> "TangentialLayer | None":
         """The same body under elements twice as wide, centred on nodes 1, 3, 5, …"""
         half, odd = divmod(self.count, 2)

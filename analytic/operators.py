@@ -43,6 +43,7 @@ class ModelOperator(ComplianceOperator, Protocol):
     solve         pressures (m, k) of few nodes (m,) alone that sink by given right sides (m, k),
                   or None: they are not so few, or nothing can be factored
     block         the matrix's rows and columns of some nodes
+    cropped       the same on a stretch that holds a number of nodes in a row, or None
     coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
     """
 
@@ -55,6 +56,8 @@ class ModelOperator(ComplianceOperator, Protocol):
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None: ...
 
     def block(self, nodes: np.ndarray) -> np.ndarray: ...
+
+    def cropped(self, span: int) -> "ModelOperator | None": ...
 
     def coarsened(self) -> "ModelOperator | None": ...
 
@@ -190,6 +193,9 @@ class DenseCompliance:
         return self.matrix[np.ix_(nodes, nodes)]
 
     @made_once
+    def cropped(self, span: int) -> None:
+        """No part of a body has a compliance that depends on distances alone."""
+
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         inner = 2 * np.arange(self.count // 2) + 1

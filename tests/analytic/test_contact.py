@@ -338,3 +338,19 @@ def test_residuals_see_each_kind_of_error():
     assert residuals(solution.pressure, 0.99 * solution.approach).complementarity > 1e-4
     assert residuals(solution.pressure - 1e8).negative_pressure > 0.01
     assert residuals(solution.pressure, hardness=1e9).excess_pressure > 1.0
+
+
+def test_residuals_see_pressure_at_the_hardness_over_an_open_gap():
+    """At the hardness bodies overlap or touch; the outermost nodes must not carry anything there."""
+    grid, hardness = HatGrid(1e-6, -32, 32), 1e9
+    operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(roller_gap(1e-3))
+    pressure = np.where(np.abs(grid.x) > 27.5e-6, hardness, 0.0)
+    displacement = operator.apply(pressure)
+    inner = pressure == 0.0
+    approach = np.min(((average + displacement) / grid.weights)[inner])
+    constraints = Constraints(load=grid.weights @ pressure, hardness=hardness)
+    gap, residuals = contact_residuals(
+        displacement, pressure, average, grid.weights, approach, constraints
+    )
+    assert gap[~inner].max() > 1e-8
+    assert residuals.complementarity > 0.01
