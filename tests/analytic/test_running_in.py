@@ -32,6 +32,8 @@ PROFILES = Path(__file__).parents[2] / "comparisons" / "scenes" / "profiles"
 
 
 def worn(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how) -> RunIn:
+    """On hats as far apart as the samples, so that these stay where they are."""
+    how = {"pitch": profile.spacing, **how}
     return run_in(profile, RADIUS, MODULUS, constraints, positions, **how)
 
 
@@ -187,6 +189,39 @@ class TestRefinement:
         assert distances[-1] < 1e-3 * WAVY.height.max()
         assert np.abs(peaks[-1]) < 0.02 and np.abs(peaks[-1]) < 0.5 * np.abs(peaks[0])
 
+    def test_curve_between_samples_rises_by_little_and_less_on_narrower_hats(self, wavy):
+        """Samples only go down; the spline through them swings beside a flattened crest."""
+        x = np.linspace(-2.0, 2.0, 40_001) * A
+        lifts = []
+        for hats in (1.0, 2.0, 4.0):
+            found = wavy if hats == 1.0 else worn(pitch=WAVY.spacing / hats)
+            assert np.all(found.lowering >= 0.0)
+            rise = found.profile.spline()(x) - WAVY.spline()(x)
+            lifts.append(rise.max() / found.largest_lowering)
+        assert lifts == pytest.approx([0.0035, 0.0013, 0.0004], rel=0.2)
+
+    def test_curve_of_a_rough_surface_of_few_samples_a_wave_rises_by_more(self):
+        rough = ground_texture(
+            rms_height=0.1e-6,
+            samples=1025,
+            length=6.0 * A,
+            seed=3,
+            roll_off_wavelength=0.5 * A,
+            shortest_wavelength=0.02 * A,
+            longest_wavelength=2.0 * A,
+        )
+        x = np.linspace(*rough.x[[0, -1]], 100_001)
+        lifts = []
+        for pitch in (rough.spacing, None):
+            found = worn(rough, pitch=pitch, sweeps=2)
+            rise = found.profile.spline()(x) - rough.spline()(x)
+            lifts.append(rise.max() / found.largest_lowering)
+        assert lifts == pytest.approx([0.032, 0.010], rel=0.3)
+
+    def test_two_hats_a_sample_unless_told(self):
+        found = worn(pitch=None, positions=[0.0], sweeps=1)
+        assert found.pitch == pytest.approx(0.5 * WAVY.spacing, rel=1e-12)
+
     def test_narrower_hats_add_samples_where_the_roller_was(self):
         found = worn(pitch=0.5 * WAVY.spacing, positions=[0.0], sweeps=1)
         kept = np.isclose(found.profile.x[:, None], WAVY.x, rtol=0.0, atol=1e-15).any(axis=0)
@@ -233,6 +268,7 @@ class TestSymmetry:
             m * MODULUS,
             Constraints(load=s * m * LOAD, hardness=m * CAPPED.hardness),
             s * PLACES,
+            pitch=s * WAVY.spacing,
         )
         assert found.volume / s**2 == pytest.approx(wavy.volume, rel=1e-10)
         assert found.lowering / s == pytest.approx(wavy.lowering, abs=1e-7 * wavy.largest_lowering)
@@ -352,7 +388,9 @@ class TestGroundSurface:
         pair = cls.PAIR
         constraints = Constraints(load=pair.load_per_length, hardness=cls.HARDNESS)
         places = 1e-6 * np.array(cls.PLACES)
-        return run_in(profile, pair.radius, pair.combined_modulus, constraints, places, **how)
+        return run_in(
+            profile, pair.radius, pair.combined_modulus, constraints, places, pitch=1e-6, **how
+        )
 
     def contact(self, profile: Profile, pitch: float) -> tuple[float, float]:
         """Contact ratio by touching nodes, and peak pressure over p0, at the last place."""
