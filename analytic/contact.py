@@ -21,7 +21,7 @@ import numpy as np
 
 from analytic.active_set import exchange_blocks
 from analytic.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
-from analytic.nesting import coarse_start
+from analytic.nesting import SETTLED, coarse_start
 from analytic.operators import ModelOperator
 
 EVEN = 1e-5  # of the displacement: rounding, 1e-14 of it, must not count as a residual
@@ -157,16 +157,12 @@ def solve_contact(
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
     KKT_TOLERANCE is returned with `converged` False.
     """
-    if constraints.load is not None and constraints.load >= constraints.hardness * weights.sum():
-        raise ContactError(
-            f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
-            f"hardness: {constraints.hardness * weights.sum():g} N/m"
-        )
+    check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0}
     common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
     if start is None:
-        start = coarse_start(operator, gap, weights, constraints, spent)
+        start = coarse_start(operator, gap, weights, constraints, spent, _settled)
     problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
@@ -180,6 +176,28 @@ def solve_contact(
         spent,
     )
     return replace(solution, approach=solution.approach + common)
+
+
+def _settled(
+    operator: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    spent: dict[str, int],
+    start: np.ndarray,
+) -> np.ndarray:
+    problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
+    return exchange_blocks(problem, start, settled=SETTLED)
+
+
+def check_load(constraints: Constraints, weights: np.ndarray) -> None:
+    """Raise ContactError if a prescribed load exceeds what the hardness can carry."""
+    most = constraints.hardness * weights.sum()
+    if constraints.load is not None and constraints.load >= most:
+        raise ContactError(
+            f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
+            f"hardness: {most:g} N/m"
+        )
 
 
 def solve_contacts(

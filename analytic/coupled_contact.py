@@ -24,16 +24,16 @@ import numpy as np
 
 from analytic.active_set import REDUCTION
 from analytic.contact import (
-    ContactError,
     ContactSolution,
     assessed,
+    check_load,
     common_gap,
     solve_contact,
 )
 from analytic.coupled_equilibrium import CoupledEquilibrium
 from analytic.coupling import CoupledOperator
 from analytic.equilibrium import Constraints
-from analytic.nesting import SETTLED, foundation_start, prolonged, restricted
+from analytic.nesting import SETTLED, coarse_start
 from analytic.sides import Sides
 
 MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
@@ -62,12 +62,7 @@ def solve_coupled(
     """
     if not operator.skew:
         return solve_contact(operator.normal, gap, weights, constraints, start)
-    carried = constraints.hardness * weights.sum()
-    if constraints.load is not None and constraints.load >= carried:
-        raise ContactError(
-            f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
-            f"hardness: {carried:g} N/m"
-        )
+    check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0, "contractions": 0}
     common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
@@ -76,7 +71,7 @@ def solve_coupled(
     if start is not None:
         pressure, settled = _exchange(problem, start)
     if not settled:
-        start = _coarse_start(operator, gap, weights, constraints, spent)
+        start = coarse_start(operator, gap, weights, constraints, spent, _settled, COARSEST)
         pressure, settled = _exchange(problem, start)
     solution = _solution(problem, pressure)
     if not (settled or solution.converged):
@@ -118,7 +113,8 @@ def _exchange(
         if count == 0:
             reduction = 0.0
             continue
-        sides = sides.exchanged(broken)
+        short = problem.short_of_free_nodes(sides)
+        sides = problem.balanced(rest) if short else sides.exchanged(broken)
         key = np.packbits(sides.lower).tobytes(), np.packbits(sides.upper).tobytes()
         if key in seen:
             if reduction == 0.0:
@@ -154,14 +150,13 @@ def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
     return _solution(problem, pressure)
 
 
-def _coarse_start(operator, gap, weights, constraints, spent) -> np.ndarray:
-    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle."""
-    count = len(gap)
-    coarse = operator.coarsened() if count >= COARSEST else None
-    if coarse is None:
-        return foundation_start(operator, gap, weights, constraints)
-    gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
-    start = _coarse_start(coarse, gap, weights, constraints, spent)
-    problem = CoupledEquilibrium(coarse, gap, weights, constraints, spent)
-    pressure, _ = _exchange(problem, start, SETTLED)
-    return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
+def _settled(
+    operator: CoupledOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    spent: dict[str, int],
+    start: np.ndarray,
+) -> np.ndarray:
+    problem = CoupledEquilibrium(operator, gap, weights, constraints, spent)
+    return _exchange(problem, start, SETTLED)[0]

@@ -6,16 +6,20 @@ fall as the root of the distance, so that their squares tell on which side of th
 two coarse nodes the edge lies.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
-from analytic.active_set import exchange_blocks
-from analytic.equilibrium import Constraints, EquilibriumProblem
+from analytic.equilibrium import Constraints
 from analytic.operators import ModelOperator
 
 COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
-FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
+
+Settle = Callable[
+    [ModelOperator, np.ndarray, np.ndarray, Constraints, dict[str, int], np.ndarray], np.ndarray
+]
 
 
 def coarse_start(
@@ -24,17 +28,22 @@ def coarse_start(
     weights: np.ndarray,
     constraints: Constraints,
     spent: dict[str, int],
+    settle: Settle,
+    coarsest: int = COARSEST,
 ) -> np.ndarray:
-    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle."""
+    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle.
+
+    settle    pressures of a coarse problem, whose edges may be off, from a start
+    coarsest  nodes below which no coarser grid is made
+    """
     count = len(gap)
-    coarse = operator.coarsened() if count >= COARSEST else None
+    coarse = operator.coarsened() if count >= coarsest else None
     if coarse is None:
         spent["applications"] += 1
         return foundation_start(operator, gap, weights, constraints)
     gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
-    start = coarse_start(coarse, gap, weights, constraints, spent)
-    problem = EquilibriumProblem(coarse, gap, weights, constraints, spent)
-    pressure = exchange_blocks(problem, start, settled=SETTLED)
+    start = coarse_start(coarse, gap, weights, constraints, spent, settle, coarsest)
+    pressure = settle(coarse, gap, weights, constraints, spent, start)
     return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
 
 

@@ -341,7 +341,7 @@ def test_residuals_see_each_kind_of_error():
 
 
 def test_residuals_see_pressure_at_the_hardness_over_an_open_gap():
-    """At the hardness bodies overlap or touch; the outermost nodes must not carry anything there."""
+    """At the hardness bodies overlap or touch; the outermost nodes may carry nothing there."""
     grid, hardness = HatGrid(1e-6, -32, 32), 1e9
     operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(roller_gap(1e-3))
     pressure = np.where(np.abs(grid.x) > 27.5e-6, hardness, 0.0)

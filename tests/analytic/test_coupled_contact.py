@@ -312,11 +312,11 @@ class TestCost:
 
     @pytest.mark.parametrize("gap", [roller_gap(RADIUS), rough_gap(1), rough_gap(1, 4e-6)])
     @pytest.mark.parametrize("friction_dundurs", COUPLINGS)
-    def test_two_and_a_half_times_the_uncoupled_problem_at_most(self, gap, friction_dundurs):
+    def test_three_times_the_uncoupled_problem_at_most(self, gap, friction_dundurs):
         grid = HatGrid.within(-1.3e-3, 1.3e-3, 2.6e-3 / 4000)
         plain, found = uncoupled(grid, gap), pressed(grid, gap, friction_dundurs)
         assert found.converged and found.iterations["contractions"] == 0
-        assert found.iterations["applications"] < 2.5 * plain.iterations["applications"]
+        assert found.iterations["applications"] < 3.0 * plain.iterations["applications"]
 
     @pytest.mark.parametrize("friction_dundurs", COUPLINGS)
     def test_hardly_grows_with_the_number_of_elements(self, friction_dundurs):

@@ -117,3 +117,22 @@ def test_a_row_that_closes_over_the_end_of_a_period_is_solved_for_directly():
 
 def test_many_nodes_are_left_to_iterations():
     assert HalfPlane(2000, PITCH, MODULUS).solve(np.arange(0, 2000, 2), np.ones((1000, 2))) is None
+
+
+@pytest.mark.parametrize("span", [1500, 2000, 4096])
+def test_a_stretch_of_the_line_has_the_same_compliance(span):
+    operator = HalfPlane(8000, PITCH, MODULUS)
+    stretch = operator.cropped(span)
+    assert span <= stretch.count <= 0.75 * 8000
+    pressure = np.random.default_rng(11).uniform(size=stretch.count)
+    line = np.zeros(8000)
+    line[700 : 700 + stretch.count] = pressure
+    expected = operator.apply(line)[700 : 700 + stretch.count]
+    assert stretch.apply(pressure) == pytest.approx(expected, rel=1e-12)
+    assert operator.cropped(span) is stretch
+
+
+def test_no_stretch_is_offered_where_it_would_not_pay():
+    assert HalfPlane(8000, PITCH, MODULUS).cropped(7000) is None
+    assert HalfPlane(800, PITCH, MODULUS).cropped(100) is None
+    assert PeriodicHalfPlane(8000, PITCH, MODULUS).cropped(100) is None
