@@ -20,6 +20,19 @@ def uniform_pitch(x_nodes: np.ndarray, pressure: np.ndarray) -> float:
     return float(pitch)
 
 
+def from_nearest(
+    nodes: np.ndarray, pitch: float, x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places x (m,) [m] and nodes (n,) [m], ascending, by whole pitches, which rounding spares.
+
+    Whole pitches (n,) from the first node to each; those to the node nearest to each place (m,),
+    and the pitches from there to the place (m,), 0 at a node as it was given.
+    """
+    whole = np.rint((nodes - nodes[0]) / pitch).astype(int)
+    nearest = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
+    return whole, whole[nearest], (x - nodes[nearest]) / pitch
+
+
 def check_element(element: str) -> None:
     """ValueError unless `element` is "hat" or "strip"."""
     if element not in ("hat", "strip"):

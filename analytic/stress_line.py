@@ -3,6 +3,7 @@
 import numpy as np
 
 from analytic.stress_elements import hat_at, strip_between
+from analytic.stress_grid import from_nearest
 from analytic.stress_potential import Element
 from analytic.stress_tree import tree_stress
 from analytic.threads import for_each
@@ -44,16 +45,16 @@ def direct_stress(
     """`line_stress` as the sum over all elements, each component with its own digits."""
     parts = np.empty((4, len(x)))
     step = max(1, _BLOCK // len(nodes))
-    half = 0.5 * pitch
+    whole, nearest, rest = from_nearest(nodes, pitch, x)
+    down = z / pitch
 
     def add_up(here: slice) -> None:
-        offset = x[here, None] - nodes
-        depth = np.broadcast_to(z[here, None], offset.shape)
+        offset = rest[here, None] + (nearest[here, None] - whole)
+        depth = np.broadcast_to(down[here, None], offset.shape)
         if element == "hat":
-            unit = hat_at(offset / pitch, depth / pitch)
+            unit = hat_at(offset, depth)
         else:
-            left, right = x[here, None] - (nodes - half), x[here, None] - (nodes + half)
-            unit = strip_between(left, offset, right, depth)
+            unit = strip_between(offset + 0.5, offset, offset - 0.5, depth)
         normal = unit.normal
         for row, values in enumerate((normal.sx, normal.sz, normal.txz, unit.traction_sx)):
             parts[row, here] = values @ load

@@ -11,30 +11,32 @@ from analytic.stress_potential import Element
 
 @dataclass(frozen=True)
 class Line:
-    """The load (n,) [Pa], and the places of its nodes and of one more at either end [m]."""
+    """The load (n,) [Pa], one pitch from node to node."""
 
-    places: np.ndarray
-    pitch: float
     load: np.ndarray
     element: Element
 
 
 def near_stress(
-    line: Line, x: np.ndarray, z: np.ndarray, start: np.ndarray, count: int
+    line: Line,
+    nearest: np.ndarray,
+    rest: np.ndarray,
+    z: np.ndarray,
+    start: np.ndarray,
+    count: int,
 ) -> np.ndarray:
     """The four stresses (4, points) of `count` elements from number `start` (points,) on.
 
-    At x, z (points,) [m]; elements beyond the line's ends carry nothing.
+    At places (points,) `rest` from the node of number `nearest`, and z below, in pitches. Elements
+    beyond the line's ends carry nothing.
     """
     unique, which = np.unique(start, return_inverse=True)
     index = unique[:, None] + np.arange(-1, count + 1)
     loaded = (index >= 0) & (index < len(line.load))
     load = np.where(loaded, line.load[np.where(loaded, index, 0)], 0.0)
     load[:, [0, -1]] = 0.0
-    beyond = np.clip(index, -1, len(line.load))
-    place = line.places[beyond + 1] + (index - beyond) * line.pitch
-    offset = (x[:, None] - place[which]) / line.pitch
-    z = z[:, None] / line.pitch
+    offset = rest[:, None] + (nearest[:, None] - index[which])
+    z = z[:, None]
     if line.element == "strip":
         unit = unit_stress(offset, np.broadcast_to(z, offset.shape), "strip")
         return _weighted(unit, load[which])

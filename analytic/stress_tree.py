@@ -9,7 +9,7 @@ expansion. Only boxes over points, and their ancestors, have one.
 
 Where all of the load is farther than twice its half-width, its moments are summed as in
 `stress_multipoles`, and every component keeps its own digits. Elsewhere all are right to 1e-14 of
-the largest pressure.
+the largest pressure, at places that are known to rounding as `stress` says.
 """
 
 from itertools import pairwise
@@ -17,6 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from analytic.stress_boxes import LEAF, NEIGHBOURS, box_levels, inner_sum, outer_sum
+from analytic.stress_grid import from_nearest
 from analytic.stress_multipoles import FARTHER, far_moments, line_multipoles
 from analytic.stress_near import Line, near_stress
 from analytic.stress_potential import Element, stresses
@@ -43,21 +44,20 @@ def tree_stress(
         parts[:, far] = line_multipoles((x[far] - middle) / half, z[far] / half, moments)
     among = np.flatnonzero(~far)
     if len(among):
-        places = np.concatenate([[nodes[0] - pitch], nodes, [nodes[-1] + pitch]])
-        line = Line(places, pitch, load, element)
-        parts[:, among] = _among(line, x[among], z[among])
+        _, nearest, rest = from_nearest(nodes, pitch, x[among])
+        parts[:, among] = _among(Line(load, element), nearest, rest, z[among] / pitch)
     return parts
 
 
-def _among(line: Line, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Between and next to the elements."""
-    along, down = (x - line.places[1]) / line.pitch + 0.5, z / line.pitch
+def _among(line: Line, nearest: np.ndarray, rest: np.ndarray, down: np.ndarray) -> np.ndarray:
+    """Between and next to the elements: `rest` pitches from the `nearest` node, and so far down."""
+    along = nearest + (rest + 0.5)
     level = np.ceil(np.log2(np.maximum(down / (0.5 * LEAF * _DEEPEST), 1.0))).astype(int)
     box = np.floor(along / (LEAF * 2.0**level)).astype(int)
     order = np.lexsort((box, level))
     runs = list(pairwise(np.searchsorted(level[order], np.arange(level.max() + 2))))
     levels = box_levels(line.load, line.element, [box[order[a:b]] for a, b in runs])
-    parts = np.empty((4, len(x)))
+    parts = np.empty((4, len(down)))
 
     def add_up(piece: slice) -> None:
         here = order[piece]
@@ -77,7 +77,9 @@ def _among(line: Line, x: np.ndarray, z: np.ndarray) -> np.ndarray:
                 block = slice(i, i + _NEAR_BLOCK)
                 start = (box[here[block]] - NEIGHBOURS) * LEAF
                 count = (2 * NEIGHBOURS + 1) * LEAF
-                found[:, block] += near_stress(line, x[here[block]], z[here[block]], start, count)
+                found[:, block] += near_stress(
+                    line, nearest[here[block]], rest[here[block]], down[here[block]], start, count
+                )
         parts[:, here] = found
 
     for_each(
