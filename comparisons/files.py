@@ -20,6 +20,7 @@ OWN_FILES = (
     "result.json",
     "report.html",
     "record.json",
+    "run_in_profile.csv",
     "half_plane/contact.csv",
     "half_plane/stress.vtu",
     "finite_element/contact.csv",

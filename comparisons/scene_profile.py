@@ -7,7 +7,7 @@ from math import hypot, sqrt
 from pathlib import Path
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.filters import filtered
+from analytic.filters import check_cutoff, filtered
 from analytic.form import RemovedForm, remove_form
 from analytic.material import Material, combined_modulus
 from analytic.profile import Profile
@@ -147,12 +147,16 @@ def _made(table: Mapping, source: str) -> tuple[Profile, dict]:
 def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:
     """What is pressed of the trace, and the filter and the standard's figures for the account."""
     cutoff, short = table.get("cutoff"), table.get("short_cutoff")
+    field = "cutoff"
     try:
         if cutoff == AUTOMATIC:
             cutoff = standard_cutoff(trace)
+        field = "short_cutoff"
+        if short is not None:
+            check_cutoff(trace, short)
+        field = "cutoff" if cutoff is not None else field
         pressed = filtered(trace, cutoff, short)
     except ValueError as error:
-        field = "cutoff" if cutoff is not None else "short_cutoff"
         raise SceneError(f"{source}: profile.{field}: {error}") from error
     account = {"cutoff": cutoff, "short_cutoff": short}
     try:

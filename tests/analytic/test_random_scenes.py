@@ -254,7 +254,7 @@ def test_every_scene_is_solved(batch):
     failed = [
         f"{found.label}: converged {found.converged}, {found.residuals}"
         for found in outcomes(batch)
-        if not (found.converged and max(found.residuals.values()) <= RESIDUAL)
+        if not (found.converged and max(found.residuals.values()) <= 1e-8)
     ]
     assert not failed, "\n".join(failed)
 
