@@ -43,8 +43,8 @@ def test_mirror_translation_and_scale(element):
         assert np.abs(getattr(scaled, name) * 1e3 - value).max() < 1e-11 * largest
 
 
-def test_linear_in_pressure_and_friction():
-    other = RNG.uniform(0.0, 1e9, NODES.size)
+def test_linear_in_pressure_and_friction(rng):
+    other = rng.uniform(0.0, 1e9, NODES.size)
     first, second = (stress_at(NODES, p, 0.2, X, Z) for p in (PRESSURE, other))
     both = stress_at(NODES, 2.0 * PRESSURE + 3.0 * other, 0.2, X, Z)
     none, twice = (stress_at(NODES, PRESSURE, mu, X, Z) for mu in (0.0, 0.4))

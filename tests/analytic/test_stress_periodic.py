@@ -10,7 +10,6 @@ from analytic.stress_maxima import stress_maxima
 from analytic.stress_periodic import DEEP
 
 NAMES = ("sx", "sz", "txz")
-RNG = np.random.default_rng(41)
 
 
 def period(count: int, length: float) -> np.ndarray:
@@ -35,11 +34,11 @@ def wave(x: np.ndarray, z: np.ndarray, number: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("waves", [1, 3])
-def test_hats_on_a_cosine_approach_the_exact_stresses_by_the_square_of_the_pitch(waves):
+def test_hats_on_a_cosine_approach_the_exact_stresses_by_the_square_of_the_pitch(rng, waves):
     """Order 2 on both sides, at all depths from a hundredth of the pitch to half a period."""
     length, counts = 2.5, (64, 128, 256)
     number = 2.0 * np.pi * waves / length
-    x, z = RNG.uniform(-3.0, 4.0, 120), 10.0 ** RNG.uniform(-4.0, 0.1, 120)
+    x, z = rng.uniform(-3.0, 4.0, 120), 10.0 ** rng.uniform(-4.0, 0.1, 120)
     errors = []
     for count in counts:
         nodes = period(count, length)
@@ -52,11 +51,11 @@ def test_hats_on_a_cosine_approach_the_exact_stresses_by_the_square_of_the_pitch
 
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
-def test_one_wave_is_exact_but_for_the_elements_own_factor(element):
+def test_one_wave_is_exact_but_for_the_elements_own_factor(rng, element):
     """Below the pitch's reach a sampled cosine is the cosine times sinc or its square."""
     count, length, number = 16, 1.0, 2.0 * np.pi
     nodes = period(count, length)
-    x, z = RNG.uniform(-1.0, 1.0, 60), RNG.uniform(0.4, 1.5, 60)
+    x, z = rng.uniform(-1.0, 1.0, 60), rng.uniform(0.4, 1.5, 60)
     found = parts(friction_stress_at(nodes, np.cos(number * nodes), x, z, element, periodic=True))
     factor = np.sinc(1.0 / count) ** (2 if element == "hat" else 1)
     # The next alias has 15 waves, and e^(-2 pi 15 0.4) is 4e-17.
@@ -64,10 +63,10 @@ def test_one_wave_is_exact_but_for_the_elements_own_factor(element):
 
 
 @pytest.mark.parametrize("friction", [0.0, 0.3])
-def test_partial_contact_of_a_wavy_surface(friction):
+def test_partial_contact_of_a_wavy_surface(rng, friction):
     """The square-root edges limit the order to 3/2 away from them."""
     contact = westergaard_from_half_width(0.2, 1.0, 1e-2, 1.0)
-    x, z = RNG.uniform(-0.5, 0.5, 80), RNG.uniform(0.05, 1.0, 80)
+    x, z = rng.uniform(-0.5, 0.5, 80), rng.uniform(0.05, 1.0, 80)
     exact = westergaard_stress(contact, x, z, friction)
     scale, half = contact.peak_pressure, contact.half_width
     worst = []
@@ -85,12 +84,12 @@ def test_partial_contact_of_a_wavy_surface(friction):
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("count", [2, 5, 16])
-def test_sum_of_images(element, count):
+def test_sum_of_images(rng, element, count):
     """What J images on either side leave out falls like 1/(J + 1/2), which is extrapolated away."""
-    nodes, load = 0.3 + period(count, 0.75), RNG.uniform(-1.0, 1.0, count)
+    nodes, load = 0.3 + period(count, 0.75), rng.uniform(-1.0, 1.0, count)
     middle = nodes.mean()
-    x = middle + RNG.uniform(-0.37, 0.37, 40)
-    z = 10.0 ** RNG.uniform(-5.0, 0.0, 40)
+    x = middle + rng.uniform(-0.37, 0.37, 40)
+    z = 10.0 ** rng.uniform(-5.0, 0.0, 40)
     periodic = parts(friction_stress_at(nodes, load, x, z, element, periodic=True))
     sums = []
     for images in (80, 160):
@@ -102,9 +101,9 @@ def test_sum_of_images(element, count):
     np.testing.assert_allclose(extrapolated, periodic, rtol=0.0, atol=5e-6)
 
 
-def test_a_period_more_changes_nothing():
-    nodes, load = period(32, 1.0), RNG.uniform(0.0, 1.0, 32)
-    x, z = RNG.uniform(-0.4, 0.4, 200), 10.0 ** RNG.uniform(-6.0, 0.3, 200)
+def test_a_period_more_changes_nothing(rng):
+    nodes, load = period(32, 1.0), rng.uniform(0.0, 1.0, 32)
+    x, z = rng.uniform(-0.4, 0.4, 200), 10.0 ** rng.uniform(-6.0, 0.3, 200)
     base = parts(friction_stress_at(nodes, load, x, z, periodic=True))
     away = parts(friction_stress_at(nodes, load, x + 3.0, z, periodic=True))
     assert np.abs(away - base).max() < 1e-11
@@ -114,8 +113,8 @@ def test_a_period_more_changes_nothing():
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("count", [2, 3, 64])
-def test_no_seam_where_the_waves_take_over(element, count):
-    nodes, load = period(count, 1.0), RNG.uniform(0.0, 1.0, count)
+def test_no_seam_where_the_waves_take_over(rng, element, count):
+    nodes, load = period(count, 1.0), rng.uniform(0.0, 1.0, count)
     x = np.linspace(-0.7, 0.9, 57)
     above, below = (
         parts(friction_stress_at(nodes, load, x, DEEP * factor, element, periodic=True))
@@ -124,18 +123,18 @@ def test_no_seam_where_the_waves_take_over(element, count):
     assert np.abs(above - below).max() < 1e-14
 
 
-def test_far_below_only_the_mean_is_left():
+def test_far_below_only_the_mean_is_left(rng):
     """sx = sz = -P under pressure; txz = -Q and no sx under a traction."""
-    nodes, load = period(10, 1.0), RNG.uniform(0.0, 1.0, 10)
-    extra = RNG.uniform(-1.0, 1.0, 10)
+    nodes, load = period(10, 1.0), rng.uniform(0.0, 1.0, 10)
+    extra = rng.uniform(-1.0, 1.0, 10)
     deep = stress_at(nodes, load, 0.2, [0.1, 0.6], 9.0, traction=extra, periodic=True)
     np.testing.assert_allclose(deep.sx, -load.mean(), rtol=1e-13)
     np.testing.assert_allclose(deep.sz, -load.mean(), rtol=1e-13)
     np.testing.assert_allclose(deep.txz, -0.2 * load.mean() - extra.mean(), rtol=1e-12)
 
 
-def test_uniform_pressure_is_uniform_from_the_surface_down():
-    x, z = RNG.uniform(-1.0, 1.0, 100), 10.0 ** RNG.uniform(-8.0, 1.0, 100)
+def test_uniform_pressure_is_uniform_from_the_surface_down(rng):
+    x, z = rng.uniform(-1.0, 1.0, 100), 10.0 ** rng.uniform(-8.0, 1.0, 100)
     found = parts(friction_stress_at(period(24, 0.5), np.full(24, 2.0), x, z, periodic=True))
     expected = np.array([-2.0, -2.0, 0.0, 0.0])[:, None]
     np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), atol=2e-13)
@@ -146,10 +145,10 @@ LEVELS = np.array([0.0, 1e-12, 1e-3, 0.2, 0.99, 1.01, 3.0, 40.0, 3e3])
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize(("count", "subdivisions"), [(2, 1), (5, 1), (16, 3), (64, 1), (128, 5)])
-def test_field_equals_the_points(element, count, subdivisions):
+def test_field_equals_the_points(rng, element, count, subdivisions):
     """Windows shorter and longer than the period, levels on either side of every method."""
     pitch = 2.0**-5
-    nodes, load = 0.25 + pitch * np.arange(count), RNG.uniform(-1.0, 1.0, count)
+    nodes, load = 0.25 + pitch * np.arange(count), rng.uniform(-1.0, 1.0, count)
     length = count * pitch
     for window in ((0.25, 0.25 + 0.4 * length), (0.25 - 0.8 * length, 0.25 + 1.7 * length)):
         field = friction_field(
@@ -161,8 +160,8 @@ def test_field_equals_the_points(element, count, subdivisions):
         assert np.abs(parts(field.stress) - parts(points)).max() < 5e-13
 
 
-def test_field_of_many_levels_in_blocks_and_strides():
-    nodes, load = period(500, 1.0), RNG.uniform(0.0, 1.0, 500)
+def test_field_of_many_levels_in_blocks_and_strides(rng):
+    nodes, load = period(500, 1.0), rng.uniform(0.0, 1.0, 500)
     levels = np.linspace(0.0, 0.6, 200)
     every = friction_field(nodes, load, (0.1, 1.3), levels, 2, periodic=True)
     some = friction_field(nodes, load, (0.1, 1.3), levels, 2, stride=7, periodic=True)
@@ -172,9 +171,9 @@ def test_field_of_many_levels_in_blocks_and_strides():
         assert np.abs(parts(every.stress)[:, row] - parts(alone.stress)[:, 0]).max() < 2e-15
 
 
-def test_surface_of_a_periodic_field_carries_its_load():
-    nodes, load = period(20, 1.0), RNG.uniform(0.0, 1.0, 20)
-    extra = RNG.uniform(-1.0, 1.0, 20)
+def test_surface_of_a_periodic_field_carries_its_load(rng):
+    nodes, load = period(20, 1.0), rng.uniform(0.0, 1.0, 20)
+    extra = rng.uniform(-1.0, 1.0, 20)
     field = stress_field(nodes, load, 0.1, (-0.5, 1.45), np.zeros(1), traction=extra, periodic=True)
     index = np.arange(-10, 30) % 20
     np.testing.assert_array_equal(field.stress.sz[0], -load[index])

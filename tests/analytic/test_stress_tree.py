@@ -21,33 +21,34 @@ from analytic.stress_translations import (
 )
 from analytic.stress_tree import tree_stress
 
-RNG = np.random.default_rng(29)
 PITCH = 2.0**-9
 
 
-def line(count: int, signs: bool) -> tuple[np.ndarray, np.ndarray]:
+def line(rng: np.random.Generator, count: int, signs: bool) -> tuple[np.ndarray, np.ndarray]:
     nodes = (np.arange(count) - count // 3) * PITCH
-    return nodes, RNG.uniform(-1.0 if signs else 0.0, 1.0, count)
+    return nodes, rng.uniform(-1.0 if signs else 0.0, 1.0, count)
 
 
-def points(nodes: np.ndarray, lowest: float) -> tuple[np.ndarray, np.ndarray]:
+def points(
+    rng: np.random.Generator, nodes: np.ndarray, lowest: float
+) -> tuple[np.ndarray, np.ndarray]:
     """On nodes and between them, at their edges, on the surface and at every depth, inside and out.
 
     x - node is a whole number of 2^-20 pitches, so that no method has a rounding to resolve.
     """
     width = nodes[-1] - nodes[0]
     x = [
-        RNG.uniform(nodes[0] - width, nodes[-1] + width, 400),
+        rng.uniform(nodes[0] - width, nodes[-1] + width, 400),
         np.repeat(nodes[::9], 2),
         np.repeat(nodes[::9] + 0.5 * PITCH, 2),
-        RNG.uniform(nodes[0] - 3.0 * PITCH, nodes[-1] + 3.0 * PITCH, 400),
+        rng.uniform(nodes[0] - 3.0 * PITCH, nodes[-1] + 3.0 * PITCH, 400),
     ]
     ends = np.tile([lowest, 1e-12], len(nodes[::9])) * PITCH
     z = [
-        10.0 ** RNG.uniform(-14.0, 0.0, 400) * width,
+        10.0 ** rng.uniform(-14.0, 0.0, 400) * width,
         ends,
         ends,
-        RNG.uniform(0.0, 40.0, 400) * PITCH,
+        rng.uniform(0.0, 40.0, 400) * PITCH,
     ]
     grain = PITCH * 2.0**-20
     return np.round(np.concatenate(x) / grain) * grain, np.concatenate(z)
@@ -56,10 +57,10 @@ def points(nodes: np.ndarray, lowest: float) -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("count", [64, 65, 700])
 @pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("signs", [False, True])
-def test_tree_equals_direct_sum(count, element, signs):
+def test_tree_equals_direct_sum(rng, count, element, signs):
     """White noise: neighbours differ by as much as they are, which is the worst for the sums."""
-    nodes, load = line(count, signs)
-    x, z = points(nodes, 0.0 if element == "hat" else 1e-13)
+    nodes, load = line(rng, count, signs)
+    x, z = points(rng, nodes, 0.0 if element == "hat" else 1e-13)
     direct = direct_stress(nodes, load, PITCH, x, z, element)
     tree = tree_stress(nodes, load, PITCH, x, z, element)
     assert np.abs(tree - direct).max() < 1e-13 * np.abs(direct).max()
@@ -93,9 +94,9 @@ def test_nodes_that_binary_numbers_do_not_hit(origin, element):
 
 
 @pytest.mark.parametrize("element", ["hat", "strip"])
-def test_far_from_all_load_each_component_keeps_its_digits(element):
+def test_far_from_all_load_each_component_keeps_its_digits(rng, element):
     """From one width beyond the load to a million of them, shallow and deep."""
-    nodes, load = line(300, signs=False)
+    nodes, load = line(rng, 300, signs=False)
     width = nodes[-1] - nodes[0]
     distance, angle = np.meshgrid(
         np.geomspace(1.01, 1e6, 60) * width, [1e-9, 1e-4, 0.02, 0.7, 1.5, 2.2, 3.1, np.pi - 1e-6]
@@ -107,8 +108,8 @@ def test_far_from_all_load_each_component_keeps_its_digits(element):
     np.testing.assert_allclose(tree, direct, rtol=1e-12)
 
 
-def test_point_load_a_million_half_widths_away():
-    nodes, load = line(500, signs=False)
+def test_point_load_a_million_half_widths_away(rng):
+    nodes, load = line(rng, 500, signs=False)
     half = 0.5 * (nodes[-1] - nodes[0])
     total, middle = load.sum() * PITCH, (load @ nodes) / load.sum()
     for x, z in ((1e6, 2e6), (-1e6, 1e-3), (3.0, 1e6)):
@@ -121,10 +122,10 @@ def test_point_load_a_million_half_widths_away():
 
 
 @pytest.mark.parametrize("count", [40, 3000])
-def test_the_quicker_way_is_taken_without_a_seam(count):
+def test_the_quicker_way_is_taken_without_a_seam(rng, count):
     """One point alone is summed directly, many together by the tree."""
-    nodes, load = line(400, signs=False)
-    x, z = RNG.uniform(-0.5, 1.0, count), RNG.uniform(0.0, 0.2, count)
+    nodes, load = line(rng, 400, signs=False)
+    x, z = rng.uniform(-0.5, 1.0, count), rng.uniform(0.0, 0.2, count)
     together = stress_at(nodes, load, 0.3, x, z)
     for k in (0, count // 2, count - 1):
         alone = stress_at(nodes, load, 0.3, x[k], z[k])
@@ -133,8 +134,8 @@ def test_the_quicker_way_is_taken_without_a_seam(count):
             assert abs(difference) < 1e-13 * load.max()
 
 
-def test_surface_carries_the_pressure_under_many_points():
-    nodes, load = line(500, signs=False)
+def test_surface_carries_the_pressure_under_many_points(rng):
+    nodes, load = line(rng, 500, signs=False)
     between = (nodes[:-1, None] + np.array([0.0, 0.25, 0.5]) * PITCH).ravel()
     stress = stress_at(nodes, load, 0.4, between, 0.0)
     expected = np.interp(between, nodes, load)
@@ -144,9 +145,9 @@ def test_surface_carries_the_pressure_under_many_points():
     np.testing.assert_allclose(just_below.sz, -expected, rtol=0.0, atol=3e-12)
 
 
-def test_mirror_and_shape_under_many_points():
-    nodes, load = line(200, signs=True)
-    x, z = RNG.uniform(-0.3, 0.6, (30, 40)), RNG.uniform(0.0, 0.2, (30, 40))
+def test_mirror_and_shape_under_many_points(rng):
+    nodes, load = line(rng, 200, signs=True)
+    x, z = rng.uniform(-0.3, 0.6, (30, 40)), rng.uniform(0.0, 0.2, (30, 40))
     base = friction_stress_at(nodes, load, x, z)
     mirror = friction_stress_at(-nodes[::-1], load[::-1], -x, z)
     assert base.normal.sx.shape == (30, 40)
@@ -159,19 +160,19 @@ def test_mirror_and_shape_under_many_points():
         assert np.abs(mine - sign * other).max() < 1e-13
 
 
-def test_an_idle_stretch_and_idle_ends_change_nothing():
-    nodes, load = line(900, signs=False)
+def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
+    nodes, load = line(rng, 900, signs=False)
     load[:90], load[400:700], load[850:] = 0.0, 0.0, 0.0
-    x, z = RNG.uniform(-1.0, 2.0, 500), RNG.uniform(0.0, 0.3, 500)
+    x, z = rng.uniform(-1.0, 2.0, 500), rng.uniform(0.0, 0.3, 500)
     found = tree_stress(nodes, load, PITCH, x, z, "hat")
     assert np.abs(found - direct_stress(nodes, load, PITCH, x, z, "hat")).max() < 1e-13
     alone = friction_stress_at(nodes, np.zeros(900), x, z)
     assert not np.any(alone.normal.sx) and not np.any(alone.traction_sx)
 
 
-def test_threads_change_nothing(monkeypatch):
-    nodes, load = line(300, signs=True)
-    x, z = RNG.uniform(-0.3, 0.6, 9000), 10.0 ** RNG.uniform(-6.0, -0.5, 9000)
+def test_threads_change_nothing(rng, monkeypatch):
+    nodes, load = line(rng, 300, signs=True)
+    x, z = rng.uniform(-0.3, 0.6, 9000), 10.0 ** rng.uniform(-6.0, -0.5, 9000)
     found = []
     for threads in ("1", "3"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
@@ -248,12 +249,12 @@ def test_potential_of_an_element_from_its_first_moments(start, terms, element):
     assert len(element_moments(element, ORDER)) == ORDER
 
 
-def test_tractions_of_any_shape_are_superposed():
+def test_tractions_of_any_shape_are_superposed(rng):
     """Under p, mu p and t of its own shape: the sum of what each does alone."""
-    nodes, load = line(80, signs=False)
-    extra = RNG.uniform(-1.0, 1.0, 80)
+    nodes, load = line(rng, 80, signs=False)
+    extra = rng.uniform(-1.0, 1.0, 80)
     for count in (3, 2000):
-        x, z = RNG.uniform(-0.1, 0.2, count), RNG.uniform(0.0, 0.1, count)
+        x, z = rng.uniform(-0.1, 0.2, count), rng.uniform(0.0, 0.1, count)
         both = stress_at(nodes, load, 0.25, x, z, traction=extra)
         under_p = friction_stress_at(nodes, load, x, z)
         under_t = friction_stress_at(nodes, extra, x, z).traction
