@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.active_set import exchange_blocks
-from analytic.equilibrium import SET_TOLERANCE, Constraints, EquilibriumProblem
+from analytic.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
 from analytic.nesting import SETTLED, coarse_start
 from analytic.operators import ModelOperator
 
@@ -148,11 +148,13 @@ def solve_contact(
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
+    tolerance: float = TIGHT,
 ) -> ContactSolution:
     """Solve the contact problem of this module.
 
-    gap      G (n,) [m^2]         weights  w (n,) [m]
-    start    pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
+    gap        G (n,) [m^2]         weights  w (n,) [m]
+    start      pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
+    tolerance  residual of the last equilibrium over the displacements that it balances
 
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
     KKT_TOLERANCE is returned with `converged` False.
@@ -163,7 +165,7 @@ def solve_contact(
     gap = gap - common * weights
     if start is None:
         start = coarse_start(operator, gap, weights, constraints, spent, _settled)
-    problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
+    problem = EquilibriumProblem(operator, gap, weights, constraints, spent, tolerance)
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
     solution = assessed(

@@ -17,10 +17,10 @@ from analytic.sides import Broken, Sides
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
-TIGHT = 1e-12  # residual of an accurate equilibrium, over the displacements it balances
+TIGHT = 1e-12  # leaves pressures right to 1e-10 of their peak
 # steps of conjugate gradients without PROGRESS in the residual, after which rounding is reached:
 PATIENT, PROGRESS = 15, 0.7
-IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of TIGHT
+IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of `tight`
 BISECTIONS = 100  # to a shift of pressures right to rounding
 
 
@@ -46,7 +46,7 @@ class Equilibrium:
     """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] with given sides, the load carried.
 
     overlap   (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
-    accurate  whether g vanishes on the free nodes to TIGHT, or as far as rounding lets it
+    accurate  whether g vanishes on the free nodes to `tight`, or as far as rounding lets it
     """
 
     pressure: np.ndarray
@@ -59,6 +59,7 @@ class EquilibriumProblem:
     """Contact on one grid as a family of linear problems, one for each choice of sides.
 
     spent     counters that it adds to: exchanges, applications
+    tight     residual of an accurate equilibrium, over the displacements that it balances
     approach  d [m] of the last equilibrium, or as prescribed
     """
 
@@ -69,9 +70,10 @@ class EquilibriumProblem:
         weights: np.ndarray,
         constraints: Constraints,
         spent: dict[str, int],
+        tight: float = TIGHT,
     ) -> None:
         self.operator, self.gap, self.weights = operator, gap, weights
-        self.constraints, self.spent = constraints, spent
+        self.constraints, self.spent, self.tight = constraints, spent, tight
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
         self._rounding = ROUNDING * np.abs(gap)
@@ -166,7 +168,7 @@ class EquilibriumProblem:
     def equilibrium(self, start: np.ndarray, sides: Sides, reduction: float) -> Equilibrium:
         """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
 
-        The residual falls to `reduction` of what it is at the start, or to TIGHT.
+        The residual falls to `reduction` of what it is at the start, or to `tight`.
         """
         self.spent["exchanges"] += 1
         nodes = np.flatnonzero(sides.free)
@@ -231,7 +233,7 @@ class EquilibriumProblem:
         balanced = displacement[nodes]
         if self.by_load:
             balanced = balanced - balanced.mean()
-        tight = max(TIGHT * np.linalg.norm(balanced), floor)
+        tight = max(self.tight * np.linalg.norm(balanced), floor)
         total = (self.gap + displacement)[search.stretch]
         line, places = np.zeros_like(total), nodes - search.stretch.start
         found, direction = pressure[nodes], np.zeros(len(nodes))

@@ -14,7 +14,7 @@ from analytic.equilibrium import Constraints
 from analytic.operators import HalfPlane
 from analytic.periodic import PeriodicHalfPlane
 from comparisons.benchmarks.peers_cases import Case
-from comparisons.benchmarks.peers_code import Answer, Code
+from comparisons.benchmarks.peers_code import Answer, Code, decades
 
 Element = Literal["strip", "hat"]
 
@@ -22,15 +22,21 @@ Element = Literal["strip", "hat"]
 def codes() -> list[Code]:
     """Ours with strips, then with hats."""
     return [
-        Code("crosscheck, strips", "strip", lambda case, *_: _solved(case, "strip")),
-        Code("crosscheck, hats", "hat", lambda case, *_: _solved(case, "hat")),
+        Code(
+            f"crosscheck, {element}s",
+            element,
+            lambda case, tolerance, _, element=element: _solved(case, tolerance, element),
+            decades(-7, -12),
+        )
+        for element in ("strip", "hat")
     ]
 
 
-def _solved(case: Case, element: Element) -> Answer:
+def _solved(case: Case, tolerance: float, element: Element) -> Answer:
     kind = PeriodicHalfPlane if case.periodic else HalfPlane
     operator = kind(case.count, case.pitch, 1.0, element=element)
     gap = case.averages if element == "hat" else case.gaps
     weights = np.full(case.count, case.pitch)
-    solution = solve_contact(operator, case.pitch * gap, weights, Constraints(load=case.load))
+    constraints = Constraints(load=case.load)
+    solution = solve_contact(operator, case.pitch * gap, weights, constraints, tolerance=tolerance)
     return Answer(solution.pressure, solution.iterations["applications"])
