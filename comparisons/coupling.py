@@ -28,11 +28,12 @@ class Change:
     """A figure with the surfaces moved by friction, and what that changes.
 
     value       [SI]; None for the norm of a difference
-    difference  relative to the figure without; of a shift, over the Hertz half-width
+    difference  relative to the figure without, None where that is zero and this is not; of a
+                shift, over the Hertz half-width
     """
 
     value: float | None
-    difference: float
+    difference: float | None
 
 
 @dataclass(frozen=True)
@@ -133,11 +134,17 @@ def _changes(
     problem: Problem, moved: Level, still: Level, friction: float, window: Window | None
 ) -> dict[str, Change]:
     one, other = figures(moved, problem, friction), figures(still, problem, friction)
-    found = {name: Change(one[name], one[name] / other[name] - 1.0) for name in one if other[name]}
+    found = {name: Change(one[name], _relative(one[name], other[name])) for name in one}
     shift = _centroid(moved) - _centroid(still)
     found[SHIFT] = Change(shift, shift / problem.hertz.half_width)
     between = norms(moved, still, problem, friction, window)
     return found | {name: Change(None, size) for name, size in between.items()}
+
+
+def _relative(value: float, before: float) -> float | None:
+    if value == before:
+        return 0.0
+    return value / before - 1.0 if before else None
 
 
 def _centroid(level: Level) -> float:

@@ -82,7 +82,11 @@ def _by_friction(problem: Problem, couplings: tuple[Coupling, ...]) -> dict[str,
         if changes := measured.get(friction):
             for quantity in QUANTITIES:
                 if quantity in changes:
-                    at_least(abs(changes[quantity].difference), [quantity])
+                    change = changes[quantity]
+                    size = change.difference
+                    if size is None:  # zero without: by the scale that differences then take
+                        size = change.value / QUANTITIES[quantity].scale(problem.hertz)
+                    at_least(abs(size), [quantity])
         else:
             size = abs(friction * problem.dundurs_beta)
             at_least(COUPLING_PER_SQUARE * size**2, (*CONTACT, *STRESS))

@@ -19,7 +19,9 @@ from comparisons.level import ModelRun
 from comparisons.outcome import Outcome
 from comparisons.plan import make_plan
 from comparisons.problem import problem_of
+from comparisons.quantities import QUANTITIES
 from comparisons.report.coupling import coupling_line, coupling_table
+from comparisons.report.numbers import UNKNOWN
 from comparisons.resolve import resolve_tables
 from comparisons.run import run
 from comparisons.stages import Stages, silent
@@ -112,6 +114,30 @@ class TestFigures:
         assert found["tau1_field_near"]["value"] is None
         near, deep = (found[f"tau1_field_{part}"]["difference"] for part in ("near", "deep"))
         assert 0.01 < deep < near < found["pressure_l2"]["difference"]
+
+    def test_a_figure_that_is_zero_without_has_a_value_and_no_relative_change(self, rigid):
+        """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
+        problem, level = rigid.problem, rigid.runs["half_plane"].finest
+        still = {"tau1_max_depth": 0.0, "contact_ratio": 0.0, "peak_pressure": 2.0}
+        moved = {"tau1_max_depth": 3e-6, "contact_ratio": 0.0, "peak_pressure": 3.0}
+        answers = iter([moved, still])
+        with patch("comparisons.coupling.figures", lambda *_: next(answers)):
+            changes = comparisons.coupling._changes(problem, level, level, 0.3, rigid.window)
+        assert changes["tau1_max_depth"] == comparisons.coupling.Change(3e-6, None)
+        assert changes["contact_ratio"] == comparisons.coupling.Change(0.0, 0.0)
+        assert changes["peak_pressure"].difference == pytest.approx(0.5)
+        told = replace(rigid.couplings[2], changes=changes)
+        assert told.as_dict()["tau1_max_depth"] == {"value": 3e-6, "difference": None}
+        outcome = replace(rigid, couplings=(told,))
+        [row] = [row for row in coupling_table(outcome).rows if "depth" in row[0]]
+        assert row[1:] == ("3.000 µm", UNKNOWN)
+        unshown = unshown_effects(problem, rigid.runs, (told,))
+        effect = {
+            name: unshown[name]["friction moving the surfaces"] for name in moved if name in unshown
+        }
+        assert effect["peak_pressure"] == pytest.approx(0.5)
+        scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
+        assert effect["tau1_max_depth"] == pytest.approx(3e-6 / scale)
 
     @pytest.mark.parametrize("friction", [0.0, 0.3])
     def test_equal_materials_skip_it(self, friction):
