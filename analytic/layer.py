@@ -3,8 +3,8 @@
     (C p)_i = int phi_i uz dx,   uz of the wave p e^ikx: C(k) p      (`analytic.layered`)
 
 The hats see a wave together with its aliases k + 2 pi j/h. From some j on the layer is a
-half-plane, whose aliases have a closed sum; before that C(k) sinc^4(k h/2 pi) is positive and added
-one by one.
+half-plane, whose aliases have a closed sum; before that C(k) sinc^4(k h/2 pi) is positive and
+summed by `analytic.aliases`, at a cost that hardly depends on how thin the layer is.
 
 A rigid base is a datum: the displacement, and an approach, count from there. A half-plane below
 leaves them undefined up to a constant, as in `analytic.operators`.
@@ -15,6 +15,7 @@ leaves them undefined up to a constant, as in `analytic.operators`.
 import numpy as np
 from scipy.fft import irfft, next_fast_len
 
+from analytic.aliases import alias_sum, rounded_up
 from analytic.convolution import Convolution, made_once
 from analytic.layer_kernel import hat_compliance
 from analytic.layered import LayeredBody, normal_compliance
@@ -96,17 +97,14 @@ def hat_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.ndarra
     cycles = 0 needs a rigid base.
     """
     beyond = aliases_of(pitch, body)
-    total = np.zeros(len(cycles))
-    for alias in range(1 - beyond, beyond):
-        seen = np.abs(cycles + alias)
-        total += pitch * _normal(body, 2.0 * np.pi * seen / pitch) * np.sinc(seen) ** 4
+    total = pitch * alias_sum(lambda c: _normal(body, 2.0 * np.pi * c / pitch), cycles, beyond)
     scale = pitch**2 / (np.pi * body.material.plane_strain_modulus)
     return total + scale * hat_aliases(cycles, beyond)
 
 
 def _normal(body: LayeredBody, k: np.ndarray) -> np.ndarray:
-    """C(k) [m/Pa], from k t = _HALF_PLANE on that of a half-plane."""
-    compliance = np.empty(len(k))
+    """C(k) [m/Pa], any shape, from k t = _HALF_PLANE on that of a half-plane."""
+    compliance = np.empty(k.shape)
     long = k * body.thickness < _HALF_PLANE
     compliance[long] = normal_compliance(body, k[long])
     compliance[~long] = 2.0 / (body.material.plane_strain_modulus * k[~long])
@@ -114,8 +112,9 @@ def _normal(body: LayeredBody, k: np.ndarray) -> np.ndarray:
 
 
 def aliases_of(pitch: float, body: LayeredBody) -> int:
-    """The first alias j > 0 from which a hat's waves see a half-plane, whatever their cycles."""
-    return 1 + int(np.ceil(0.5 + _HALF_PLANE * pitch / (2.0 * np.pi * body.thickness)))
+    """An alias j > 0 from which on a hat's waves see a half-plane, whatever their cycles."""
+    least = 0.5 + _HALF_PLANE * pitch / (2.0 * np.pi * body.thickness)
+    return rounded_up(1 + int(np.ceil(least)))
 
 
 def free_coefficients(count: int, pitch: float, body: LayeredBody, datum: float) -> np.ndarray:

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.fft import irfft
 from scipy.special import zeta
 
+from analytic.aliases import alias_sum
 from analytic.convolution import Convolution, made_once
 from analytic.layer import aliases_of
 from analytic.layer_kernel import hat_coupling
@@ -64,10 +65,11 @@ def coupling_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.n
     beyond = aliases_of(pitch, body)
     total = np.zeros(len(cycles))
     inside = cycles > 0.0
-    for alias in range(1 - beyond, beyond):
-        seen = cycles[inside] + alias
-        wave = wave_compliance(body, 2.0 * np.pi * np.abs(seen) / pitch).coupling
-        total[inside] += np.sign(seen) * pitch * wave * np.sinc(seen) ** 4
+
+    def wave(seen: np.ndarray) -> np.ndarray:
+        return pitch * wave_compliance(body, 2.0 * np.pi * seen / pitch).coupling
+
+    total[inside] = alias_sum(wave, cycles[inside], beyond, odd=True)
     power = (np.sin(np.pi * cycles) / np.pi) ** 4
     rest = power * (zeta(5.0, beyond + cycles) - zeta(5.0, beyond - cycles))
     e = body.contrast.e

@@ -30,6 +30,7 @@ from analytic.layered_waves import Contrast, coupling, normal
 _ORDER = 24  # points of a panel, and of an interval of d; their errors stay below rounding
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(_ORDER)
 _HIGHEST = 32.0  # w beyond which e^-2w is nothing
+_FADED = 1e6  # w (h/t)^(4/3) beyond which the integral of sinc^4 alone is below 1e-17
 _TURN = np.exp(1j * np.pi / 6.0)  # of the path; the poles of f lie beyond 50 degrees
 _SWING = 12.0  # phase of a cosine on one panel [rad]
 
@@ -104,7 +105,9 @@ def _smooth(distance: np.ndarray, ratio: float, response: _Response, near: bool)
     reach = 2.0 * ratio * (np.max(distance, initial=0.0) + 2.0)
     # on the turned path the factor e^ikx ends the integral early
     finest = min(response.finest / depth, 2.0 / reach)
-    w, weights = wave_panels(_HIGHEST, reach if near else 0.0, finest)
+    # f hardly exceeds the sum of m: hats much wider than the layer leave nothing of the rest
+    highest = min(_HIGHEST, _FADED / ratio ** (4.0 / 3.0)) if near else _HIGHEST
+    w, weights = wave_panels(highest, reach if near else 0.0, finest)
     if not near:
         w, weights = _TURN * w, _TURN * weights
     known = (response.surface + gain * np.exp(-depth * w)) / w

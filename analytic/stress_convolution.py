@@ -9,17 +9,17 @@ from analytic.threads import for_each
 
 _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
-# For each stress wanted, the kernels and the numbers of the loads that they act on, to be added.
-Products = tuple[tuple[tuple[int, int], ...], ...]
+# For each stress wanted, kernels, the number of the load that each acts on and its factor, added.
+Products = tuple[tuple[tuple[int, int, float], ...], ...]
 _SX, _SZ, _TXZ, _SX_TRACTION = range(4)
 # sx, sz, txz under the first load as p, and sx under it as q
-EACH: Products = (((_SX, 0),), ((_SZ, 0),), ((_TXZ, 0),), ((_SX_TRACTION, 0),))
-# sx, sz, txz under the first load as p and the second, if there is one, as q
-MIXED: Products = (
-    ((_SX, 0), (_SX_TRACTION, 1)),
-    ((_SZ, 0), (_TXZ, 1)),
-    ((_TXZ, 0), (_SX, 1)),
-)
+EACH: Products = tuple(((kernel, 0, 1.0),) for kernel in (_SX, _SZ, _TXZ, _SX_TRACTION))
+_UNDER_BOTH = ((_SX, _SX_TRACTION), (_SZ, _TXZ), (_TXZ, _SX))
+
+
+def mixed(load: int, factor: float) -> Products:
+    """sx, sz, txz under the first load as p and `factor` times the one numbered `load` as q."""
+    return tuple(((under_p, 0, 1.0), (under_q, load, factor)) for under_p, under_q in _UNDER_BOTH)
 
 
 def convolve(sources: np.ndarray, closed: Circle, products: Products, parts: np.ndarray) -> None:
@@ -27,7 +27,6 @@ def convolve(sources: np.ndarray, closed: Circle, products: Products, parts: np.
     placed = np.zeros((len(sources), closed.length))
     placed[:, closed.source : closed.source + sources.shape[1]] = sources
     spectra = rfft(placed)
-    turned = {turn: turn * spectra for turn in set(closed.turns)}
     levels = parts.shape[1]
     step = max(1, _BLOCK // closed.length)
 
@@ -35,14 +34,37 @@ def convolve(sources: np.ndarray, closed: Circle, products: Products, parts: np.
         kernels = closed.spectra(block)
         for row, sum_of in enumerate(products):
             total = None
-            for kernel, load in sum_of:
-                if load < len(sources):
-                    product = kernels[kernel] * turned[closed.turns[kernel]][load]
+            for load, spectrum in enumerate(spectra):
+                acting = [(kernel, factor) for kernel, at, factor in sum_of if at == load]
+                if acting:
+                    product = _added(kernels, closed.turns, acting)
+                    product *= spectrum
                     total = product if total is None else np.add(total, product, out=total)
             stress = irfft(total, closed.length, overwrite_x=True)
             parts[row, block] = stress[:, closed.points]
 
     for_each(fill, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
+
+
+def _added(
+    kernels: tuple[np.ndarray, ...],
+    turns: tuple[complex, ...],
+    acting: list[tuple[int, float]],
+) -> np.ndarray:
+    """Sum of factor times turn times kernel over `acting`; real kernels fill the two parts."""
+    if any(np.iscomplexobj(kernels[kernel]) for kernel, _ in acting):
+        return sum(kernels[kernel] * (factor * turns[kernel]) for kernel, factor in acting)
+    total = np.empty(kernels[0].shape, dtype=complex)
+    for turn, part in ((1.0, total.real), (1j, total.imag)):
+        here = [(kernels[kernel], factor) for kernel, factor in acting if turns[kernel] == turn]
+        if not here:
+            part[...] = 0.0
+        for order, (kernel, factor) in enumerate(here):
+            if order:
+                part += factor * kernel
+            else:
+                np.multiply(kernel, factor, out=part)
+    return total
 
 
 def on_grid(loads: np.ndarray, subdivisions: int, whole: bool) -> tuple[np.ndarray, int]:

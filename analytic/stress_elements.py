@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
+from analytic.exact.differences import angle_minus_sine
 from analytic.plane_stress import PlaneStress
 from analytic.stress_multipoles import NEAREST, hat_multipoles
 
@@ -86,7 +87,7 @@ def strip_between(
     # Below the strip's centre S nears pi, where its cosine would lose what sin S still holds.
     steep = half > 0.25 * np.pi
     flat = np.where(steep, 0.5 * sine_sum / np.where(steep, upright, 1.0), np.cos(half))
-    rest = np.where(end, 0.5 * np.pi, _angle_minus_sine(angle))
+    rest = np.where(end, 0.5 * np.pi, angle_minus_sine(angle))
     return FrictionStress(
         normal=PlaneStress(
             sx=-(rest + 2.0 * sine * flat**2) / np.pi,
@@ -159,15 +160,6 @@ def _shortfall(y: np.ndarray, z: np.ndarray) -> np.ndarray:
     for n in range(14, 0, -1):
         series = -square * (series + 1.0 / (2.0 * n + 1.0))
     return np.where(small, z * series, y * np.arctan2(z, y) - z)
-
-
-def _angle_minus_sine(angle: np.ndarray) -> np.ndarray:
-    """D - sin D for 0 <= D <= pi, relatively accurate towards zero."""
-    square = np.minimum(angle, 1.0) ** 2
-    series = np.ones_like(square)
-    for n in range(9, 0, -1):
-        series = 1.0 - square / ((2.0 * n + 2.0) * (2.0 * n + 3.0)) * series
-    return np.where(angle < 1.0, angle**3 / 6.0 * series, angle - np.sin(angle))
 
 
 def _strip_stretch(

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from analytic.plane_stress import PlaneStress
-from analytic.stress_convolution import EACH, MIXED, Products, convolve, on_grid, surface_load
+from analytic.stress_convolution import EACH, Products, convolve, mixed, on_grid, surface_load
 from analytic.stress_elements import FrictionStress
 from analytic.stress_grid import check_element, uniform_pitch
 from analytic.stress_kernels import circle
@@ -69,19 +69,22 @@ def stress_field(
     strips whose ends, where sx under q is infinite, fall on points of the surface.
     """
     load = np.array(pressure, dtype=float)
-    shear = friction * load
+    loads, products = load[None], mixed(0, friction)
     if traction is not None:
         uniform_pitch(x_nodes, traction)
-        shear = shear + traction
-    loads = np.array([load, shear] if np.any(shear) else [load])
-    grid = _grid(x_nodes, loads[0], x_range, z, subdivisions, element, 1)
-    parts, on_surface = _fields(grid, loads, MIXED, periodic)
+    own = traction is not None and np.any(traction)  # of its own shape
+    if own:
+        loads, products = np.array([load, friction * load + traction]), mixed(1, 1.0)
+    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, 1)
+    parts, on_surface = _fields(grid, loads, products, periodic)
     if on_surface is not None:
         parts[1, 0] = -on_surface[0]
-        if len(loads) > 1:
+        if own:
             parts[2, 0] = -on_surface[1]
         else:
-            parts[0, 0] = -on_surface[0]
+            parts[2, 0] = -friction * on_surface[0]
+            if friction == 0.0:
+                parts[0, 0] = -on_surface[0]
     return StressField(grid.x, grid.z, PlaneStress(*parts))
 
 

@@ -89,7 +89,10 @@ def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStres
 def half_line(
     depths: np.ndarray, reach: int, subdivisions: int, element: Element
 ) -> Callable[[slice], np.ndarray]:
-    """I and z I' (2, levels, reach + 1) of a unit element at the offsets 0 … reach, by levels."""
+    """Re I, Im I, z Re I', z Im I' of a unit element at the offsets 0 … reach, by levels.
+
+    (4, levels, reach + 1).
+    """
     x = np.arange(reach + 1) / subdivisions
     # Next to the element stand few points, with the slowest formulas: all such levels at once.
     shallow = int(np.searchsorted(depths, NEAREST_FAR))
@@ -98,7 +101,7 @@ def half_line(
 
     def halves(block: slice) -> np.ndarray:
         first, last, _ = block.indices(len(depths))
-        found = np.empty((2, last - first, reach + 1), dtype=complex)
+        found = np.empty((4, last - first, reach + 1))
         far = max(0, shallow - first)
         # A level that is deep itself is far from the element throughout.
         reached = [start for start, _ in FAR_TERMS if start <= depths[first]]
@@ -108,13 +111,13 @@ def half_line(
             low = 0 if start in reached else start * subdivisions
             run = slice(low, int(min(end * subdivisions, reach + 1)))
             if run.start < run.stop:
-                found[:, :, run] = element_potential(x[run], depths[first:last], element, terms)
+                element_potential(x[run], depths[first:last], element, terms, found[:, :, run])
         if far:
             found[:, :far, : len(close)] = near[:, first:last]
             if first + far < last:
                 rest = depths[first + far : last]
                 terms = FAR_TERMS[0][1]
-                found[:, far:, : len(close)] = element_potential(close, rest, element, terms)
+                element_potential(close, rest, element, terms, found[:, far:, : len(close)])
         return found
 
     return halves
@@ -123,26 +126,33 @@ def half_line(
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
     """Spectra, for the turns MIRRORED, of an element on a circle of `size` >= 2 reach points.
 
-    From I and z I' (2, levels, reach + 1) on its right.
+    From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on its right.
     """
-    whole = np.zeros((2, halves.shape[1], size))
-    potential, derivative = halves
-    _mirror(potential.imag, potential.real, whole[0])
-    _mirror(derivative.real, derivative.imag, whole[1])
+    _, levels, count = halves.shape
+    whole = np.empty((2, levels, size))
+    whole[:, :, count : size - count + 1] = 0.0
+    _mirror(halves[1], halves[0], whole[0])
+    _mirror(halves[2], halves[3], whole[1])
     upper, lower = rfft(whole)
-    even, odd = (upper.real, lower.real), (upper.imag, lower.imag)
-    return even[0] + even[1], even[0] - even[1], -odd[1], odd[1] - 2.0 * odd[0]
+    return (
+        upper.real + lower.real,
+        upper.real - lower.real,
+        -lower.imag,
+        lower.imag - 2.0 * upper.imag,
+    )
 
 
 def as_potential(unit: FrictionStress) -> np.ndarray:
-    """I and z I' (2, …) of these stresses."""
+    """Re I, Im I, z Re I', z Im I' (4, …) of these stresses."""
     normal = unit.normal
-    potential = np.empty((2, *normal.sx.shape), dtype=complex)
-    potential.real[0] = -0.5 * (unit.traction_sx + normal.txz)
-    potential.imag[0] = 0.5 * (normal.sx + normal.sz)
-    potential.real[1] = 0.5 * (normal.sx - normal.sz)
-    potential.imag[1] = -normal.txz
-    return potential
+    return np.array(
+        [
+            -0.5 * (unit.traction_sx + normal.txz),
+            0.5 * (normal.sx + normal.sz),
+            0.5 * (normal.sx - normal.sz),
+            -normal.txz,
+        ]
+    )
 
 
 def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:

@@ -34,31 +34,73 @@ def element_moments(element: Element, count: int) -> np.ndarray:
 
 
 def element_potential(
-    x: np.ndarray, z: np.ndarray, element: Element, terms: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """I and z I' (levels, columns) of a unit element at 0, on x (columns,) and z (levels,).
+    x: np.ndarray, z: np.ndarray, element: Element, terms: int, out: np.ndarray | None = None
+) -> np.ndarray:
+    """Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit element at 0.
 
-    In pitches; from the first `terms` even moments.
+    On x (columns,) and z (levels,) in pitches; from the first `terms` > 1 even moments; into `out`
+    if it is given. With v = 1/w, s = v^2, m = 2 Re s and n = |s|^2 any power obeys s^2 = m s - n,
+    so that the sums of real coefficients over powers of s are divided by that to first order:
+
+        I = v (p0 + p1 s)      I' = s (d0 + d1 s)      v s = m v - |s| conj(v)
+
+    with p0 … d1 real: three times fewer products than with complex powers.
     """
     value = element_moments(element, 2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
-    inverse = np.empty((len(z), len(x)), dtype=complex)
-    square = 1.0 / (x**2 + z[:, None] ** 2)
-    np.multiply(x, square, out=inverse.real)
-    np.multiply(-z[:, None], square, out=inverse.imag)
-    square = inverse * inverse
-    potential, derivative = square * value[-1], square * slope[-1]
-    for order in range(terms - 2, 0, -1):
-        potential += value[order]
-        potential *= square
-        derivative += slope[order]
-        derivative *= square
-    potential += value[0]
-    potential *= inverse
-    derivative += slope[0]
-    square *= z[:, None]
-    derivative *= square
-    return potential, derivative
+    found = np.empty((4, len(z), len(x))) if out is None else out
+    z = z[:, None]
+    size = 1.0 / (x**2 + z**2)  # |s|
+    right, down = x * size, z * size  # v = right - i down
+    turn = down * down
+    turn *= -2.0
+    turn += size  # Re s
+    norm = size * size
+    twice = turn + turn  # m
+
+    first, second = _divided(value, twice, norm)
+    near = twice - size
+    near *= second
+    near += first
+    np.multiply(near, right, out=found[0])
+    twice_and = np.add(twice, size, out=near)
+    twice_and *= second
+    twice_and += first
+    twice_and *= down
+    np.negative(twice_and, out=found[1])
+
+    first, second = _divided(slope, twice, norm)
+    # d0 s + d1 s^2 = (d0 + m d1) s - n d1
+    first += np.multiply(twice, second, out=twice)
+    first *= z
+    second *= norm
+    second *= z
+    turn *= first
+    np.subtract(turn, second, out=found[2])
+    right *= down
+    right *= -2.0  # Im s
+    np.multiply(right, first, out=found[3])
+    return found
+
+
+def _divided(
+    coefficients: np.ndarray, twice: np.ndarray, norm: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Real b0, b1 of sum c_k s^k = b0 + b1 s, where s^2 = `twice` s - `norm`; arrays of its own."""
+    *lower, last = coefficients
+    second = np.full_like(twice, lower.pop() if len(lower) > 1 else last)
+    if len(coefficients) == 2:
+        return np.full_like(twice, coefficients[0]), second
+    second += twice * last
+    third = np.full_like(twice, last)
+    work = np.empty_like(twice)
+    for coefficient in lower[:0:-1]:
+        third *= norm
+        np.subtract(coefficient, third, out=third)
+        third += np.multiply(twice, second, out=work)
+        second, third = third, second
+    third *= norm
+    return np.subtract(lower[0], third, out=third), second
 
 
 def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:

@@ -78,9 +78,10 @@ def _by_images(
     here, right = alone[:, :, : reach + 1], alone[:, :, size:]
     # The image at +L stands `size - offset` to the right: Re I and Im I' are odd.
     left = alone[:, :, size - reach : size + 1][:, :, ::-1]
-    left = np.array([-left[0].conj(), left[1].conj()])
+    left = left * np.array([-1.0, 1.0, 1.0, -1.0])[:, None, None]
     half = 0.5 * size / subdivisions
     outer = element_moments(element, ORDER) * half ** -np.arange(ORDER, dtype=float)
     u = (np.arange(reach + 1) / subdivisions + 1j * depths[:, None]) / half
-    rest = np.array(images(outer, u)) / (np.pi * half)
+    potential, derivative = np.array(images(outer, u)) / (np.pi * half)
+    rest = np.array([potential.real, potential.imag, derivative.real, derivative.imag])
     return mirrored_spectra(here + right + left + rest, size)

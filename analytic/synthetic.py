@@ -10,6 +10,7 @@ from math import ceil, exp, floor
 
 import numpy as np
 
+from analytic.checks import check_positive
 from analytic.profile import MAX_SAMPLES, Profile
 from analytic.roughness import moments
 
@@ -172,13 +173,6 @@ def random_generator(seed: int) -> np.random.Generator:
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or seed < 0:
         raise ValueError(f"seed must be a whole number of at least 0, not {seed!r}")
     return np.random.default_rng(seed)
-
-
-def check_positive(**named: float) -> None:
-    """Raises ValueError, by name, for the first that is not a finite number above 0."""
-    for name, value in named.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive and finite, not {value:g}")
 
 
 def check_samples(samples: int) -> None:

@@ -1,7 +1,4 @@
-"""Functions less their own tangent at zero, right to rounding where the two nearly cancel.
-
-Also what every module here demands of its arguments.
-"""
+"""Functions less their own tangent at zero, right to rounding where the two nearly cancel."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +9,11 @@ _TERMS = np.arange(1.0, 21.0)
 def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
     """y - sin y for 0 <= y <= pi."""
     y = np.asarray(angle, dtype=float)
-    ratios = -1.0 / ((2.0 * _TERMS[1:] + 1.0) * 2.0 * _TERMS[1:])
-    series = _odd_series(np.minimum(y, 1.0), np.cumprod([1.0 / 6.0, *ratios]))
-    return np.where(y < 1.0, series, y - np.sin(y))
+    square = np.minimum(y, 1.0) ** 2
+    series = np.ones_like(square)
+    for n in range(9, 0, -1):  # the next term is below 1e-19
+        series = 1.0 - square / ((2.0 * n + 2.0) * (2.0 * n + 3.0)) * series
+    return np.where(y < 1.0, y**3 / 6.0 * series, y - np.sin(y))
 
 
 def sinh_minus_argument(argument: ArrayLike) -> np.ndarray:
@@ -30,13 +29,6 @@ def artanh_minus_argument(argument: ArrayLike, artanh: ArrayLike) -> np.ndarray:
     y = np.asarray(argument, dtype=float)
     series = _odd_series(np.minimum(y, 0.4), 1.0 / (2.0 * _TERMS + 1.0))
     return np.where(y < 0.4, series, artanh - y)
-
-
-def require_positive(**values: float) -> None:
-    """ValueError that names the first argument that is not positive and finite."""
-    for name, value in values.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive, not {value:g}")
 
 
 def _odd_series(y: np.ndarray, coefficients: np.ndarray) -> np.ndarray:

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import root
 
+from analytic.checks import check_positive
 from analytic.plane_stress import Extremum, PlaneStress
 
 _OfShear = Callable[[np.ndarray], np.ndarray]
@@ -77,7 +78,7 @@ def hertz_from_load(load_per_length: float, radius: float, combined_modulus: flo
 
     Raises ValueError unless all three are positive.
     """
-    _require_positive(
+    check_positive(
         load_per_length=load_per_length, radius=radius, combined_modulus=combined_modulus
     )
     half_width = np.sqrt(4.0 * load_per_length * radius / (np.pi * combined_modulus))
@@ -92,7 +93,7 @@ def hertz_from_peak_pressure(
 
     Raises ValueError unless all three are positive.
     """
-    _require_positive(peak_pressure=peak_pressure, radius=radius, combined_modulus=combined_modulus)
+    check_positive(peak_pressure=peak_pressure, radius=radius, combined_modulus=combined_modulus)
     half_width = 2.0 * radius * peak_pressure / combined_modulus
     load = 0.5 * np.pi * half_width * peak_pressure
     return HertzContact(half_width, peak_pressure, float(load), radius, combined_modulus)
@@ -199,9 +200,3 @@ def _complex(real: ArrayLike, imaginary: ArrayLike) -> np.ndarray:
     number = np.empty(real.shape, dtype=complex)
     number.real, number.imag = real, np.abs(imaginary)
     return number
-
-
-def _require_positive(**values: float) -> None:
-    for name, value in values.items():
-        if not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive, not {value:g}")

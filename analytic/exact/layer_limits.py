@@ -34,16 +34,14 @@ Range: what is left out of the load for a given half-width, relative to it
 
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
-from analytic.exact.differences import require_positive
+from analytic.checks import check_positive
+from analytic.layered import Base
 from analytic.material import Material
-
-Base = Literal["bonded", "frictionless"]
 
 _LAST = 50.0  # w at which 1 - K, about 4 w^2 e^-2w, is long below rounding
 
@@ -73,7 +71,7 @@ def thick_layer(
 
     Raises ValueError for lengths that are not positive and for an unknown base.
     """
-    require_positive(half_width=half_width, radius=radius, thickness=thickness)
+    check_positive(half_width=half_width, radius=radius, thickness=thickness)
     bend, lift = _base_integrals(base, layer.poissons_ratio)
     modulus, ratio = layer.plane_strain_modulus, (half_width / thickness) ** 2
     peak = modulus * half_width / (2.0 * radius) * (1.0 + 0.5 * bend * ratio)
@@ -90,7 +88,7 @@ def thin_compressible_layer(
 
     Raises ValueError for lengths that are not positive and for an unknown base.
     """
-    require_positive(half_width=half_width, radius=radius, thickness=thickness)
+    check_positive(half_width=half_width, radius=radius, thickness=thickness)
     peak = thin_modulus(layer, base) * half_width**2 / (2.0 * radius * thickness)
     load = 4.0 / 3.0 * half_width * peak
     return LayerLimit(half_width, peak, load, half_width**2 / (2.0 * radius), 1.0)
@@ -103,7 +101,7 @@ def thin_incompressible_layer(
 
     Raises ValueError unless all four are positive.
     """
-    require_positive(
+    check_positive(
         half_width=half_width, radius=radius, thickness=thickness, youngs_modulus=youngs_modulus
     )
     peak = youngs_modulus * half_width**4 / (24.0 * radius * thickness**3)

@@ -34,7 +34,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from analytic.exact.differences import angle_minus_sine, artanh_minus_argument, require_positive
+from analytic.checks import check_positive
+from analytic.exact.differences import angle_minus_sine, artanh_minus_argument
 
 _NEWTON_STEPS = 60  # convex and started below the root: three to eight suffice
 
@@ -110,7 +111,7 @@ def rounded_punch_from_load(
 
     Raises ValueError unless P, R and E* are positive and b is not negative.
     """
-    require_positive(load_per_length=load_per_length)
+    check_positive(load_per_length=load_per_length)
     _check(half_flat, corner_radius, combined_modulus)
     b, wanted = half_flat, 2.0 * load_per_length * corner_radius / combined_modulus
     # Twice the integral of e chi: below pi/2 e^2 and below 2/3 e^3/b, so the root lies above both.
@@ -132,7 +133,7 @@ def rounded_punch_from_half_width(
 
     Raises ValueError unless a, R and E* are positive and 0 <= b < a.
     """
-    require_positive(half_width=half_width)
+    check_positive(half_width=half_width)
     _check(half_flat, corner_radius, combined_modulus)
     if not half_flat < half_width:
         raise ValueError(
@@ -156,6 +157,6 @@ def _ratio(numerator: np.ndarray, divisor: np.ndarray) -> np.ndarray:
 
 
 def _check(half_flat: float, corner_radius: float, combined_modulus: float) -> None:
-    require_positive(corner_radius=corner_radius, combined_modulus=combined_modulus)
+    check_positive(corner_radius=corner_radius, combined_modulus=combined_modulus)
     if not (np.isfinite(half_flat) and half_flat >= 0.0):
         raise ValueError(f"half_flat must be at least 0, not {half_flat:g}")

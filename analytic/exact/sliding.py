@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi
 
-from analytic.exact.differences import require_positive
+from analytic.checks import check_positive
 from analytic.plane_stress import PlaneStress
 
 # Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
@@ -108,7 +108,7 @@ def sliding_from_load(
 
     Raises ValueError unless P, R and E* are positive and mu and beta finite.
     """
-    require_positive(
+    check_positive(
         load_per_length=load_per_length, radius=radius, combined_modulus=combined_modulus
     )
     if not (np.isfinite(friction) and np.isfinite(dundurs_beta)):

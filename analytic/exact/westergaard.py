@@ -32,7 +32,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic.exact.differences import require_positive, sinh_minus_argument
+from analytic.checks import check_positive
+from analytic.exact.differences import sinh_minus_argument
 from analytic.plane_stress import PlaneStress
 
 # Depth pi z/lambda from which nothing of the wave is left and its hyperbolic functions overflow.
@@ -123,7 +124,7 @@ def westergaard_from_mean_pressure(
 
     Raises ValueError unless all four are positive.
     """
-    require_positive(
+    check_positive(
         mean_pressure=mean_pressure,
         wavelength=wavelength,
         amplitude=amplitude,
@@ -148,7 +149,7 @@ def westergaard_from_half_width(
 
     Raises ValueError unless all four are positive and the contact is partial.
     """
-    require_positive(
+    check_positive(
         half_width=half_width,
         wavelength=wavelength,
         amplitude=amplitude,
