@@ -23,6 +23,9 @@ integrals are summed from the element's even moments mu instead,
 
 so every value is accurate to a few units of the last place of the largest term near the
 element (relative 3e-15 at whole offsets) and to rounding from there out to any offset.
+
+The operators take strips at their middles and hats weighed with hats. L_h and the slopes dL/dx are
+here as the published coefficients that such methods are tabulated by; no operator takes them.
 """
 
 from collections.abc import Callable
