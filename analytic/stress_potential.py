@@ -20,6 +20,7 @@ Element = Literal["hat", "strip"]
 
 # Distances [pitches] from which that many terms of even moments leave less than 1e-17.
 NEAREST_FAR = 4
+_BLOCK = 2**13  # points at a time, whose arrays stay in the cache
 FAR_TERMS = ((4, 14), (16, 7), (128, 4), (512, 3))
 
 
@@ -38,7 +39,7 @@ def element_potential(
 ) -> np.ndarray:
     """Re I, Im I, z Re I', z Im I' (4, levels, columns) of a unit element at 0.
 
-    On x (columns,) and z (levels,) in pitches; from the first `terms` > 1 even moments; into `out`
+    On x (columns,) and z (levels,) in pitches; from the first `terms` > 2 even moments; into `out`
     if it is given. With v = 1/w, s = v^2, m = 2 Re s and n = |s|^2 any power obeys s^2 = m s - n,
     so that the sums of real coefficients over powers of s are divided by that to first order:
 
@@ -49,58 +50,68 @@ def element_potential(
     value = element_moments(element, 2 * terms)[::2] / np.pi
     slope = -value * (2.0 * np.arange(terms) + 1.0)
     found = np.empty((4, len(z), len(x))) if out is None else out
-    z = z[:, None]
+    step = max(1, _BLOCK // len(x))
+    for start in range(0, len(z), step):
+        rows = slice(start, start + step)
+        _fill(x, z[rows, None], value, slope, found[:, rows])
+    return found
+
+
+def _fill(
+    x: np.ndarray, z: np.ndarray, value: np.ndarray, slope: np.ndarray, found: np.ndarray
+) -> None:
     size = 1.0 / (x**2 + z**2)  # |s|
-    right, down = x * size, z * size  # v = right - i down
-    turn = down * down
-    turn *= -2.0
-    turn += size  # Re s
+    right, down = x * size, -z * size  # Re v, Im v
+    work = down * down
+    work *= 2.0
+    turn = size - work  # Re s
     norm = size * size
     twice = turn + turn  # m
 
-    first, second = _divided(value, twice, norm)
-    near = twice - size
-    near *= second
-    near += first
-    np.multiply(near, right, out=found[0])
-    twice_and = np.add(twice, size, out=near)
-    twice_and *= second
-    twice_and += first
-    twice_and *= down
-    np.negative(twice_and, out=found[1])
+    first, second = _divided(value, twice, norm, work)
+    np.subtract(twice, size, out=work)
+    work *= second
+    work += first
+    np.multiply(work, right, out=found[0])
+    size += twice
+    size *= second
+    size += first
+    np.multiply(size, down, out=found[1])
 
-    first, second = _divided(slope, twice, norm)
+    first, second = _divided(slope, twice, norm, work)
     # d0 s + d1 s^2 = (d0 + m d1) s - n d1
-    first += np.multiply(twice, second, out=twice)
+    twice *= second
+    first += twice
     first *= z
     second *= norm
     second *= z
     turn *= first
     np.subtract(turn, second, out=found[2])
     right *= down
-    right *= -2.0  # Im s
+    right *= 2.0  # Im s
     np.multiply(right, first, out=found[3])
-    return found
 
 
 def _divided(
-    coefficients: np.ndarray, twice: np.ndarray, norm: np.ndarray
+    coefficients: np.ndarray, twice: np.ndarray, norm: np.ndarray, work: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Real b0, b1 of sum c_k s^k = b0 + b1 s, where s^2 = `twice` s - `norm`; arrays of its own."""
-    *lower, last = coefficients
-    second = np.full_like(twice, lower.pop() if len(lower) > 1 else last)
-    if len(coefficients) == 2:
-        return np.full_like(twice, coefficients[0]), second
-    second += twice * last
-    third = np.full_like(twice, last)
-    work = np.empty_like(twice)
-    for coefficient in lower[:0:-1]:
-        third *= norm
-        np.subtract(coefficient, third, out=third)
-        third += np.multiply(twice, second, out=work)
-        second, third = third, second
-    third *= norm
-    return np.subtract(lower[0], third, out=third), second
+    """Real b0, b1 of sum c_k s^k = b0 + b1 s, where s^2 = `twice` s - `norm`.
+
+    From three coefficients on, by b_k = c_k + `twice` b_(k+1) - `norm` b_(k+2) and, to end with,
+    b0 = c_0 - `norm` b_2; `work` is written over.
+    """
+    *lower, before, last = coefficients
+    second = twice * last
+    second += before
+    first = norm * -last
+    first += lower[-1]
+    for coefficient in lower[-2::-1]:
+        np.multiply(twice, second, out=work)
+        first += work
+        first, second = second, first
+        first *= norm
+        np.subtract(coefficient, first, out=first)
+    return first, second
 
 
 def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:

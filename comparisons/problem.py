@@ -28,6 +28,7 @@ HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavel
 MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
 FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
 SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
+FULL = 0.99  # of what a stretch carries at the hardness; its hats leave out a little at the ends
 FIRST_TOUCH_POINTS = 100_001
 FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
 NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
@@ -159,7 +160,8 @@ def _reach(problem: Problem) -> tuple[float, float]:
     while True:
         low, high = max(start, -reach), min(stop, reach)
         touching = (low, high)
-        if scene.hardness is None or problem.hertz.load_per_length < scene.hardness * (high - low):
+        most = np.inf if scene.hardness is None else scene.hardness * (high - low)
+        if problem.hertz.load_per_length < FULL * most:
             touching, slack = scout(problem, low, high)
             if touching[0] > low + slack and touching[1] < high - slack:
                 break

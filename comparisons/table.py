@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.coupling import coupling_line
@@ -10,7 +12,7 @@ from comparisons.report.numbers import with_unit
 from comparisons.report.running_in_picture import area
 from comparisons.report.sheet import in_mm
 from comparisons.report.words import LABELS
-from comparisons.scene import ProfileInfo, ResolvedScene
+from comparisons.scene import ProfileInfo
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -37,6 +39,7 @@ STYLES = {
     "fails": "bold red",
     "not converged": "bold red",
 }
+ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 # Any terminal shows these.
 PLAIN = str.maketrans(
     {
@@ -121,14 +124,24 @@ def surface_text(info: ProfileInfo) -> str:
     return text
 
 
-def run_in_text(scene: ResolvedScene) -> str:
-    """How the surface was run in, and whether it shook down."""
-    worn = scene.worn
+def run_in_text(outcome: Outcome) -> str:
+    """How the surface was run in, whether it shook down, and whether that held."""
+    worn = outcome.problem.scene.worn
     return (
         f"{area(worn.volume)} moved in {len(worn.passes)} passes, "
         f"{'' if worn.status == 'shaken down' else 'not '}shaken down"
         f"{'' if worn.converged else ', not converged'}"
+        f"{above_hardness(outcome)}"
     )
+
+
+def above_hardness(outcome: Outcome) -> str:
+    """Whether features finer than running-in resolved are pressed harder than it allowed."""
+    hardness = outcome.problem.scene.worn.constraints.hardness
+    peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
+    if peak <= ABOVE * hardness:
+        return ""
+    return f"; pressed then, up to {peak / hardness:.2f} times its hardness"
 
 
 def _facts(outcome: Outcome) -> "Table":
@@ -146,7 +159,7 @@ def _facts(outcome: Outcome) -> "Table":
     if info is not None:
         facts.add_row("surface", Text(surface_text(info).translate(PLAIN)))
     if outcome.problem.scene.worn is not None:
-        facts.add_row("run in", Text(run_in_text(outcome.problem.scene).translate(PLAIN)))
+        facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
     moved = coupling_line(outcome)
     if moved is not None:
         facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))

@@ -7,7 +7,7 @@ from rich.table import Table
 
 STEEPEST = 1.2  # slope of log time over log n
 OVERHEAD = 2.0  # times the transforms' own time, from COUNTED nodes on
-COUNTED = 16384
+COUNTED = 65536  # below, the interpreter's own share shows; those rows are printed, not judged
 UNEVEN = 1.3  # by which memory per node may differ between sizes from WEIGHED nodes on
 WEIGHED = 65536  # below, what the interpreter itself takes shows
 

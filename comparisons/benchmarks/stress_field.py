@@ -4,6 +4,10 @@
 
 A field on a grid by convolution (`analytic.stress_field`) and scattered points by the tree
 (`analytic.stress_tree`), both beside the sums of `comparisons.benchmarks.direct_stress`.
+
+Exit status 0 only if the field takes at most 1/300 of the time of the textbook's sum over hats, the
+closed form of every element at every point, and differs by no more than 1e-12 of the largest stress
+from a sum that keeps each element's digits. The textbook's own error is printed beside it.
 """
 
 import argparse
@@ -28,6 +32,9 @@ from comparisons.benchmarks.direct_stress import FRICTION, direct, hats, shared_
 _BLOCK = 2**15  # values of a kernel at a time
 _DIRECT_POINTS = 2048  # scattered points summed directly, the time scaled to all
 _CHECKED_POINTS = 500  # whose stresses are compared
+_TEXTBOOK, _OURS = "direct sum, hats", "convolution"
+WANTED = 300.0  # times faster than the textbook's sum
+CLOSE = 1e-12  # of the largest stress, between the field and the sum that keeps all digits
 _T = TypeVar("_T")
 
 
@@ -41,6 +48,32 @@ class Row:
     name: str
     seconds: float
     difference: float | None = None
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """One demand on the field, and whether it holds."""
+
+    holds: bool
+    text: str
+
+
+def verdicts(rows: list[Row]) -> list[Verdict]:
+    """Demands on the rows of `field_rows`."""
+    by_name = {row.name: row for row in rows}
+    ours, textbook = by_name[_OURS], by_name[_TEXTBOOK]
+    ratio = textbook.seconds / ours.seconds
+    return [
+        Verdict(
+            ratio >= WANTED,
+            f"field: {ratio:.3g} times faster than the {_TEXTBOOK}, wanted {WANTED:g}",
+        ),
+        Verdict(
+            ours.difference is not None and ours.difference <= CLOSE,
+            f"field: off by {ours.difference:.1e} of the largest stress, allowed {CLOSE:g}"
+            f" (the {_TEXTBOOK}: {textbook.difference:.1e})",
+        ),
+    ]
 
 
 def rough_load(count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -69,7 +102,7 @@ def field_rows(elements: int, levels: int, repeats: int) -> list[Row]:
     x, z = (a.ravel() for a in np.meshgrid(nodes, depths))
     return [
         *_direct_rows(nodes, load, x, z, len(x), repeats),
-        Row("convolution", cold, _difference(nodes, load, x, z, _stacked(found))),
+        Row(_OURS, cold, _difference(nodes, load, x, z, _stacked(found))),
         Row("convolution, for every friction", every),
         Row("convolution, first call of the process", first),
         Row("convolution, of it the kernels", kernels),
@@ -125,8 +158,8 @@ def table(title: str, rows: list[Row], quickest: str) -> str:
     return "\n".join(lines)
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Print both tables."""
+def main(arguments: list[str] | None = None) -> int:
+    """Print both tables and what they show; the exit status."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--elements", type=int, default=1024)
     parser.add_argument("--levels", type=int, default=100)
@@ -136,11 +169,17 @@ def main(arguments: list[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     rows = field_rows(given.elements, given.levels, given.repeats)
     size = f"{given.elements} x {given.levels} points from {given.elements} elements"
-    print(table(f"Field of {size}", rows, "convolution"))
+    print(table(f"Field of {size}", rows, _OURS))
+    found = verdicts(rows)
     rows = point_rows(given.point_elements, given.points, given.repeats)
     few = min(given.points, _DIRECT_POINTS)
     size = f"{given.points} scattered points from {given.point_elements} elements"
-    print("\n" + table(f"{size}; direct sums scaled from {few} of them", rows, "tree"))
+    print("\n" + table(f"{size}; direct sums scaled from {few} of them", rows, "tree") + "\n")
+    for verdict in found:
+        print("holds " if verdict.holds else "FAILS ", verdict.text)
+    wrong = sum(not verdict.holds for verdict in found)
+    print(f"{wrong} demands fail" if wrong else "all demands hold")
+    return 1 if wrong else 0
 
 
 def _stacked(stress: PlaneStress) -> np.ndarray:
@@ -176,4 +215,4 @@ if __name__ == "__main__":
             sys.executable,
             [sys.executable, "-m", "comparisons.benchmarks.stress_field", *sys.argv[1:]],
         )
-    main()
+    sys.exit(main())

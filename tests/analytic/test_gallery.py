@@ -23,8 +23,10 @@ from analytic.stress import stress_at
 
 CASES = {case.name: case for case in exact_contacts()}
 FULL = "Westergaard, full contact"
-# Corners and edges narrower than the elements of these tests: no order to be seen yet.
-UNRESOLVED = ("rounded punch, flat 0.99", "flattened cylinder, hardness 0.7")
+# Corners and edges narrower than the coarsest elements of these tests need finer ones.
+FINER = ("rounded punch, flat 0.99", "flattened cylinder, hardness 0.7")
+# Error times elements on a half-width: a corner on a hundredth of it has the pressure's edge there.
+LARGEST = {"rounded punch, flat 0.99": 22.0}
 OFFSETS = (0.0, 0.25, 0.5, 0.75)
 NAMES = ("sx", "sz", "txz")
 
@@ -116,21 +118,18 @@ def test_numerical_half_plane_meets_it(case: ExactContact):
     Errors are averaged over where the edges fall between two nodes.
     """
     errors = []
-    for elements in (128, 512):
+    coarsest = 512 if case.name in FINER else 128
+    for elements in (coarsest, 4 * coarsest):
         square = []
         for offset in OFFSETS:
             x, solution = solved(case, elements, offset)
             exact = case.pressure(x)
             square.append(np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2))
         errors.append(np.sqrt(np.mean(square)))
-    assert errors[-1] < 0.5 * errors[0]
-    if case.name in UNRESOLVED:
-        assert errors[-1] < 0.15
-        return
     order = np.log2(errors[0] / errors[-1]) / 2.0
     assert order == pytest.approx(2.0 if case.name == FULL else 1.0, abs=0.07)
     half = 0.5 * case.quantities["contact_length"] / (x[1] - x[0])
-    assert errors[-1] < 4.0 / half
+    assert errors[-1] < LARGEST.get(case.name, 4.0) / half
     assert solution.pressure.max() == pytest.approx(case.quantities["peak_pressure"], rel=1e-3)
     if case.name != FULL:
         patches = contact_patches(x, solution.pressure, solution.gap)

@@ -5,7 +5,14 @@ import pytest
 
 from analytic.stress import stress_at
 from comparisons.benchmarks.direct_stress import FRICTION, direct, hats, shared_nodes, strips
-from comparisons.benchmarks.stress_field import Row, field_rows, main, rough_load, table
+from comparisons.benchmarks.stress_field import (
+    Row,
+    field_rows,
+    main,
+    rough_load,
+    table,
+    verdicts,
+)
 
 NAMES = ("sx", "sz", "txz")
 
@@ -39,9 +46,34 @@ def test_table_names_the_ratio_to_the_quickest():
     assert text.splitlines()[3].split() == ["quick", "0.01", "1"]
 
 
-def test_prints_both_tables(capsys):
-    main(["--elements=64", "--levels=5", "--point-elements=80", "--points=400", "--repeats=1"])
+@pytest.mark.parametrize(
+    ("seconds", "difference", "holds"),
+    [
+        (3.0, 1e-12, [True, True]),
+        (2.99, 1e-14, [False, True]),
+        (9.0, 1.1e-12, [True, False]),
+        (9.0, float("nan"), [True, False]),
+    ],
+)
+def test_verdicts_ask_for_the_ratio_and_the_digits(seconds, difference, holds):
+    rows = [
+        Row("direct sum, hats", seconds, 2e-12),
+        Row("direct sum, nodes", 1e-3, 2e-12),
+        Row("convolution", 0.01, difference),
+    ]
+    found = verdicts(rows)
+    assert [verdict.holds for verdict in found] == holds
+    assert "direct sum, hats: 2.0e-12" in found[1].text
+
+
+def test_prints_both_tables_and_what_they_show(capsys):
+    """A field so small that it is not 300 times faster."""
+    sizes = ["--elements=64", "--levels=5", "--point-elements=80", "--points=400"]
+    status = main([*sizes, "--repeats=1"])
     said = capsys.readouterr().out
     assert "Field of 64 x 5 points from 64 elements" in said
     assert "400 scattered points from 80 elements; direct sums scaled from 400 of them" in said
-    assert said.count("direct sum") == 7
+    assert said.count("direct sum") == 9
+    assert "FAILS  field: " in said
+    assert "1 demands fail" in said
+    assert status == 1

@@ -27,7 +27,7 @@ from comparisons.report.running_in_picture import running_in_in_words
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
-from comparisons.table import summary
+from comparisons.table import run_in_text, summary
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 LOAD, RADIUS = 2e5, 10e-3
@@ -322,7 +322,14 @@ class TestTelling:
         console = Console(width=80, record=True, file=StringIO())
         console.print(summary(outcome))
         [row] = [line for line in console.export_text().splitlines() if line.startswith("run in")]
-        assert f"moved in {len(outcome.problem.scene.worn.passes)} passes, shaken down" in row
+        worn = outcome.problem.scene.worn
+        assert f"moved in {len(worn.passes)} passes, shaken down" in row
+        peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
+        softer = replace(worn.constraints, hardness=peak / 1.8)
+        scene = replace(outcome.problem.scene, worn=replace(worn, constraints=softer))
+        sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
+        assert run_in_text(sharp).endswith("; pressed then, up to 1.80 times its hardness")
+        assert "times its hardness" not in row
 
     def test_what_fell_short_is_told(self, outcome: Outcome):
         problem = outcome.problem
