@@ -226,10 +226,4 @@ def commands(outcome: Outcome) -> list[tuple[str, str]]:
     """What to type to get this again."""
     scene, plan = outcome.problem.scene, outcome.plan
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
-    return [
-        ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
-        (
-            "repeats this run from its record and tells every figure that moved",
-            f"crosscheck rerun {shlex.quote(str(outcome.directory))}",
-        ),
-    ]
+    return [("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}")]
