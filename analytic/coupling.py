@@ -73,7 +73,6 @@ class TangentialHalfPlane(Convolution):
               modulus E' and (1-2nu) / (2(1-nu))
     periodic  the hats repeat after L = count h. What the mean traction would tilt the surface
               by is taken off: it shears the bodies and leaves them level.
-    coefficients  (n,) first column of the skew matrix [m^2/Pa]; the first row is its negative
     """
 
     def __init__(
@@ -85,9 +84,9 @@ class TangentialHalfPlane(Convolution):
         if periodic:
             images = hat_sign(offset - count) + hat_sign(offset + count)
             average = average + images - 2.0 * offset / count
-        self.coefficients = dundurs * pitch**2 / modulus * average
+        column = dundurs * pitch**2 / modulus * average
         # in a circulant the entries above the diagonal follow from the column
-        super().__init__(self.coefficients, _nothing, row=-self.coefficients, periodic=periodic)
+        super().__init__(column, _nothing, row=-column, periodic=periodic)
 
     @made_once
     def coarsened(self) -> "TangentialHalfPlane | None":
@@ -120,7 +119,7 @@ class CoupledHalfPlane(Convolution):
         self.datum = (count + 1) * pitch if datum is None else datum
         self.skew = friction_dundurs != 0.0
         self.normal = HalfPlane(count, pitch, modulus, self.datum)
-        even = self.normal.coefficients
+        even = self.normal.column
         odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
         super().__init__(even + odd, self._symbol, row=even - odd)
 

@@ -32,7 +32,6 @@ class LayeredSurface(Convolution):
     body     the layer and its base
     datum    L [m] where the base is a half-plane; default the support (count + 1) h and four
              times what the layer spreads a load to, which makes the operator positive definite
-    coefficients  (n,) first column of the symmetric Toeplitz matrix [m^2/Pa]
     """
 
     def __init__(
@@ -41,8 +40,8 @@ class LayeredSurface(Convolution):
         self.pitch = pitch
         self.body = body
         self.datum = (count + 1) * pitch + 4.0 * _spread(body) if datum is None else datum
-        self.coefficients = free_coefficients(count, pitch, body, self.datum)
-        super().__init__(self.coefficients, self._symbol)
+        column = free_coefficients(count, pitch, body, self.datum)
+        super().__init__(column, self._symbol)
 
     @made_once
     def coarsened(self) -> "LayeredSurface":
@@ -62,7 +61,6 @@ class PeriodicLayeredSurface(Convolution):
     count    number of elements      pitch    h [m]
     body     the layer and its base; a half-plane below gives the mean pressure no displacement:
              it gets that of the longest wave, as in `analytic.periodic`
-    coefficients  (n,) first column of the symmetric circulant [m^2/Pa]
     """
 
     def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
@@ -70,8 +68,8 @@ class PeriodicLayeredSurface(Convolution):
         self.body = body
         longest = 2.0 * np.pi / (count * pitch)
         self._mean = pitch * float(normal_compliance(body, 0.0 if body.rigid else longest))
-        self.coefficients = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)
-        super().__init__(self.coefficients, self._symbol, periodic=True)
+        column = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)
+        super().__init__(column, self._symbol, periodic=True)
 
     @made_once
     def coarsened(self) -> "PeriodicLayeredSurface | None":

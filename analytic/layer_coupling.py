@@ -28,7 +28,6 @@ class TangentialLayer(Convolution):
     count     number of elements      pitch    h [m]
     body      the layer and its base
     periodic  the hats repeat after count h; the mean traction leaves the surface level
-    coefficients  (n,) first column of the skew matrix [m^2/Pa]; the first row is its negative
     """
 
     def __init__(self, count: int, pitch: float, body: LayeredBody, periodic: bool = False) -> None:
@@ -36,15 +35,15 @@ class TangentialLayer(Convolution):
         self.body = body
         if periodic:
             symbol = coupling_symbol(np.arange(count // 2 + 1) / count, pitch, body)
-            self.coefficients = irfft(1j * symbol, count)
+            column = irfft(1j * symbol, count)
         else:
             scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
-            self.coefficients = scale * hat_coupling(count, pitch / body.thickness, body.contrast)
-        self.coefficients[0] = 0.0  # odd, but for rounding
+            column = scale * hat_coupling(count, pitch / body.thickness, body.contrast)
+        column[0] = 0.0  # odd, but for rounding
         super().__init__(
-            self.coefficients,
+            column,
             lambda cycles: np.full(len(cycles), np.inf),  # no inverse to approximate
-            row=-self.coefficients,
+            row=-column,
             periodic=periodic,
         )
 

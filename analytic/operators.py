@@ -75,7 +75,6 @@ class HalfPlane(Convolution):
     modulus  E* [Pa], or E' of one body
     datum    L [m]; default the support (count + 1) h
     element  "hat" (Galerkin) or "strip" (uniform, collocated)
-    coefficients  (n,) first column of the symmetric Toeplitz matrix D_ij [m^2/Pa]
     """
 
     def __init__(
@@ -93,8 +92,8 @@ class HalfPlane(Convolution):
         kernel = hat_galerkin if element == "hat" else strip_displacement
         log_integral = at_whole_offsets(kernel, count)
         scale = 2.0 * pitch**2 / (np.pi * modulus)
-        self.coefficients = -scale * (log_integral + np.log(pitch / self.datum))
-        super().__init__(self.coefficients, self._symbol)
+        column = -scale * (log_integral + np.log(pitch / self.datum))
+        super().__init__(column, self._symbol)
 
     @made_once
     def coarsened(self) -> "HalfPlane":

@@ -36,7 +36,6 @@ class PeriodicHalfPlane(Convolution):
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
     element  "hat" (Galerkin) or "strip" (uniform, collocated)
-    coefficients  (n,) first column of the symmetric circulant [m^2/Pa]
     """
 
     def __init__(self, count: int, pitch: float, modulus: float, element: Element = "hat") -> None:
@@ -45,8 +44,8 @@ class PeriodicHalfPlane(Convolution):
         self.modulus = modulus
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
-        self.coefficients = irfft(self._symbol(cycles), count)
-        super().__init__(self.coefficients, None, periodic=True)
+        column = irfft(self._symbol(cycles), count)
+        super().__init__(column, None, periodic=True)
 
     @made_once
     def coarsened(self) -> "PeriodicHalfPlane | None":

@@ -117,7 +117,7 @@ def test_operators_on_thin_layers_are_finite_and_positive(base, ratio):
         PeriodicLayeredSurface(count, ratio, body),
     ):
         assert ones @ operator.apply(ones) > 0.0
-    assert np.all(np.isfinite(TangentialLayer(count, ratio, body).coefficients))
+    assert np.all(np.isfinite(TangentialLayer(count, ratio, body).column))
 
 
 @pytest.mark.parametrize("count", [4, 16, 32, 64, 4096])

@@ -124,7 +124,7 @@ ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
 
 def dense_oracle(grid, gap, load):
     """Pressures by non-negative least squares on the Cholesky factor, approach by bisection."""
-    factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).coefficients))
+    factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column))
     average = grid.average(gap)
 
     def at(approach):

@@ -212,7 +212,7 @@ class TestSymmetries:
 
 
 def dense_matrix(grid, friction_dundurs):
-    even = HalfPlane(grid.count, grid.pitch, MODULUS).coefficients
+    even = HalfPlane(grid.count, grid.pitch, MODULUS).column
     odd = friction_dundurs * grid.pitch**2 / MODULUS * hat_sign(np.arange(grid.count))
     return toeplitz(even + odd, even - odd)
 
@@ -418,7 +418,7 @@ class TestPeriodic:
 def test_a_compliance_given_as_a_matrix_can_be_the_normal_part():
     """The hook for other bodies: any symmetric operator with any tangential one."""
     grid = HatGrid.within(-1.1e-3, 1.1e-3, 8e-6)
-    matrix = toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).coefficients)
+    matrix = toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column)
     pair = CoupledPair(
         DenseCompliance(matrix), TangentialHalfPlane(grid.count, grid.pitch, MODULUS, 0.5), 0.6
     )

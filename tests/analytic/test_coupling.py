@@ -120,7 +120,7 @@ def test_traction_does_no_work_on_what_it_moves():
 def test_periodic_displacement_is_that_of_the_wave(count):
     """du/dx = (2 beta/E*) (q - mean q) for a wave, in the limit of small hats; exactly periodic."""
     operator = TangentialHalfPlane(count, PITCH, MODULUS, BETA, periodic=True)
-    matrix = circulant(operator.coefficients)
+    matrix = circulant(operator.column)
     assert matrix == pytest.approx(-matrix.T, abs=1e-13 * np.abs(matrix).max())
     traction = np.random.default_rng(8).standard_normal(count)
     moved = operator.apply(traction)

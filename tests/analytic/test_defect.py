@@ -35,7 +35,7 @@ def average_gap(amplitude: float = 0.3e-6) -> np.ndarray:
 
 def perturbed() -> Dense:
     """A half-plane with a few per cent of smooth, symmetric, positive deviation."""
-    matrix = toeplitz(half_plane().coefficients)
+    matrix = toeplitz(half_plane().column)
     x = GRID.x / GRID.x[-1]
     bumps = np.exp(-8.0 * (x[:, None] - np.linspace(-0.8, 0.8, 5)) ** 2)
     return Dense(matrix + 0.05 * matrix.mean() * bumps @ bumps.T)
@@ -84,7 +84,7 @@ def test_a_model_of_the_wrong_modulus_does_not_change_the_answer(factor):
 def test_what_does_not_converge_says_so():
     """An operator that is not symmetric positive definite has no such minimum to find."""
     rng = np.random.default_rng(2)
-    matrix = toeplitz(half_plane().coefficients)
+    matrix = toeplitz(half_plane().column)
     operator = Dense(matrix + matrix.max() * rng.standard_normal(matrix.shape))
     solution = solve_with_model(
         operator, half_plane(), average_gap(), GRID.weights, Constraints(load=LOAD)

@@ -90,7 +90,7 @@ class TestLeastEnergy:
     """A gap on a closed line of 1024 touching nodes, at rest at 0 before it and at 1 behind."""
 
     COUNT = 1024
-    INVERSE = np.linalg.inv(toeplitz(PeriodicHalfPlane(COUNT, 1.0, 1.0).coefficients))
+    INVERSE = np.linalg.inv(toeplitz(PeriodicHalfPlane(COUNT, 1.0, 1.0).column))
 
     def excess(self, gap: int) -> dict[str, float]:
         """Energy over the least of all continuations, less 1: as continued, straight, a jump."""
@@ -170,7 +170,7 @@ class TestIterations:
 def test_the_free_half_planes_ring_is_long_enough():
     """Closing the line for the inverse must not join what happens at its two ends."""
     operator = HalfPlane(512, 1.0, 1.0)
-    inverse = np.linalg.inv(toeplitz(operator.coefficients))
+    inverse = np.linalg.inv(toeplitz(operator.column))
     extension = Extension(np.arange(512), operator.ring, closed=True)
     product = np.stack(
         [extension.gather(operator.precondition(extension.extend(c))) for c in np.eye(512)]

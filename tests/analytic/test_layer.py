@@ -59,7 +59,7 @@ def test_integrated_kernel_is_the_limit_of_long_periods(base, nu, pitch):
 def test_coefficients_are_the_integral_over_all_waves(base, pitch):
     """Differences to the first: panels that halve towards k = 0, then half waves of the cosine."""
     body = LayeredBody(LAYER, 1.0, base)
-    coefficients = LayeredSurface(3000, pitch, body).coefficients
+    coefficients = LayeredSurface(3000, pitch, body).column
     points, weights = np.polynomial.legendre.leggauss(20)
     for offset in (1, 2, 7, 40):
         waves = np.arange(1, 200 * offset) * np.pi / (offset * pitch)
@@ -77,29 +77,29 @@ def test_coefficients_are_the_integral_over_all_waves(base, pitch):
 def test_on_a_half_plane_of_its_own_material_it_is_the_half_plane(pitch):
     body = LayeredBody(LAYER, 1.0, LAYER)
     free = LayeredSurface(3000, pitch, body, datum=7.0)
-    expected = HalfPlane(3000, pitch, LAYER.plane_strain_modulus, datum=7.0).coefficients
-    assert free.coefficients == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
+    expected = HalfPlane(3000, pitch, LAYER.plane_strain_modulus, datum=7.0).column
+    assert free.column == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
     periodic = PeriodicLayeredSurface(300, pitch, body)
-    expected = PeriodicHalfPlane(300, pitch, LAYER.plane_strain_modulus).coefficients
-    assert periodic.coefficients == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
+    expected = PeriodicHalfPlane(300, pitch, LAYER.plane_strain_modulus).column
+    assert periodic.column == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("base", [*RIGID, SUBSTRATES[1]], ids=named)
 def test_under_a_grid_far_narrower_than_the_layer_it_is_a_half_plane_but_for_a_constant(base):
     body, half_plane = LayeredBody(LAYER, 1.0, base), LAYER.plane_strain_modulus
     for pitch, bound in ((1e-6, 2e-7), (1e-5, 2e-5)):
-        found = LayeredSurface(500, pitch, body).coefficients
-        expected = HalfPlane(500, pitch, half_plane).coefficients
+        found = LayeredSurface(500, pitch, body).column
+        expected = HalfPlane(500, pitch, half_plane).column
         shift = found - expected
         assert np.ptp(shift) < bound * np.ptp(expected)
         assert np.ptp(shift) > 1e-3 * bound * np.ptp(expected)
 
 
 def test_a_stiff_substrate_tends_to_the_rigid_base():
-    bonded = LayeredSurface(400, 0.02, LayeredBody(LAYER, 1.0, "bonded")).coefficients
+    bonded = LayeredSurface(400, 0.02, LayeredBody(LAYER, 1.0, "bonded")).column
     for ratio in (1e6, 1e8):
         stiff = LayeredBody(LAYER, 1.0, Material(ratio * LAYER.youngs_modulus, 0.3))
-        found = LayeredSurface(400, 0.02, stiff).coefficients
+        found = LayeredSurface(400, 0.02, stiff).column
         assert np.max(np.abs(found - bonded)) < 20.0 / ratio * bonded[0]
 
 
@@ -109,7 +109,7 @@ def test_a_stiff_substrate_tends_to_the_rigid_base():
 def test_operator_and_preconditioner_are_positive_definite(kind, base, pitch):
     count = 90
     operator = kind(count, pitch, LayeredBody(LAYER, 1.0, base))
-    matrix = (circulant if operator.periodic else toeplitz)(operator.coefficients)
+    matrix = (circulant if operator.periodic else toeplitz)(operator.column)
     columns = np.eye(count)
     applied = np.array([operator.apply(column) for column in columns]).T
     assert applied == pytest.approx(matrix, abs=1e-13 * np.abs(matrix).max())
@@ -130,9 +130,9 @@ def test_coarsened_operators_agree_on_coarse_hats(base):
         refine = np.zeros((fine.count, coarse.count))
         for j in range(coarse.count):
             refine[[2 * j, 2 * j + 1, (2 * j + 2) % fine.count], j] = 0.5, 1.0, 0.5
-        expected = refine.T @ matrix(fine.coefficients) @ refine
+        expected = refine.T @ matrix(fine.column) @ refine
         scale = np.abs(expected).max()
-        assert matrix(coarse.coefficients) == pytest.approx(expected, abs=1e-13 * scale)
+        assert matrix(coarse.column) == pytest.approx(expected, abs=1e-13 * scale)
     assert PeriodicLayeredSurface(9, 0.1, body).coarsened() is None
 
 
@@ -266,4 +266,4 @@ def test_lengths_and_moduli_scale():
     operator = LayeredSurface(50, 0.02, LayeredBody(LAYER, 1.0, "bonded"))
     soft = Material(1e-3 * LAYER.youngs_modulus, LAYER.poissons_ratio)
     scaled = LayeredSurface(50, 0.02e-6, LayeredBody(soft, 1e-6, "bonded"))
-    assert scaled.coefficients * 1e12 / 1e3 == pytest.approx(operator.coefficients, rel=1e-12)
+    assert scaled.column * 1e12 / 1e3 == pytest.approx(operator.column, rel=1e-12)

@@ -31,15 +31,15 @@ def test_on_a_half_plane_of_its_own_material_it_is_the_half_plane(pitch, periodi
     found = TangentialLayer(count, pitch, LayeredBody(LAYER, 1.0, LAYER), periodic)
     beta = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
     expected = TangentialHalfPlane(count, pitch, LAYER.plane_strain_modulus, beta, periodic)
-    scale = np.abs(expected.coefficients).max()
-    assert found.coefficients == pytest.approx(expected.coefficients, abs=1e-14 * scale)
+    scale = np.abs(expected.column).max()
+    assert found.column == pytest.approx(expected.column, abs=1e-14 * scale)
 
 
 @pytest.mark.parametrize("pitch", [1e-4, 0.1, 1.0, 10.0, 1e4, 1e6])
 @pytest.mark.parametrize("base", BASES)
 def test_coefficients_are_the_integral_over_all_waves(base, pitch):
     body = LayeredBody(LAYER, 1.0, BASES[base])
-    coefficients = TangentialLayer(60, pitch, body).coefficients
+    coefficients = TangentialLayer(60, pitch, body).column
     scale = pitch**2 / LAYER.shear_modulus
     points, weights = np.polynomial.legendre.leggauss(20)
     for offset in (1, 2, 7, 40):
@@ -80,15 +80,15 @@ def test_strain_adds_up_to_the_displacement_of_the_operator(base):
 @pytest.mark.parametrize("pitch", [0.05, 2.0])
 def test_long_periods_of_a_bonded_layer_are_the_free_line(pitch):
     body, count = LayeredBody(LAYER, 1.0, "bonded"), 40
-    free = TangentialLayer(count, pitch, body).coefficients
-    around = TangentialLayer(count + int(60.0 / pitch), pitch, body, periodic=True).coefficients
+    free = TangentialLayer(count, pitch, body).column
+    around = TangentialLayer(count + int(60.0 / pitch), pitch, body, periodic=True).column
     assert free == pytest.approx(around[:count], abs=1e-14 * pitch**2 / LAYER.shear_modulus)
 
 
 def test_net_traction_on_a_sliding_layer_lifts_one_side():
     """sx = -+Q/2t on the two sides makes them t nu (sx)/(2G) thinner and thicker."""
     pitch, nu = 0.3, LAYER.poissons_ratio
-    far = TangentialLayer(200, pitch, LayeredBody(LAYER, 1.0, "frictionless")).coefficients[-1]
+    far = TangentialLayer(200, pitch, LayeredBody(LAYER, 1.0, "frictionless")).column[-1]
     # plane strain with sz = 0: e_z = -nu sx/(2G), and the surface rises where sx < 0
     assert far == pytest.approx(-nu * pitch**2 / (4.0 * LAYER.shear_modulus), rel=1e-12)
 
@@ -114,7 +114,7 @@ def test_operator_does_no_work_and_coarsens(base, periodic):
     if periodic:
         assert TangentialLayer(9, 0.2, body, periodic=True).coarsened() is None
     else:
-        full = toeplitz(fine.coefficients, -fine.coefficients)
+        full = toeplitz(fine.column, -fine.column)
         assert matrix == pytest.approx(full, abs=1e-13 * scale)
 
 

@@ -93,14 +93,14 @@ def test_aliases_beyond_are_what_the_nearer_ones_leave():
 def test_coefficients_are_those_of_the_half_plane_and_all_its_images(element, count):
     """Loads of zero sum: the images of elements i and 0 differ like 1/j^2 and 1/j^4."""
     images = 4000
-    free = HalfPlane(count * (images + 1), PITCH, MODULUS, element=element).coefficients
+    free = HalfPlane(count * (images + 1), PITCH, MODULUS, element=element).column
     offset = np.abs(np.arange(count)[:, None] + count * np.arange(-images, images + 1))
     padded = free[np.minimum(offset, len(free) - 1)]
     summed = np.sum(padded - padded[:1], axis=1)
     # beyond: ln(j^2 L^2 - x^2) - ln(j^2 L^2) = -x^2/(j L)^2 - ...
     beyond = (np.arange(count) / count) ** 2 * zeta(2.0, images + 1.0)
     summed += 2.0 * PITCH**2 / (np.pi * MODULUS) * beyond
-    column = PeriodicHalfPlane(count, PITCH, MODULUS, element).coefficients
+    column = PeriodicHalfPlane(count, PITCH, MODULUS, element).column
     expected = summed - summed[:1]
     assert column - column[0] == pytest.approx(expected, abs=1e-11 * np.ptp(expected))
 
@@ -111,7 +111,7 @@ def test_operator_is_positive_definite_and_its_preconditioner_the_inverse(count,
     operator = PeriodicHalfPlane(count, PITCH, MODULUS, element)
     columns = np.eye(count)
     matrix = np.array([operator.apply(column) for column in columns]).T
-    assert matrix == pytest.approx(circulant(operator.coefficients), rel=1e-12)
+    assert matrix == pytest.approx(circulant(operator.column), rel=1e-12)
     assert matrix == pytest.approx(matrix.T, rel=1e-12)
     assert np.linalg.eigvalsh(matrix).min() > 0.0
     inverse = np.array([operator.precondition(column) for column in matrix.T]).T
@@ -133,8 +133,8 @@ def test_coarsened_operator_agrees_on_coarse_hats_around_the_circle():
     refine = np.zeros((16, 8))
     for j in range(8):
         refine[[2 * j, 2 * j + 1, (2 * j + 2) % 16], j] = 0.5, 1.0, 0.5
-    expected = refine.T @ circulant(fine.coefficients) @ refine
-    assert circulant(coarse.coefficients) == pytest.approx(expected, rel=1e-12)
+    expected = refine.T @ circulant(fine.column) @ refine
+    assert circulant(coarse.column) == pytest.approx(expected, rel=1e-12)
     assert coarse.coarsened().coarsened() is None
     assert PeriodicHalfPlane(9, PITCH, MODULUS).coarsened() is None
 

@@ -185,7 +185,7 @@ def coupled_solution(contact: SlidingContact, grid: HatGrid, apex: float) -> np.
     lift = np.full(n, grid.pitch**2)
     lift[:2] = 0.0, 11.0 / 12.0 * grid.pitch**2
     lift *= contact.friction * contact.dundurs_beta / modulus
-    matrix = toeplitz(HalfPlane(n, grid.pitch, modulus).coefficients) + toeplitz(lift, -lift)
+    matrix = toeplitz(HalfPlane(n, grid.pitch, modulus).column) + toeplitz(lift, -lift)
     roller = roller_gap(contact.radius)
     gap, touching = grid.average(lambda x: roller(x - apex)), np.ones(n, dtype=bool)
     for _ in range(60):
