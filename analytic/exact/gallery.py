@@ -1,4 +1,7 @@
-"""The gallery: line contacts with exact solutions that every numerical model is held to."""
+"""The gallery: line contacts with exact solutions that every numerical model is held to.
+
+Layers near their limits are in `layer_cases`, stresses under given loads in `stress_cases`.
+"""
 
 from functools import cache
 
