@@ -62,6 +62,41 @@ class Extension:
         return whole
 
 
+class RowExtension:
+    """The same for free nodes in a row, which leave one gap: without a pass over the row."""
+
+    def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
+        first, last = int(nodes[0]), int(nodes[-1])
+        self._row, self._count = slice(first, last + 1), count
+        self._gap = np.concatenate((np.arange(last + 1, count), np.arange(first)))
+        behind = count - 1 - last
+        steps = np.arange(1, len(self._gap) + 1)
+        self._share = _share_of_next(steps, np.array(first + count - last))
+        if not closed:
+            self._share[:behind], self._share[behind:] = 0.0, 1.0
+
+    def extend(self, values: np.ndarray) -> np.ndarray:
+        """E v: displacements (count,) from those (m,) of the free nodes."""
+        extended = np.empty(self._count)
+        extended[self._row] = values
+        extended[self._gap] = values[-1] + self._share * (values[0] - values[-1])
+        return extended
+
+    def gather(self, values: np.ndarray) -> np.ndarray:
+        """E' v: the grid's (count,) forces as forces (m,) on the free nodes."""
+        gathered, outside = values[self._row].copy(), values[self._gap]
+        of_first = self._share @ outside
+        gathered[0] += of_first
+        gathered[-1] += outside.sum() - of_first
+        return gathered
+
+
+def extension_from(nodes: np.ndarray, count: int, closed: bool) -> Extension | RowExtension:
+    """E for one set of free nodes; arguments as of `Extension`."""
+    in_a_row = nodes[-1] - nodes[0] == len(nodes) - 1
+    return (RowExtension if in_a_row else Extension)(nodes, count, closed)
+
+
 def _share_of_next(steps: np.ndarray, widths: np.ndarray) -> np.ndarray:
     """Share of the next free node, `steps` nodes from the last one in a gap `widths` nodes wide."""
     return 0.5 + np.arcsin(2.0 * steps / widths - 1.0) / np.pi

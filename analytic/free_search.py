@@ -6,7 +6,7 @@ The approximate inverse over the whole grid is given displacements continued fro
 
 import numpy as np
 
-from analytic.extension import Extension
+from analytic.extension import extension_from
 from analytic.operators import ModelOperator
 
 
@@ -30,7 +30,7 @@ class FreeSearch:
         first = min(int(nodes[0]), operator.count - count)
         self.stretch = slice(first, first + count)
         ring = self.operator.ring
-        self._extension = Extension(nodes - first, ring or count, closed=ring is not None)
+        self._extension = extension_from(nodes - first, ring or count, closed=ring is not None)
         if weights is not None:
             lift = self.inverse(weights)
             self.lift = lift / (weights @ lift)

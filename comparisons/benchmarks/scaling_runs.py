@@ -63,47 +63,50 @@ def cylinder(count: int) -> Problem:
 
 
 class Counted:
-    """An operator that notes the length of every transform, on coarser grids, too."""
+    """An operator that notes the length of every transform: on its own grid, stretches of the line
+    included, and on coarser ones."""
 
-    def __init__(self, operator: Convolution, applied: list[int], inverted: list[int]) -> None:
-        self._operator, self._applied, self._inverted = operator, applied, inverted
+    def __init__(self, operator: Convolution, own: list[int], coarser: list[int]) -> None:
+        self._operator, self._own, self._coarser = operator, own, coarser
 
     def __getattr__(self, name: str):
         return getattr(self._operator, name)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        self._applied.append(_length(self._operator))
+        self._own.append(_length(self._operator))
         return self._operator.apply(pressure)
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray:
-        self._inverted.append(self._operator.ring)
+        self._own.append(self._operator.ring)
         return self._operator.precondition(displacement)
+
+    def cropped(self, span: int) -> "Counted | None":
+        stretch = self._operator.cropped(span)
+        return None if stretch is None else Counted(stretch, self._own, self._coarser)
 
     def coarsened(self) -> "Counted | None":
         coarse = self._operator.coarsened()
-        return None if coarse is None else Counted(coarse, self._applied, self._inverted)
+        return None if coarse is None else Counted(coarse, self._coarser, self._coarser)
 
 
 def grown(make: Callable[[int], Problem], count: int, repeats: int) -> Growth:
     """Time the problem `repeats` times or while BUDGET lasts, count and weigh it once each."""
     problem = make(count)
-    applied: list[int] = []
-    inverted: list[int] = []
+    finest: list[int] = []
+    coarser: list[int] = []
     operator = problem.operator()
-    longest, ring = _length(operator), operator.ring
-    solution = _solved(lambda: Counted(operator, applied, inverted), problem)
+    longest = _length(operator)
+    solution = _solved(lambda: Counted(operator, finest, coarser), problem)
     if not solution.converged:
         raise ArithmeticError(f"{problem.count} nodes: {solution.residuals}")
-    lengths = np.array(applied + inverted)
-    finest = longest * applied.count(longest) + ring * inverted.count(ring)
     seconds = _median(lambda: _solved(problem.operator, problem), repeats)
     wave = np.random.default_rng(SEED).random(longest)
     return Growth(
         count=problem.count,
         seconds=seconds,
         exchanges=solution.iterations["exchanges"],
-        finest=finest / longest,
-        pairs=float(lengths.sum() / longest),
+        finest=sum(finest) / longest,
+        pairs=(sum(finest) + sum(coarser)) / longest,
         pair=_median(lambda: irfft(rfft(wave), longest), PAIRS),
         memory=peak_memory(partial(prepared, make, count)),
     )

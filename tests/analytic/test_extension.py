@@ -6,7 +6,7 @@ from scipy.linalg import toeplitz
 
 from analytic import free_search
 from analytic.equilibrium import Constraints, EquilibriumProblem
-from analytic.extension import Extension
+from analytic.extension import Extension, RowExtension, extension_from
 from analytic.operators import HalfPlane
 from analytic.periodic import PeriodicHalfPlane
 from analytic.sides import Sides
@@ -161,7 +161,7 @@ class TestIterations:
     def test_without_the_continuation_it_does(self, monkeypatch):
         continued = [self.applications(patches) for patches in (20, 400)]
 
-        monkeypatch.setattr(free_search, "Extension", CutOff)
+        monkeypatch.setattr(free_search, "extension_from", CutOff)
         cut = [self.applications(patches) for patches in (20, 400)]
         assert cut[1] > 2.0 * continued[1]
         assert cut[1] / cut[0] > 1.3 * continued[1] / continued[0]
@@ -177,3 +177,15 @@ def test_the_free_half_planes_ring_is_long_enough():
     )
     spectrum = np.linalg.eigvals(np.linalg.solve(inverse, product)).real
     assert np.sort(spectrum)[-2] / np.sort(spectrum)[1] < 4.0
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("nodes", [range(5, 30), range(30), range(30, 60), range(60), range(7, 8)])
+def test_a_row_of_nodes_is_continued_alike(nodes, closed):
+    nodes = np.array(nodes)
+    row, any_set = extension_from(nodes, COUNT, closed), Extension(nodes, COUNT, closed)
+    assert isinstance(row, RowExtension)
+    rng = np.random.default_rng(12)
+    moved, forces = rng.normal(size=len(nodes)), rng.normal(size=COUNT)
+    assert row.extend(moved) == pytest.approx(any_set.extend(moved), abs=1e-14)
+    assert row.gather(forces) == pytest.approx(any_set.gather(forces), abs=1e-13)
