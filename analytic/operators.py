@@ -191,10 +191,10 @@ class DenseCompliance:
         """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
         return self.matrix[np.ix_(nodes, nodes)]
 
-    @made_once
     def cropped(self, span: int) -> None:
         """No part of a body has a compliance that depends on distances alone."""
 
+    @made_once
     def coarsened(self) -> "DenseCompliance":
         """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
         inner = 2 * np.arange(self.count // 2) + 1

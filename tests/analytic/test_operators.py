@@ -6,7 +6,7 @@ from numpy.polynomial.legendre import leggauss
 from scipy.linalg import toeplitz
 
 from analytic.elements import hat_displacement
-from analytic.operators import HalfPlane, SumOfBodies, SumOfConvolutions
+from analytic.operators import DenseCompliance, HalfPlane, SumOfBodies, SumOfConvolutions
 from analytic.periodic import PeriodicHalfPlane
 
 PITCH, MODULUS = 0.7e-6, 115e9
@@ -133,6 +133,7 @@ def test_a_stretch_of_the_line_has_the_same_compliance(span):
 
 
 def test_no_stretch_is_offered_where_it_would_not_pay():
+    assert DenseCompliance(np.eye(40)).cropped(10) is None
     assert HalfPlane(8000, PITCH, MODULUS).cropped(7000) is None
     assert HalfPlane(800, PITCH, MODULUS).cropped(100) is None
     assert PeriodicHalfPlane(8000, PITCH, MODULUS).cropped(100) is None
