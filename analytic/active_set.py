@@ -57,7 +57,8 @@ def exchange_blocks(
         if count > 0 and problem.short_of_free_nodes(sides):
             sides = problem.balanced(rest)
         else:
-            sides = sides.exchanged(foreseen(broken, sides) if patience == PATIENCE else broken)
+            runs = count > 2 and patience == PATIENCE
+            sides = sides.exchanged(foreseen(broken, sides) if runs else broken)
     return exchange_feasibly(problem, pressure, sides)
 
 

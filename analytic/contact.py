@@ -169,7 +169,7 @@ def solve_contact(
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
     solution = assessed(
-        problem.apply(pressure),
+        problem.applied(pressure),
         pressure,
         gap,
         weights,

@@ -8,7 +8,7 @@ on a periodic line the matrix is the circulant.
 """
 
 from collections.abc import Callable
-from functools import wraps
+from functools import cached_property, wraps
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
@@ -67,12 +67,17 @@ class Convolution:
         self._transfer = rfft(circulant)
         if row is None:
             self._transfer = np.ascontiguousarray(self._transfer.real)
+
+    @cached_property
+    def ring(self) -> int:
         reach = self.count + self.count // _MARGIN
-        self.ring = self.count if periodic else next_fast_len(reach + 1, real=True)
-        if symbol is None:
-            self.inverse_symbol = 1.0 / self._transfer.real
-        else:
-            self.inverse_symbol = 1.0 / symbol(np.arange(self.ring // 2 + 1) / self.ring)
+        return self.count if self.periodic else next_fast_len(reach + 1, real=True)
+
+    @cached_property
+    def inverse_symbol(self) -> np.ndarray:
+        if self._symbol_at is None:
+            return 1.0 / self._transfer.real
+        return 1.0 / self._symbol_at(np.arange(self.ring // 2 + 1) / self.ring)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
