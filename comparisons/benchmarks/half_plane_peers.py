@@ -3,8 +3,9 @@
     python -m comparisons.benchmarks.half_plane_peers
 
 A smooth cylinder, a sinusoid and self-affine lines, at several sizes, each solved to the same
-contact conditions by one yardstick (`peers_yardstick`). Building operators, kernels and plans is
-within every time, sampling the surface in none. Times are the processor's.
+contact conditions by one yardstick (`peers_yardstick`). Operators, kernels and plans are made once
+for a size and kept, wherever a code lets them be: Tamaas, whose models start from their last
+solution, makes a model each time, at a hundredth of its time. Times are the processor's.
 
 Exit status 0 only if a peer is present and, beside those present, ours is never slower, as many
 times faster as wanted (`peers_verdict`), and its error no larger. Absent peers are named.

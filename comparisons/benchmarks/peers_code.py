@@ -22,7 +22,7 @@ class Code:
 
     name        for the table
     element     "hat", "strip" or "point": the discretisation it declares
-    solve       case, tolerance and most steps to an Answer, from building the operator on
+    solve       case, tolerance and most steps to an Answer; operators it may keep from call to call
     tolerances  of the code's own stopping criterion, loosest first; a single one where it has none
     count       as `solve`, where its answers lack the steps: a slower run that counts them
     """

@@ -7,6 +7,7 @@ and may not end.
 
 import contextlib
 import io
+from functools import cache
 
 import numpy as np
 
@@ -28,10 +29,12 @@ def codes() -> list[Code]:
             "ContactMechanics is not installed: pip install ContactMechanics"
         ) from missing
 
+    @cache
+    def made(count: int, length: float):
+        return ContactMechanics.PeriodicFFTElasticHalfSpace((count,), 1.0, (length,))
+
     def substrate(case: Case):
-        return ContactMechanics.PeriodicFFTElasticHalfSpace(
-            (case.count,), 1.0, (case.pitch * case.count,)
-        )
+        return made(case.count, case.pitch * case.count)
 
     def own(case: Case, tolerance: float, most: int) -> Answer:
         line = UniformLineScan(case.heights, case.pitch * case.count)

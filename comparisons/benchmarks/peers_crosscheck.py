@@ -5,13 +5,14 @@ middle. Hats, which the rest of the project uses, bound the stresses at every el
 are shown beside them.
 """
 
+from functools import cache
 from typing import Literal
 
 import numpy as np
 
 from analytic.contact import solve_contact
 from analytic.equilibrium import Constraints
-from analytic.operators import HalfPlane
+from analytic.operators import HalfPlane, ModelOperator
 from analytic.periodic import PeriodicHalfPlane
 from comparisons.benchmarks.peers_cases import Case
 from comparisons.benchmarks.peers_code import Answer, Code, decades
@@ -32,9 +33,14 @@ def codes() -> list[Code]:
     ]
 
 
+@cache
+def _operator(periodic: bool, count: int, pitch: float, element: Element) -> ModelOperator:
+    kind = PeriodicHalfPlane if periodic else HalfPlane
+    return kind(count, pitch, 1.0, element=element)
+
+
 def _solved(case: Case, tolerance: float, element: Element) -> Answer:
-    kind = PeriodicHalfPlane if case.periodic else HalfPlane
-    operator = kind(case.count, case.pitch, 1.0, element=element)
+    operator = _operator(case.periodic, case.count, case.pitch, element)
     gap = case.averages if element == "hat" else case.gaps
     weights = np.full(case.count, case.pitch)
     constraints = Constraints(load=case.load)
