@@ -1,10 +1,11 @@
 """Which nodes carry pressure: exchanges of sides until every sign condition holds.
 
 Primal-dual active set (block principal pivoting): every node that breaks its sign condition
-changes sides at once. Block exchanges may cycle; when the number of broken conditions has not
-fallen for `PATIENCE` exchanges, the primal active-set method takes over from a feasible point.
-Its energy falls strictly from one equilibrium to the next, so that no set returns and it ends
-after finitely many. Symbols as in `analytic.contact`.
+changes sides at once, and with it those that will at the same edge (`analytic.foresight`); where
+too few are free to bear the load, sides are balanced instead. Block exchanges may cycle; when the
+number of broken conditions has not fallen for `PATIENCE` exchanges, the primal active-set method
+takes over from a feasible point. Its energy falls strictly from one equilibrium to the next, so
+that no set returns and it ends after finitely many. Symbols as in `analytic.contact`.
 """
 
 import numpy as np
@@ -57,8 +58,8 @@ def exchange_blocks(
         if count > 0 and problem.short_of_free_nodes(sides):
             sides = problem.balanced(rest)
         else:
-            runs = count > 2 and patience == PATIENCE
-            sides = sides.exchanged(foreseen(broken, sides) if runs else broken)
+            moving = count > 2 and patience == PATIENCE
+            sides = sides.exchanged(foreseen(broken, sides) if moving else broken)
     return exchange_feasibly(problem, pressure, sides)
 
 

@@ -16,6 +16,7 @@ next coarser one (`analytic.nesting`); on a fixed set conjugate gradients (`anal
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -163,9 +164,9 @@ def solve_contact(
     spent = {"exchanges": 0, "applications": 0}
     common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
-    if start is None:
-        start = coarse_start(operator, gap, weights, constraints, spent, _settled)
     problem = EquilibriumProblem(operator, gap, weights, constraints, spent, tolerance)
+    if start is None:
+        start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
     solution = assessed(
@@ -178,18 +179,6 @@ def solve_contact(
         spent,
     )
     return replace(solution, approach=solution.approach + common)
-
-
-def _settled(
-    operator: ModelOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    spent: dict[str, int],
-    start: np.ndarray,
-) -> np.ndarray:
-    problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
-    return exchange_blocks(problem, start, settled=SETTLED)
 
 
 def check_load(constraints: Constraints, weights: np.ndarray) -> None:

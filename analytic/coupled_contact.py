@@ -71,7 +71,7 @@ def solve_coupled(
     if start is not None:
         pressure, settled = _exchange(problem, start)
     if not settled:
-        start = coarse_start(operator, gap, weights, constraints, spent, _settled, COARSEST)
+        start = coarse_start(problem, _settled, COARSEST)
         pressure, settled = _exchange(problem, start)
     solution = _solution(problem, pressure)
     if not (settled or solution.converged):
@@ -124,6 +124,10 @@ def _exchange(
     return pressure, False
 
 
+def _settled(problem: CoupledEquilibrium, start: np.ndarray) -> np.ndarray:
+    return _exchange(problem, start, SETTLED)[0]
+
+
 def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
     """The contraction at the head of the module, from any pressures to convergence."""
     operator, weights, constraints = problem.operator, problem.weights, problem.constraints
@@ -148,15 +152,3 @@ def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
         if length <= SHORTEST**2 * (pressure @ even):
             break
     return _solution(problem, pressure)
-
-
-def _settled(
-    operator: CoupledOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    spent: dict[str, int],
-    start: np.ndarray,
-) -> np.ndarray:
-    problem = CoupledEquilibrium(operator, gap, weights, constraints, spent)
-    return _exchange(problem, start, SETTLED)[0]

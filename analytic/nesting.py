@@ -10,61 +10,54 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analytic.equilibrium import Constraints
-from analytic.operators import ModelOperator
+from analytic.equilibrium import EquilibriumProblem
 
 COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
 SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
 
-Settle = Callable[
-    [ModelOperator, np.ndarray, np.ndarray, Constraints, dict[str, int], np.ndarray], np.ndarray
-]
+Settle = Callable[[EquilibriumProblem, np.ndarray], np.ndarray]
 
 
 def coarse_start(
-    operator: ModelOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    spent: dict[str, int],
-    settle: Settle,
-    coarsest: int = COARSEST,
+    problem: EquilibriumProblem, settle: Settle, coarsest: int = COARSEST
 ) -> np.ndarray:
     """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle.
 
     settle    pressures of a coarse problem, whose edges may be off, from a start
     coarsest  nodes below which no coarser grid is made
     """
-    count = len(gap)
-    coarse = operator.coarsened() if count >= coarsest else None
-    if coarse is None:
-        spent["applications"] += 1
-        return foundation_start(operator, gap, weights, constraints)
-    gap, weights = restricted(gap, operator.periodic), restricted(weights, operator.periodic)
-    start = coarse_start(coarse, gap, weights, constraints, spent, settle, coarsest)
-    pressure = settle(coarse, gap, weights, constraints, spent, start)
-    return prolonged(np.clip(pressure, 0.0, constraints.hardness), count, operator.periodic)
+    count, periodic = len(problem.gap), problem.operator.periodic
+    operator = problem.operator.coarsened() if count >= coarsest else None
+    if operator is None:
+        return foundation_start(problem)
+    coarse = type(problem)(
+        operator,
+        restricted(problem.gap, periodic),
+        restricted(problem.weights, periodic),
+        problem.constraints,
+        problem.spent,
+    )
+    pressure = settle(coarse, coarse_start(coarse, settle, coarsest))
+    return prolonged(np.clip(pressure, 0.0, problem.constraints.hardness), count, periodic)
 
 
-def foundation_start(
-    operator: ModelOperator, gap: np.ndarray, weights: np.ndarray, constraints: Constraints
-) -> np.ndarray:
+def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
     """Pressures (n,) [Pa] on independent springs in place of the body.
 
     Under a prescribed load the springs sink, on the average over the grid, by FOUNDATION times
     what the body does under an even pressure of that load.
     """
-    height = gap / weights
-    even = np.ones(len(gap))
-    softness = FOUNDATION * np.mean(np.abs(operator.apply(even) / weights))
+    weights, constraints = problem.weights, problem.constraints
+    height, count = problem.gap / weights, len(weights)
+    softness = FOUNDATION * np.mean(np.abs(problem.apply(np.ones(count)) / weights))
     if constraints.load is None:
         level = constraints.approach
     else:
         sinking = softness * constraints.load / weights.sum()
         reached = np.sort(height)
         # the lowest k share the sinking of all; k is the first that leaves the next one open
-        shared = (sinking * len(gap) + np.cumsum(reached)) / np.arange(1, len(gap) + 1)
+        shared = (sinking * count + np.cumsum(reached)) / np.arange(1, count + 1)
         level = shared[np.argmax(np.append(shared[:-1] <= reached[1:], True))]
     pressure = np.maximum(level - height, 0.0) / softness
     return np.minimum(pressure, constraints.hardness)

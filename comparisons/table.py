@@ -115,12 +115,12 @@ def _cell(text: str, style: str = "") -> "Text":
     return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
 
 
-def surface_text(info: ProfileInfo) -> str:
-    """Roughness as pressed, and what a drawing would say of the trace."""
+def surface_text(info: ProfileInfo, worn: bool = False) -> str:
+    """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
     text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
     if info.standard is not None:
         ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
-        text += f", {ra} at the cut-off {cutoff}"
+        text += f", {'before running-in ' if worn else ''}{ra} at the cut-off {cutoff}"
     return text
 
 
@@ -155,10 +155,11 @@ def _facts(outcome: Outcome) -> "Table":
     facts = Table.grid(padding=(0, 2))
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
-    info = outcome.problem.scene.profile_info
-    if info is not None:
-        facts.add_row("surface", Text(surface_text(info).translate(PLAIN)))
-    if outcome.problem.scene.worn is not None:
+    scene = outcome.problem.scene
+    if scene.profile_info is not None:
+        surface = surface_text(scene.profile_info, worn=scene.worn is not None)
+        facts.add_row("surface", Text(surface.translate(PLAIN)))
+    if scene.worn is not None:
         facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
     moved = coupling_line(outcome)
     if moved is not None:

@@ -30,7 +30,7 @@ def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
     info = scene.profile_info
     return [
         ("Geometry", _geometry(scene)),
-        *([] if info is None else [("Roughness (ISO 21920-2)", _standard(info))]),
+        *([] if info is None else [(_standard_heading(scene), _standard(info))]),
         ("Materials", _materials(outcome)),
         ("Load", _load(outcome)),
         ("Dimensionless groups", _groups(outcome)),
@@ -86,6 +86,11 @@ def filter_text(info: ProfileInfo) -> str:
 def in_mm(cutoff: float) -> str:
     """A cut-off [m] as drawings give it."""
     return f"{plain(1e3 * cutoff)} mm"
+
+
+def _standard_heading(scene: ResolvedScene) -> str:
+    worn = "" if scene.worn is None else " before running-in"
+    return f"Roughness{worn} (ISO 21920-2)"
 
 
 def _standard(info: ProfileInfo) -> Rows:

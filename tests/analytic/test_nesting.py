@@ -1,5 +1,7 @@
 """Restriction and prolongation between grids of halved pitch, and what the nested solver costs."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -112,11 +114,8 @@ def test_a_coarse_start_is_close_to_the_solution(kind, count):
     gap = (1.0 - np.cos(2.0 * np.pi * x)) / (2.0 * np.pi) ** 2 / count
     spent = {"exchanges": 0, "applications": 0}
 
-    def settle(operator, gap, weights, constraints, spent, start):
-        problem = EquilibriumProblem(operator, gap, weights, constraints, spent)
-        return exchange_blocks(problem, start, SETTLED)
-
-    start = coarse_start(operator, gap, weights, Constraints(load=0.03), spent, settle)
+    problem = EquilibriumProblem(operator, gap, weights, Constraints(load=0.03), spent)
+    start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
     assert start.shape == (count,) and np.all(start >= 0.0)
     nested = count >= COARSEST and not (kind is PeriodicHalfPlane and count % 2)
     assert (spent["exchanges"] > 0) == nested

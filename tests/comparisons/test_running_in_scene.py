@@ -24,6 +24,7 @@ from comparisons.problem import problem_of
 from comparisons.report.headline import headline
 from comparisons.report.page import render
 from comparisons.report.running_in_picture import running_in_in_words
+from comparisons.report.sheet import problem_sheet
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
@@ -321,7 +322,8 @@ class TestTelling:
 
         console = Console(width=80, record=True, file=StringIO())
         console.print(summary(outcome))
-        [row] = [line for line in console.export_text().splitlines() if line.startswith("run in")]
+        shown = console.export_text().splitlines()
+        [row] = [line for line in shown if line.startswith("run in")]
         worn = outcome.problem.scene.worn
         assert f"moved in {len(worn.passes)} passes, shaken down" in row
         peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
@@ -330,6 +332,9 @@ class TestTelling:
         sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
         assert run_in_text(sharp).endswith("; pressed then, up to 1.80 times its hardness")
         assert "times its hardness" not in row
+        [surface] = [line for line in shown if line.startswith("surface")]
+        assert "before running-in " in surface or "at the cut-off" not in surface
+        assert "Roughness before running-in (ISO 21920-2)" in dict(problem_sheet(outcome))
 
     def test_what_fell_short_is_told(self, outcome: Outcome):
         problem = outcome.problem
