@@ -136,7 +136,7 @@ class ElasticBody:
 
 
 def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> ElasticBody:
-    """Assemble the stiffness of a block. Roughness (`mesh.shift`) gives curved elements.
+    """Assemble the stiffness of a block. A shape of its own (`mesh.shift`) gives curved elements.
 
     Raises FemError if an element is turned over.
     """

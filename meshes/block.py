@@ -32,12 +32,12 @@ class BlockSpec:
 
 @dataclass(frozen=True)
 class BlockMesh:
-    """Second-order triangles of the flat block, with the rough top kept aside.
+    """Second-order triangles of the flat block, with the way to the real body kept aside.
 
     points     (n, 2) x and z [m] of vertices and edge midpoints, flat block
     triangles  (m, 6) gmsh order: 3 vertices, then midpoints of edges (0,1), (1,2), (2,0)
-    shift      (n,) [m] displacement in z that turns the flat block into the rough one; zero for
-               the flat mesh. The points of the real body are points + (0, shift).
+    shift      (n, 2) [m] displacement that turns the flat block into the real body, rough or
+               bent; zero for the flat mesh. The points of the real body are points + shift.
     spec       what was asked for
     """
 

@@ -174,6 +174,6 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     vertices[: len(loop)] = loop
     refuse_unfilled(vertices, result["triangles"], 2.0 * spec.half_width * spec.depth)
     points, triangles = add_midpoints(vertices, result["triangles"])
-    mesh = BlockMesh(points, triangles, np.zeros(len(points)), spec)
+    mesh = BlockMesh(points, triangles, np.zeros_like(points), spec)
     quality = check_quality(mesh)
     return replace(mesh, quality=quality | {"seconds": time.perf_counter() - began})

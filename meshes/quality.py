@@ -25,10 +25,8 @@ LARGEST_SIZE_JUMP = 4.0
 
 
 def real_points(mesh: BlockMesh) -> np.ndarray:
-    """Points (n, 2) [m] of the real, possibly rough, body."""
-    points = mesh.points.copy()
-    points[:, 1] += mesh.shift
-    return points
+    """Points (n, 2) [m] of the real, possibly rough or bent, body."""
+    return mesh.points + mesh.shift
 
 
 def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:

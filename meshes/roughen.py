@@ -61,7 +61,7 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
     spread = straight + spread_bulges(bulge, triangles[:, 3:] - vertices)
     shift[vertices:] = np.where(flat[vertices:, 1] == 0.0, shift[vertices:], spread)
 
-    rough = replace(mesh, shift=shift)
+    rough = replace(mesh, shift=np.column_stack([np.zeros_like(shift), shift]))
     points = real_points(rough)
     refuse_inverted(points, triangles, top)
     quality = check_quality(rough, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)

@@ -19,7 +19,7 @@ from meshes.second_order import unique_edges
 # Physical groups: name, tag; the sides are curves, the body is a surface.
 SIDES = {"top": 1, "right": 2, "bottom": 3, "left": 4}
 BODY = ("body", 5)
-# Node data: what to subtract from z to come back to the flat block.
+# Node data: the vector to subtract to come back to the flat block, its third component zero.
 SHIFT = "shift"
 # Readers skip sections that they do not know.
 SPEC_SECTION = "BlockSpec"
@@ -52,9 +52,9 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
     ]
     points = real_points(mesh)
     content = meshio.Mesh(
-        np.column_stack([points, np.zeros(len(points))]),
+        _three_components(points),
         cells,
-        point_data={SHIFT: mesh.shift},
+        point_data={SHIFT: _three_components(mesh.shift)},
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
         field_data={name: np.array([tag, 1]) for name, tag in SIDES.items()}
         | {BODY[0]: np.array([BODY[1], 2])},
@@ -73,20 +73,26 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
 def read_msh(path: str | Path) -> BlockMesh:
     """The mesh that write_msh saved: same real points, shift, triangles and spec.
 
-    Points of the flat block come back within the rounding of z + shift - shift; those of the top
-    side are exact. Raises MeshError when the file is not one of write_msh.
+    Points of the flat block come back within the rounding of points + shift - shift; those of a
+    rough top side are exact. A shift of one component, as files of former versions hold it, is one
+    in z. Raises MeshError when the file is not one of write_msh.
     """
     import meshio
 
     path = Path(path)
     spec = read_spec(path)
     content = meshio.read(path, file_format="gmsh")
-    shift = np.asarray(content.point_data[SHIFT], dtype=float).ravel()
-    points = content.points[:, :2].copy()
-    points[:, 1] -= shift
+    shift = np.asarray(content.point_data[SHIFT], dtype=float)
+    shift = shift[:, :2] if shift.ndim == 2 else np.column_stack([np.zeros_like(shift), shift])
+    points = content.points[:, :2] - shift
     triangles = content.cells_dict["triangle6"].astype(np.int64)
     mesh = BlockMesh(points, triangles, shift, spec)
     return BlockMesh(points, triangles, shift, spec, measure(real_points(mesh), triangles))
+
+
+def _three_components(vectors: np.ndarray) -> np.ndarray:
+    """Vectors (n, 2) with a zero for the direction across the plane."""
+    return np.column_stack([vectors, np.zeros(len(vectors))])
 
 
 def read_spec(path: Path) -> BlockSpec:

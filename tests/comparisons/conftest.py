@@ -64,7 +64,7 @@ def block_mesh(problem: Problem, cells: int = 24) -> BlockMesh:
     points = np.concatenate([vertices, vertices[edges].mean(axis=1)])
     triangles = np.column_stack([corners, len(vertices) + middle.reshape(-1, 3)])
     spec = BlockSpec(reach, reach, np.array([[-reach / 8, reach / 8]]), float(line[1] - line[0]))
-    return BlockMesh(points, triangles, np.zeros(len(points)), spec)
+    return BlockMesh(points, triangles, np.zeros_like(points), spec)
 
 
 def stresses(problem: Problem, modulus: float, window: Window) -> tuple[StressResult, ...]:

@@ -39,9 +39,9 @@ def structured(
     )
     corners = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
     points, triangles = add_midpoints(vertices, corners)
-    shift = np.zeros(len(points))
+    shift = np.zeros_like(points)
     if height is not None:
-        shift = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
+        shift[:, 1] = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
     spec = BlockSpec(0.5 * (x[-1] - x[0]), z[-1], np.array([[x[0], x[-1]]]), float(x[1] - x[0]))
     return BlockMesh(points, triangles, shift, spec)
 
@@ -83,7 +83,7 @@ def forces_of(mesh: BlockMesh, stress: Callable, body_force: Callable | None = N
     `stress`(x, z) gives sx, sz, txz; `body_force`(x, z) two components. Written apart from the
     code under test: plain loops over nodes, own quadrature.
     """
-    points = mesh.points + np.column_stack([0.0 * mesh.shift, mesh.shift])
+    points = mesh.points + mesh.shift
     corner = points[mesh.triangles[:, :3]]
     side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     turn = np.sign(side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0])

@@ -23,7 +23,7 @@ vertices = np.array([[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [0.0, 1.0
 corners = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
 points, triangles = add_midpoints(vertices, corners)
 spec = BlockSpec(1.0, 1.0, np.array([[-1.0, 1.0]]), 1.0)
-for shift in (0.0 * points[:, 0], 0.1 * (1.0 - points[:, 1])):
+for shift in (0.0 * points, 0.1 * (1.0 - points[:, 1:]) * [0.0, 1.0]):
     body = elastic_body(BlockMesh(points, triangles, shift, spec), Material(1.0, 0.3), Support())
     assert np.isfinite(body.solve(np.ones_like(points))).all()
 """

@@ -104,7 +104,7 @@ def test_midpoints_halve_their_edges(mesh):
 
 
 def test_flat_block_is_not_shifted(mesh):
-    assert mesh.shift.shape == (len(mesh.points),)
+    assert mesh.shift.shape == mesh.points.shape
     assert not mesh.shift.any()
 
 

@@ -14,7 +14,7 @@ HIGH = np.sqrt(3.0) / 2.0
 
 def mesh_of(vertices, triangles, shift=None):
     points, triangles = add_midpoints(np.array(vertices, dtype=float), np.array(triangles))
-    return BlockMesh(points, triangles, np.zeros(len(points)) if shift is None else shift, SPEC)
+    return BlockMesh(points, triangles, np.zeros_like(points) if shift is None else shift, SPEC)
 
 
 def figures(*args):
@@ -72,9 +72,9 @@ def test_inverted_element_is_refused():
 
 def test_bulge_that_turns_a_corner_inside_out_is_refused():
     flat = mesh_of([[0, 0], [1, 0], [0.5, HIGH]], [[0, 1, 2]])
-    shift = np.zeros(6)
+    shift = np.zeros((6, 2))
     for bulge, fits in ((0.3, True), (0.5, False)):
-        shift[flat.triangles[0, 3]] = bulge
+        shift[flat.triangles[0, 3], 1] = bulge
         mesh = BlockMesh(flat.points, flat.triangles, shift, SPEC)
         if fits:
             assert check_quality(mesh)["least_jacobian"] > 0.0

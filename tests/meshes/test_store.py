@@ -113,6 +113,17 @@ def test_round_trip(mesh, path):
     assert found.quality == pytest.approx(shared, rel=1e-9)
 
 
+def test_files_with_a_shift_in_z_alone_are_still_read(mesh, path, tmp_path):
+    content = meshio.read(path)
+    content.point_data["shift"] = content.point_data["shift"][:, 1]
+    meshio.write(tmp_path / "former.msh", content, file_format="gmsh22", binary=True)
+    with (tmp_path / "former.msh").open("ab") as file:
+        file.write(b"\n$BlockSpec" + path.read_bytes().split(b"$BlockSpec")[1])
+    found = read_msh(tmp_path / "former.msh")
+    assert np.array_equal(found.shift, mesh.shift)
+    assert found.points == pytest.approx(mesh.points, abs=1e-15)
+
+
 def test_spec_of_numpy_numbers_and_without_a_window_comes_back(tmp_path):
     spec = BlockSpec(np.float64(1.0), np.float32(2.0), np.array([[0, 1]]), 0.25)
     write_msh(build_block(spec), tmp_path / "plain.msh")
