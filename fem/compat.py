@@ -13,7 +13,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     import ufl
-    from dolfinx.fem import Constant, Form, FunctionSpace
+    from dolfinx.fem import Form, Function, FunctionSpace
     from dolfinx.mesh import Mesh
     from mpi4py.MPI import Comm
     from petsc4py.PETSc import Mat
@@ -50,32 +50,74 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
         triangle = ufl.Cell("triangle", geometric_dimension=2)
         scalar = ufl.FiniteElement("Lagrange", triangle, degree, variant="equispaced")
         return create_mesh(comm, cells, points, ufl.Mesh(ufl.VectorElement(scalar)))
+    return create_mesh(comm, cells, x=points, e=_equispaced(degree))
+
+
+def _equispaced(degree: int):
+    """basix's element of two components with evenly spaced nodes; not on 0.5."""
     import basix
     import basix.ufl
 
-    element = basix.ufl.element(
-        basix.ElementFamily.P,
-        "triangle",
-        degree,
-        basix.LagrangeVariant.equispaced,
-        shape=(2,),
-    )
-    return create_mesh(comm, cells, x=points, e=element)
+    variant = basix.LagrangeVariant.equispaced
+    return basix.ufl.element(basix.ElementFamily.P, "triangle", degree, variant, shape=(2,))
 
 
-def displacement_space(mesh: "Mesh") -> "FunctionSpace":
-    """Continuous quadratic vector space. 0.5 has a function for vectors, later ones a shape."""
+def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
+    """Continuous vector space of evenly spaced nodes.
+
+    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly unless
+    told otherwise.
+    """
     from dolfinx import fem
 
     if hasattr(fem, "VectorFunctionSpace"):
-        return fem.VectorFunctionSpace(mesh, ("Lagrange", 2))
-    return fem.functionspace(mesh, ("Lagrange", 2, (2,)))
+        import ufl
+
+        scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
+        return fem.FunctionSpace(mesh, ufl.VectorElement(scalar))
+    return fem.functionspace(mesh, _equispaced(degree))
 
 
 def cell_nodes(space: "FunctionSpace") -> np.ndarray:
-    """Node numbers (m, 6) of the space's cells. 0.5 hands out an adjacency list."""
+    """Node numbers (m, k) of the space's cells. 0.5 hands out an adjacency list."""
     nodes = space.dofmap.list
-    return np.asarray(nodes.array if hasattr(nodes, "array") else nodes).reshape(-1, 6)
+    if hasattr(nodes, "array"):
+        return nodes.array.reshape(nodes.num_nodes, -1)
+    return np.asarray(nodes)
+
+
+def node_order(degree: int) -> np.ndarray:
+    """Barycentric coordinates (k, 3), times the degree, of the nodes of a cell in dolfinx's order.
+
+    The vertices, the edges opposite to each of them from the lower local vertex to the other, the
+    inside. The same in all releases, and another one than gmsh's.
+    """
+    vertices = np.eye(3, dtype=int)
+    edges = [
+        (degree - i) * vertices[a] + i * vertices[b]
+        for a, b in ((1, 2), (0, 2), (0, 1))
+        for i in range(1, degree)
+    ]
+    inside = [[1, 1, 1]] if degree == 3 else []
+    return np.array([*(degree * vertices), *edges, *inside])
+
+
+def input_cells(mesh: "Mesh") -> np.ndarray:
+    """Number in the arrays given to `triangle_mesh` of each cell, ghosts included."""
+    return np.asarray(mesh.topology.original_cell_index, dtype=np.int64)
+
+
+def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
+    """Function of a form that is `value` (m,) on the cells, ghosts included, in their order.
+
+    0.5 has a class of spaces, later ones a function.
+    """
+    from dolfinx import fem
+
+    make = getattr(fem, "functionspace", None) or fem.FunctionSpace
+    function = fem.Function(make(mesh, ("DG", 0)))
+    function.x.array[cell_nodes(function.function_space)[:, 0]] = value
+    return function
 
 
 def cell_points(mesh: "Mesh") -> np.ndarray:
@@ -125,13 +167,6 @@ def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
     matrix = assemble_matrix(bilinear, bcs=conditions)
     matrix.assemble()
     return matrix
-
-
-def constant(mesh: "Mesh", value: float) -> "Constant":
-    """A number in a form, so that changing it does not compile the form again."""
-    from dolfinx import fem
-
-    return fem.Constant(mesh, real_number(value))
 
 
 def real_number(value: float) -> np.floating:

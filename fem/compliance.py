@@ -16,8 +16,9 @@ BATCH = 32
 
 
 class FiniteElementCompliance:
-    """Pressures on the hats x0 + i pitch (i < count) to weighted displacements of `body`.
+    """Pressures on `count` hats to weighted displacements of `body`.
 
+    hats        (count + 2,) [m] the hats' nodes, ascending, with the feet of the outer two
     direction   None: pressure along +z. Else a function of x [m] that gives the two components
                 (d_x, d_z) of the force per length of x that a unit pressure exerts: for a
                 contact on a rough boundary (slope, 1) of the smooth roller, since the traction
@@ -26,21 +27,19 @@ class FiniteElementCompliance:
     tangential  B of a sliding traction towards +x, (2k, count)
     applications   back-substitutions so far
 
-    Raises ValueError if a hat sticks out of the body's surface.
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface.
     """
 
     def __init__(
         self,
         body: ElasticBody,
-        x0: float,
-        pitch: float,
-        count: int,
+        hats: np.ndarray,
         direction: Direction | None = None,
     ) -> None:
         direction = straight_down if direction is None else direction
-        self.body, self.x0, self.pitch, self.count = body, x0, pitch, count
-        self.normal = hat_forces(body.surface, x0, pitch, count, direction)
-        self.tangential = hat_forces(body.surface, x0, pitch, count, tangent_of(direction))
+        self.body, self.hats, self.count = body, hats, len(hats) - 2
+        self.normal = hat_forces(body.surface, hats, direction)
+        self.tangential = hat_forces(body.surface, hats, tangent_of(direction))
         self.applications = 0
 
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
@@ -52,7 +51,7 @@ class FiniteElementCompliance:
         return self.weighted(self.displacement(pressure, friction))
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
-        """Displacement (n, 2) [m] of all mesh points under a pressure (count,) [Pa]."""
+        """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
         self.applications += 1
         return self.body.solve(self.load(pressure, friction))
 
@@ -61,7 +60,7 @@ class FiniteElementCompliance:
         force = self.normal @ pressure
         if friction:
             force = force + friction * (self.tangential @ pressure)
-        load = np.zeros(self.body.mesh.points.shape)
+        load = np.zeros(self.body.nodes.shape)
         load[self.body.surface.point] = force.reshape(-1, 2)
         return load
 
@@ -81,7 +80,7 @@ class FiniteElementCompliance:
     def _columns(self, forces: csr_matrix) -> np.ndarray:
         """Columns of C, as rows, for a batch of load columns."""
         count = forces.shape[1]
-        load = np.zeros((count, *self.body.mesh.points.shape))
+        load = np.zeros((count, *self.body.nodes.shape))
         load[:, self.body.surface.point] = forces.T.toarray().reshape(count, -1, 2)
         self.applications += count
         moved = self.body.solve(load)[:, self.body.surface.point]

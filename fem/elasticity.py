@@ -1,13 +1,16 @@
-"""Plane-strain elasticity of a block: quadratic displacements, one factorisation.
+"""Plane-strain elasticity of a block: displacements of degree 1, 2 or 3, one factorisation.
 
-Displacements and loads are arrays (n, 2), x and z components, in the numbering of the mesh's
-own points; dolfinx's numbering stays inside. Under MPI every process holds the whole array and
-its own part of the matrix, so that what is computed from a displacement is the same on each.
+Displacements and loads are arrays (n, 2), x and z components, in the numbering of `fem.nodes`, for
+quadratic displacements that of the mesh's own points; dolfinx's numbering stays inside. Under MPI
+every process holds the whole array and its own part of the matrix, so that what is computed from
+a displacement is the same on each.
 
-The stiffness is assembled for Young's modulus 1 and the displacement divided by the modulus:
-the factor depends on Poisson's ratio and the shape only, and results scale exactly.
+The stiffness is assembled for Young's modulus 1 of the body, a coating's relative to it, and the
+displacement divided by the modulus: the factor depends on the ratio of moduli, Poisson's ratios
+and the shape only, and results scale exactly.
 """
 
+from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
 
@@ -19,29 +22,45 @@ from fem import compat
 from fem.just_in_time import compiled, load_dolfinx
 from fem.locate import Locator
 from fem.mumps import FemError, SymmetricFactor
+from fem.nodes import Nodes, at_points, in_order, nodes_of
 from fem.support import Support, held_components
-from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
+from fem.surface import SAME_POINT, BoundaryPoints, Surface, boundary_points, surface_of
 from meshes.block import BlockMesh
 from meshes.quality import corner_jacobians, real_points
 
 # dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
 GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
-OPPOSITE_EDGES = [(1, 2), (0, 2), (0, 1)]
-
-# Exact for straight triangles; on curved ones a constant stress still does exact work.
-QUADRATURE = {1: 2, 2: 4}
 
 # A body that can slide is refused a net horizontal load above this part of the whole load.
 HORIZONTAL_BALANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Coating:
+    """A layer of another `material` on the body, as thick [m] as the flat block's mesh has it."""
+
+    material: Material
+    thickness: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.thickness < np.inf:
+            raise ValueError(f"a coating's thickness must be positive, not {self.thickness:g} m")
 
 
 class ElasticBody:
     """An assembled body; factored at the first solution. Make one by `elastic_body`.
 
     mesh, material, support   as given
+    coating                   as given; None without
+    coated                    (m,) whether a triangle belongs to the coating
+    degree                    of the displacement's polynomials
+    nodes                     (n, 2) [m] of the real body, where displacements are known
+    elements                  (m, 3, 6 or 10) nodes of each triangle, in the order of `fem.triangle`
+    held                      (n, 2) components that the support holds
+    surface                   the top side's nodes in order
     sides                     mesh points on the four sides
-    surface                   the top side's points in order
-    points                    (n, 2) [m] of the real body, roughness included
+    top                       the top side's mesh points in order
+    points                    (k, 2) [m] mesh points of the real body, roughness included
     curved                    whether elements have curved edges
     matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
     assembly_seconds          what mesh transfer and assembly took
@@ -54,7 +73,9 @@ class ElasticBody:
         mesh: BlockMesh,
         material: Material,
         support: Support,
-        sides: BoundaryPoints,
+        coating: Coating | None,
+        coated: np.ndarray,
+        numbering: Nodes,
         held: np.ndarray,
         owned: np.ndarray,
         space,
@@ -62,7 +83,13 @@ class ElasticBody:
         assembly_seconds: float,
     ) -> None:
         self.mesh, self.material, self.support = mesh, material, support
-        self.sides, self.held = sides, held
+        self.coating, self.coated, self.held = coating, coated, held
+        self.degree, self.nodes, self.elements = (
+            numbering.degree,
+            numbering.real,
+            numbering.elements,
+        )
+        self._numbering = numbering
         self.matrix, self._owned = matrix, owned
         # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
         # survive it.
@@ -72,19 +99,46 @@ class ElasticBody:
     @property
     def unknowns(self) -> int:
         """Displacement components, the held ones included."""
-        return 2 * len(self.mesh.points)
+        return 2 * len(self.nodes)
 
     @property
     def curved(self) -> bool:
         return bool(np.any(self.mesh.shift))
+
+    @property
+    def surface_material(self) -> Material:
+        """The coating's, or the body's without one."""
+        return self.coating.material if self.coating else self.material
+
+    @cached_property
+    def shear_modulus(self) -> np.ndarray:
+        """(m,) [Pa] of each triangle."""
+        return np.where(
+            self.coated, self.surface_material.shear_modulus, self.material.shear_modulus
+        )
+
+    @cached_property
+    def poissons_ratio(self) -> np.ndarray:
+        """(m,) of each triangle."""
+        return np.where(
+            self.coated, self.surface_material.poissons_ratio, self.material.poissons_ratio
+        )
 
     @cached_property
     def points(self) -> np.ndarray:
         return real_points(self.mesh)
 
     @cached_property
+    def sides(self) -> BoundaryPoints:
+        return boundary_points(self.mesh.points, self.mesh.spec)
+
+    @cached_property
     def surface(self) -> Surface:
-        return surface_of(self.mesh)
+        return surface_of(self.mesh, self._numbering)
+
+    @cached_property
+    def top(self) -> Surface:
+        return surface_of(self.mesh, nodes_of(self.mesh, 2))
 
     @cached_property
     def locator(self) -> Locator:
@@ -111,8 +165,12 @@ class ElasticBody:
         part = free[..., self._owned, :].reshape(*load.shape[:-2], -1).T
         return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
 
+    def at_points(self, displacement: np.ndarray) -> np.ndarray:
+        """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
+        return at_points(self._numbering, self.mesh, displacement)
+
     def stiffness(self) -> csr_matrix:
-        """Stiffness (2n, 2n) [Pa], x and z of each mesh point in turn; on one process only.
+        """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only.
 
         Rows and columns of held components are those of the identity times Young's modulus.
         """
@@ -127,7 +185,7 @@ class ElasticBody:
     def _gathered(self, part: np.ndarray) -> np.ndarray:
         """The whole displacement (..., n, 2) on every process from the parts they own."""
         part = part.reshape(*part.shape[:-1], -1, 2)
-        whole = np.empty((*part.shape[:-2], *self.mesh.points.shape))
+        whole = np.empty((*part.shape[:-2], *self.nodes.shape))
         comm = self.matrix.comm.tompi4py()
         pieces = [(self._owned, part)] if comm.size == 1 else comm.allgather((self._owned, part))
         for owned, piece in pieces:
@@ -135,41 +193,86 @@ class ElasticBody:
         return whole
 
 
-def elastic_body(mesh: BlockMesh, material: Material, support: Support) -> ElasticBody:
-    """Assemble the stiffness of a block. A shape of its own (`mesh.shift`) gives curved elements.
+def elastic_body(
+    mesh: BlockMesh,
+    material: Material,
+    support: Support,
+    *,
+    degree: int = 2,
+    coating: Coating | None = None,
+) -> ElasticBody:
+    """Assemble the stiffness of a block, with displacements of `degree` 1, 2 or 3.
 
-    Raises FemError if an element is turned over.
+    A shape of its own (`mesh.shift`) gives elements with quadratic edges, whatever the degree.
+    Edges must follow the lower side of a `coating`.
+
+    Raises FemError if an element is turned over, ValueError if one crosses the interface.
     """
     load_dolfinx()
     import ufl
     from mpi4py import MPI
 
     start = perf_counter()
-    sides = boundary_points(mesh)
-    held = held_components(mesh, support, sides)
-    degree = 2 if np.any(mesh.shift) else 1
+    numbering = nodes_of(mesh, degree)
+    held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
     folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
     if folded.any():
         raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
-    domain, number = _domain(MPI.COMM_WORLD, mesh, degree)
-    space = compiled(lambda: compat.displacement_space(domain))
-    point = _points_of_nodes(mesh, domain, number, space)
+    coated = _above(mesh, coating)
+    curved = bool(np.any(mesh.shift))
+    domain, number = _domain(MPI.COMM_WORLD, mesh, 2 if curved else 1)
+    space = compiled(lambda: compat.displacement_space(domain, degree))
+    cell, node = _own_numbers(mesh, domain, number, space, numbering)
 
-    nu = material.poissons_ratio
-    shear, lame = 0.5 / (1.0 + nu), nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
-    shear, lame = (compat.constant(domain, value) for value in (shear, lame))
+    shear, lame = np.transpose([_relative_constants(material, material)] * len(mesh.triangles))
+    if coating is not None:
+        of_coating = _relative_constants(coating.material, material)
+        shear, lame = np.where(coated, np.transpose([of_coating]), [shear, lame])
+    shear, lame = (compat.cell_values(domain, value[cell]) for value in (shear, lame))
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     strain = ufl.sym(ufl.grad(u))
     stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)
-    dx = ufl.Measure("dx", domain=domain, metadata={"quadrature_degree": QUADRATURE[degree]})
-    work = ufl.inner(stress, ufl.sym(ufl.grad(v))) * dx
-    conditions = _conditions(space, held[point])
+    quadrature = {"quadrature_degree": quadrature_degree(degree, curved)}
+    work = ufl.inner(stress, ufl.sym(ufl.grad(v))) * ufl.dx(domain=domain, metadata=quadrature)
+    conditions = _conditions(space, held[node])
     matrix = compat.petsc_matrix(compiled(lambda: compat.compile_form(work)), conditions)
 
-    owned = point[: space.dofmap.index_map.size_local]
+    owned = node[: space.dofmap.index_map.size_local]
+    seconds = perf_counter() - start
     return ElasticBody(
-        mesh, material, support, sides, held, owned, space, matrix, perf_counter() - start
+        mesh, material, support, coating, coated, numbering, held, owned, space, matrix, seconds
     )
+
+
+def quadrature_degree(degree: int, curved: bool) -> int:
+    """Degree of the polynomials that the stiffness' quadrature integrates exactly.
+
+    On straight triangles that of the product of two strains, and exact. On curved ones the product
+    with the two slopes of the element's map, which is divided by its determinant: a constant stress
+    does exact work, and the order is that of straight ones.
+    """
+    return max(1, 2 * degree if curved else 2 * degree - 2)
+
+
+def _above(mesh: BlockMesh, coating: Coating | None) -> np.ndarray:
+    """(m,) whether a triangle belongs to the coating."""
+    if coating is None:
+        return np.zeros(len(mesh.triangles), dtype=bool)
+    height = mesh.points[mesh.triangles[:, :3], 1] - coating.thickness
+    slack = SAME_POINT * mesh.spec.depth
+    crossing = (height.min(axis=1) < -slack) & (height.max(axis=1) > slack)
+    if crossing.any():
+        raise ValueError(
+            f"{np.count_nonzero(crossing)} elements of the mesh cross the coating's lower side "
+            f"at a depth of {coating.thickness:g} m: mesh the block with edges along it"
+        )
+    return height.mean(axis=1) < 0.0
+
+
+def _relative_constants(material: Material, body: Material) -> tuple[float, float]:
+    """Lame's constants mu and lambda of a material, by Young's modulus of the body."""
+    nu, ratio = material.poissons_ratio, material.youngs_modulus / body.youngs_modulus
+    return ratio * 0.5 / (1.0 + nu), ratio * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
 
 
 def _domain(comm, mesh: BlockMesh, degree: int):
@@ -188,29 +291,22 @@ def _domain(comm, mesh: BlockMesh, degree: int):
     return compat.triangle_mesh(comm, cells, points, degree), number
 
 
-def _points_of_nodes(mesh: BlockMesh, domain, number: np.ndarray, space) -> np.ndarray:
-    """Mesh point of each node of the displacement space (owned, then ghosts).
+def _own_numbers(
+    mesh: BlockMesh, domain, number: np.ndarray, space, numbering: Nodes
+) -> tuple[np.ndarray, np.ndarray]:
+    """Our triangle of each of dolfinx's cells, our node of each of its nodes (owned, then ghosts).
 
-    By topology, never by coordinates: a vertex is known from the input numbering, a midpoint
-    from the two vertices of its edge.
+    By topology, never by coordinates: a cell is known from the input, and its nodes from where
+    each of its vertices stands among those of our triangle.
     """
+    cell = compat.input_cells(domain)
     corner = number[compat.input_points(domain)[compat.cell_points(domain)[:, :3]]]
-    count = np.int64(len(mesh.points))
-
-    def key(edge: np.ndarray) -> np.ndarray:
-        return edge.min(axis=-1) * count + edge.max(axis=-1)
-
-    known = key(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].astype(np.int64)).ravel()
-    known, first = np.unique(known, return_index=True)
-    middle_of = mesh.triangles[:, 3:].ravel()[first]
-    middle = middle_of[np.searchsorted(known, key(corner[:, OPPOSITE_EDGES]))]
-
-    nodes = compat.cell_nodes(space)
+    vertices = np.argmax(corner[:, :, None] == mesh.triangles[cell, None, :3], axis=2)
+    order = in_order(numbering.degree, compat.node_order(numbering.degree), vertices)
     index_map = space.dofmap.index_map
-    point = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
-    point[nodes[:, :3]] = corner
-    point[nodes[:, 3:]] = middle
-    return point
+    node = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
+    node[compat.cell_nodes(space)] = np.take_along_axis(numbering.elements[cell], order, axis=1)
+    return cell, node
 
 
 def _conditions(space, held: np.ndarray) -> list:

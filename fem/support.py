@@ -6,7 +6,6 @@ from typing import Literal, get_args
 import numpy as np
 
 from fem.surface import BoundaryPoints
-from meshes.block import BlockMesh
 
 Base = Literal["bonded", "frictionless"]
 Sides = Literal["free", "rollers", "fixed"]
@@ -48,9 +47,9 @@ class Support:
         return self.base == "frictionless" and self.sides == "free"
 
 
-def held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) -> np.ndarray:
-    """(n, 2) whether the support holds a component."""
-    held = np.zeros(mesh.points.shape, dtype=bool)
+def held_components(flat: np.ndarray, support: Support, sides: BoundaryPoints) -> np.ndarray:
+    """(n, 2) whether the support holds a component, of nodes at `flat` (n, 2) in the flat block."""
+    held = np.zeros(flat.shape, dtype=bool)
     held[sides.bottom, 1] = True
     if support.base == "bonded":
         held[sides.bottom, 0] = True
@@ -59,8 +58,8 @@ def held_components(mesh: BlockMesh, support: Support, sides: BoundaryPoints) ->
         held[flanks, 0] = True
     if support.sides == "fixed":
         held[flanks, 1] = True
-    held[(np.abs(mesh.points) > support.within).any(axis=1)] = True
+    held[(np.abs(flat) > support.within).any(axis=1)] = True
     if support.can_slide:
-        middle = np.argmin(np.abs(mesh.points[sides.bottom, 0]))
+        middle = np.argmin(np.abs(flat[sides.bottom, 0]))
         held[sides.bottom[middle], 0] = True
     return held

@@ -1,9 +1,10 @@
 """The loaded side of a block: its nodes in order, and the nodal forces of hat pressures.
 
 Nomenclature
-    x_i = x0 + i pitch   hat nodes [m], i = 0 ... n-1; the outer two hats stick out by one pitch
-    phi_i(x)             hat function: 1 at x_i, 0 at its neighbours, linear between
-    N_a(x)               quadratic shape function of surface node a
+    x_i                  hat nodes [m], i = 0 ... n+1, ascending; no pressure at the outer two
+    phi_i(x)             hat function: 1 at x_i, 0 at its neighbours, linear between; i = 1 ... n
+    t, x(t)              place on an edge of the surface, 0 to 1, and its x [m]: a quadratic
+    N_a(t)               shape function of surface node a, of the displacement's degree
     (d_x, d_z)           direction along which a pressure acts
     B                    (2k, n) nodal force of a unit hat, B[2a + c, i] = integral N_a phi_i d_c dx
 """
@@ -14,34 +15,41 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from meshes.block import BlockMesh
+from fem.nodes import Nodes
+from fem.triangle import edge_shapes
+from meshes.block import BlockMesh, BlockSpec
 
 # Closer than this part of the block, or of the edge or hat in question, is in the same place. The
 # smallest elements of a block are 1e-6 of it.
 SAME_POINT = 1e-9
 
-# A direction that varies along the surface is integrated with it: with a linear direction the
-# integrand has degree 4, which three Gauss points integrate exactly.
-GAUSS_POINTS = 3
+# A direction that varies along the surface is integrated with it. On edges whose middle is in the
+# middle the integrand has degree 5 with cubic displacements and a linear direction, 3 more where
+# the mesh is bent along x: five Gauss points integrate both exactly.
+GAUSS_POINTS = 5
 
 Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes of the top side, ascending: vertices at even places, midpoints at odd ones.
+    """Nodes of the top side in order: vertices at every `degree`-th place, inner nodes between.
 
-    x       (k,) [m]
-    point   (k,) numbers in the mesh's points
+    x        (k,) [m] of the real body, ascending
+    point    (k,) numbers among the body's nodes
+    edges    (e, 3) x [m] of each edge's start, middle and end
+    degree   of the displacement
     """
 
     x: np.ndarray
     point: np.ndarray
+    edges: np.ndarray
+    degree: int
 
 
 @dataclass(frozen=True)
 class BoundaryPoints:
-    """Numbers of the mesh points (vertices and midpoints) on each side of the block."""
+    """Numbers of the points on each side of the block."""
 
     top: np.ndarray
     bottom: np.ndarray
@@ -49,41 +57,45 @@ class BoundaryPoints:
     right: np.ndarray
 
 
-def boundary_points(mesh: BlockMesh) -> BoundaryPoints:
-    """Mesh points on the flat block's four sides; a corner belongs to both of its sides."""
-    x, z = mesh.points.T
-    half, depth = mesh.spec.half_width, mesh.spec.depth
+def boundary_points(flat: np.ndarray, spec: BlockSpec) -> BoundaryPoints:
+    """Points (n, 2) on the flat block's four sides; a corner belongs to both of its sides."""
+    x, z = flat.T
 
     def side(distance: np.ndarray, extent: float) -> np.ndarray:
         return np.flatnonzero(np.abs(distance) <= SAME_POINT * extent)
 
     return BoundaryPoints(
-        top=side(z, depth),
-        bottom=side(z - depth, depth),
-        left=side(x + half, half),
-        right=side(x - half, half),
+        top=side(z, spec.depth),
+        bottom=side(z - spec.depth, spec.depth),
+        left=side(x + spec.half_width, spec.half_width),
+        right=side(x - spec.half_width, spec.half_width),
     )
 
 
-def surface_of(mesh: BlockMesh) -> Surface:
-    """Top side of the flat block, sorted by x.
+def surface_of(mesh: BlockMesh, nodes: Nodes) -> Surface:
+    """Nodes on the top side, in the order they have on the flat block.
 
-    Raises ValueError if the points there are not vertices and their midpoints in turn.
+    Raises ValueError if the mesh's points there are not vertices and their midpoints in turn, or
+    if the real surface overhangs.
     """
-    top = boundary_points(mesh).top
-    top = top[np.argsort(mesh.points[top, 0])]
-    x = mesh.points[top, 0]
-    if len(x) < 5 or len(x) % 2 == 0:
-        raise ValueError(f"the top side has {len(x)} points, not vertices and midpoints in turn")
-    edge = np.diff(x[::2])
-    if np.any(np.abs(x[1::2] - 0.5 * (x[:-1:2] + x[2::2])) > SAME_POINT * edge):
+    top = _ordered(mesh.points, mesh.spec)
+    flat, real = mesh.points[top, 0], (mesh.points + mesh.shift)[top, 0]
+    if len(flat) < 5 or len(flat) % 2 == 0:
+        raise ValueError(f"the top side has {len(flat)} points, not vertices and midpoints in turn")
+    off = np.abs(flat[1::2] - 0.5 * (flat[:-1:2] + flat[2::2]))
+    if np.any(off > SAME_POINT * np.diff(flat[::2])):
         raise ValueError("a midpoint of the top side is not in the middle of its edge")
-    return Surface(x, top)
+    edges = np.column_stack([real[:-1:2], real[1::2], real[2::2]])
+    length, bend = _length_and_bend(edges)
+    if np.any(np.abs(bend) >= length):
+        raise ValueError("the surface overhangs: x does not ascend along it")
+    point = _ordered(nodes.flat, mesh.spec)
+    return Surface(nodes.real[point, 0], point, edges, nodes.degree)
 
 
 def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
-    """x (count,) [m] of the hat pressures' nodes."""
-    return x0 + pitch * np.arange(count)
+    """x (count + 2,) [m] of the nodes of equal hats at x0 + i pitch, with their outer feet."""
+    return x0 + pitch * np.arange(-1, count + 1)
 
 
 def straight_down(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -102,48 +114,76 @@ def tangent_of(direction: Direction) -> Direction:
 
 
 def hat_forces(
-    surface: Surface, x0: float, pitch: float, count: int, direction: Direction = straight_down
+    surface: Surface, hats: np.ndarray, direction: Direction = straight_down
 ) -> csr_matrix:
     """Nodal forces B (2k, count) [m] of unit hat pressures, exact.
 
-    A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are the x and z force at
-    surface node a. The integrals run over the pieces between element vertices and hat nodes, on
-    which the integrand is a polynomial. With a `direction` that varies they are exact up to
-    its linear part on each piece.
+    `hats` (count + 2,) [m] are the hats' nodes, ascending, and the feet of the outer two, where
+    the pressure is zero. A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are
+    the x and z force at surface node a. The integrals run over the pieces between element vertices
+    and hat nodes, on which the integrand is a polynomial. With a `direction` that varies they are
+    exact up to its linear part on each piece.
 
-    Raises ValueError if a hat sticks out of the surface.
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
     """
-    node = x0 + pitch * np.arange(-1, count + 1)
-    vertex = surface.x[::2]
-    slack = SAME_POINT * pitch
-    if node[0] < vertex[0] - slack or node[-1] > vertex[-1] + slack:
+    hats = np.asarray(hats, dtype=float)
+    if hats.ndim != 1 or len(hats) < 3 or not np.all(np.diff(hats) > 0.0):
+        raise ValueError("the hats' nodes must be three or more numbers that ascend")
+    vertex = np.append(surface.edges[:, 0], surface.edges[-1, 2])
+    count, pitch = len(hats) - 2, np.diff(hats)
+    if (
+        hats[0] < vertex[0] - SAME_POINT * pitch[0]
+        or hats[-1] > vertex[-1] + SAME_POINT * pitch[-1]
+    ):
         raise ValueError(
-            f"the pressures reach from {node[0]:g} m to {node[-1]:g} m, "
+            f"the pressures reach from {hats[0]:g} m to {hats[-1]:g} m, "
             f"but the surface only from {vertex[0]:g} m to {vertex[-1]:g} m"
         )
-    within = vertex[(vertex > node[0]) & (vertex < node[-1])]
-    cut = np.union1d(node, within)
-    left, length = cut[:-1], np.diff(cut)
-    place, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
-    x = left[:, None] + 0.5 * length[:, None] * (1.0 + place)
-    weight = 0.5 * length[:, None] * weight
-
-    middle = left + 0.5 * length
+    within = vertex[(vertex > hats[0]) & (vertex < hats[-1])]
+    cut = np.union1d(hats, within)
+    middle = 0.5 * (cut[:-1] + cut[1:])
     element = np.clip(np.searchsorted(vertex, middle) - 1, 0, len(vertex) - 2)
-    interval = np.clip(np.searchsorted(node, middle) - 1, 0, count)
-    t = (x - vertex[element, None]) / (vertex[element + 1] - vertex[element])[:, None]
-    shape = np.stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
-    rising = (x - node[interval, None]) / pitch
+    interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
+
+    edge = surface.edges[element]
+    begin, end = _place(edge, cut[:-1]), _place(edge, cut[1:])
+    gauss, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
+    t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + gauss)
+    length, bend = (value[:, None] for value in _length_and_bend(edge))
+    x = edge[:, :1] + t * (length + bend * (1.0 - t))
+    weight = 0.5 * (end - begin)[:, None] * weight * (length + bend * (1.0 - 2.0 * t))
+
+    shape = np.moveaxis(edge_shapes(t, surface.degree), -1, 0)
+    rising = (x - hats[interval, None]) / pitch[interval, None]
     hat = np.stack([1.0 - rising, rising])
     along = np.stack(np.broadcast_arrays(*direction(x)))
 
     # value[a, c, h, piece]: shape function, component, hat, piece
     value = np.einsum("aeg,ceg,heg,eg->ache", shape, along, hat, weight, optimize=True)
-    row = 2 * (2 * element + np.arange(3)[:, None])[:, None, None, :]
-    row = row + np.arange(2)[None, :, None, None]
+    node = surface.degree * element + np.arange(surface.degree + 1)[:, None]
+    row = 2 * node[:, None, None, :] + np.arange(2)[None, :, None, None]
     column = (interval + np.arange(-1, 1)[:, None])[None, None, :, :]
     row, column = np.broadcast_arrays(row, column)
     inside = (column >= 0) & (column < count) & (value != 0.0)
     return csr_matrix(
         (value[inside], (row[inside], column[inside])), shape=(2 * len(surface.x), count)
     )
+
+
+def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:
+    """Numbers of the points (n, 2) on the flat block's top side, by x."""
+    top = boundary_points(flat, spec).top
+    return top[np.argsort(flat[top, 0])]
+
+
+def _length_and_bend(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """L and c (e,) [m] of x(t) = x(0) + L t + c t (1 - t) on edges (e, 3)."""
+    start, middle, end = edges.T
+    return end - start, 4.0 * middle - 2.0 * (start + end)
+
+
+def _place(edges: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """t (e,) at which edges (e, 3) have x (e,)."""
+    length, bend = _length_and_bend(edges)
+    slope, gone = length + bend, x - edges[:, 0]
+    return 2.0 * gone / (slope + np.sqrt(np.maximum(slope**2 - 4.0 * bend * gone, 0.0)))

@@ -1,44 +1,96 @@
-"""The quadratic triangle: shape functions, their slopes, quadrature, on many elements at once.
+"""Triangles with displacements of degree 1, 2 or 3: shape functions, their slopes, quadrature.
 
-Node order is gmsh's: vertices (0, 0), (1, 0), (0, 1), then the middles of edges 01, 12, 20.
+Node order is gmsh's: vertices (0, 0), (1, 0), (0, 1), then the inner nodes of edges 01, 12, 20,
+each in that direction and evenly spaced, then the inside. A shape function is a product of one
+factor for each of the three barycentric coordinates (Zienkiewicz and Taylor, The Finite Element
+Method, 5th ed., section 8.8). Many elements or points at once.
 Nomenclature: (r, s) reference coordinates, J = d(x, z)/d(r, s) Jacobian.
 """
 
+from functools import cache
+
 import numpy as np
 
-NODES = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+# Number of nodes of a triangle to its degree.
+DEGREE = {3: 1, 6: 2, 10: 3}
 
 # Edge middles' rule in the interior: degree 2, and where stresses of quadratic displacements
 # are most accurate (Zienkiewicz and Taylor, The Finite Element Method, 5th ed., fig. 14.4).
 GAUSS = np.array([[1, 1], [4, 1], [1, 4]]) / 6.0
 
 
-def shapes(at: np.ndarray) -> np.ndarray:
-    """Shape functions (..., 6) at reference points (..., 2)."""
-    r, s = at[..., 0], at[..., 1]
-    t = 1.0 - r - s
-    return np.stack(
-        [t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1), 4 * t * r, 4 * r * s, 4 * s * t],
-        axis=-1,
-    )
+@cache
+def lattice(degree: int) -> np.ndarray:
+    """Whole numbers (k, 3), of sum `degree`: the nodes' barycentric coordinates times it."""
+    vertices = degree * np.eye(3, dtype=int)
+    edges = [
+        ((degree - i) * vertices[a] + i * vertices[b]) // degree
+        for a, b in ((0, 1), (1, 2), (2, 0))
+        for i in range(1, degree)
+    ]
+    inside = [[1, 1, 1]] if degree == 3 else np.empty((0, 3), dtype=int)
+    return np.concatenate([vertices, np.reshape(edges, (-1, 3)).astype(int), inside])
 
 
-def slopes(at: np.ndarray) -> np.ndarray:
-    """d shape / d(r, s) (..., 6, 2) at reference points (..., 2)."""
-    r, s = at[..., 0], at[..., 1]
-    t = 1.0 - r - s
-    zero = np.zeros_like(r)
-    along_r = [1 - 4 * t, 4 * r - 1, zero, 4 * (t - r), 4 * s, -4 * s]
-    along_s = [1 - 4 * t, zero, 4 * s - 1, -4 * r, 4 * r, 4 * (t - s)]
-    return np.stack([np.stack(along_r, axis=-1), np.stack(along_s, axis=-1)], axis=-1)
+def reference_nodes(degree: int) -> np.ndarray:
+    """Reference coordinates (k, 2) of the nodes."""
+    return lattice(degree)[:, 1:] / degree
+
+
+def shapes(at: np.ndarray, degree: int = 2) -> np.ndarray:
+    """Shape functions (..., k) at reference points (..., 2)."""
+    factor, _ = _factors(_barycentric(at), degree)
+    i, j, k = lattice(degree).T
+    return factor[..., 0, i] * factor[..., 1, j] * factor[..., 2, k]
+
+
+def slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
+    """d shape / d(r, s) (..., k, 2) at reference points (..., 2)."""
+    factor, slope = _factors(_barycentric(at), degree)
+    i, j, k = lattice(degree).T
+    first, second, third = factor[..., 0, i], factor[..., 1, j], factor[..., 2, k]
+    along_t = slope[..., 0, i] * second * third
+    along_r = first * slope[..., 1, j] * third
+    along_s = first * second * slope[..., 2, k]
+    return np.stack([along_r - along_t, along_s - along_t], axis=-1)
+
+
+def edge_shapes(t: np.ndarray, degree: int = 2) -> np.ndarray:
+    """Shape functions (..., degree + 1) of an edge's nodes in turn, at places (...) from 0 to 1."""
+    factor, _ = _factors(np.stack([1.0 - t, t], axis=-1), degree)
+    i = np.arange(degree + 1)
+    return factor[..., 0, degree - i] * factor[..., 1, i]
 
 
 def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """J (m, q, 2, 2) of elements with node coordinates (m, 6, 2) at reference points (q, 2)."""
-    return np.einsum("mac,qad->mqcd", nodes, slopes(at), optimize=True)
+    """J (m, q, 2, 2) of elements with node coordinates (m, k, 2) at reference points (q, 2)."""
+    return np.einsum("mac,qad->mqcd", nodes, slopes(at, DEGREE[nodes.shape[1]]), optimize=True)
 
 
 def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """d values / d(x, z) (m, q, k, 2) of nodal values (m, 6, k) at reference points (q, 2)."""
-    reference = np.einsum("mak,qad->mqkd", values, slopes(at), optimize=True)
+    """d values / d(x, z) (m, q, c, 2) of nodal values (m, k, c) at reference points (q, 2).
+
+    `nodes` (m, 6, 2) are the coordinates of the element's own nodes; the number k of `values`
+    tells their degree, which need not be the same.
+    """
+    slope = slopes(at, DEGREE[values.shape[1]])
+    reference = np.einsum("mak,qad->mqkd", values, slope, optimize=True)
     return reference @ np.linalg.inv(jacobians(nodes, at))
+
+
+def _barycentric(at: np.ndarray) -> np.ndarray:
+    """Barycentric coordinates (..., 3) at reference points (..., 2)."""
+    return np.concatenate([1.0 - at.sum(axis=-1, keepdims=True), at], axis=-1)
+
+
+def _factors(part: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Factors (..., degree + 1) of a coordinate L (...), and their derivatives.
+
+    The m-th is 1 at L = m / degree and 0 at smaller multiples of 1 / degree.
+    """
+    value, slope = [np.ones_like(part)], [np.zeros_like(part)]
+    for m in range(degree):
+        rest = degree * part - m
+        slope.append((slope[m] * rest + value[m] * degree) / (m + 1))
+        value.append(value[m] * rest / (m + 1))
+    return np.stack(value, axis=-1), np.stack(slope, axis=-1)

@@ -130,7 +130,7 @@ def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: flo
     rows[-2][-2] = csr_matrix((len(weights), len(weights)))
     for place, ((body, forces), soft) in enumerate(zip(bodies, softness, strict=True)):
         k = body.stiffness() / body.material.youngs_modulus
-        b = _on_all_points(body, forces) / pitch
+        b = _on_all_nodes(body, forces) / pitch
         rows[place][place], rows[place][-2] = k, -b
         rows[-2][place] = soft * (b.T - b.T @ k)
         rows[-2][-2] = rows[-2][-2] + soft * (b.T @ b)
@@ -140,7 +140,7 @@ def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: flo
     return bmat(rows, format="csr")
 
 
-def _on_all_points(body: ElasticBody, forces: csr_matrix) -> csr_matrix:
+def _on_all_nodes(body: ElasticBody, forces: csr_matrix) -> csr_matrix:
     """Nodal forces (2n, hats) of all the body's components; held ones bear none."""
     component = (2 * body.surface.point[:, None] + np.arange(2)).ravel()
     free = (~body.held).ravel()[component].astype(float)

@@ -101,6 +101,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     from analytic.operators import HalfPlane, SumOfBodies
     from analytic.patches import contact_patches
     from fem.compliance import FiniteElementCompliance
+    from fem.surface import hat_nodes
     from fem.variational_inequality import solve_variational_inequality
 
     problem = problem_of(load_scene("sinusoid"))
@@ -112,7 +113,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
     bodies, _ = _bodies(problem, plan, block_spec(problem, refinement, patches), False, Stages())
-    compliance = FiniteElementCompliance(bodies[0], grid.x[0], grid.pitch, grid.count)
+    compliance = FiniteElementCompliance(bodies[0], hat_nodes(grid.x[0], grid.pitch, grid.count))
     factors = _factors(problem, bodies)
     one = solve_with_model(
         SumOfBodies(compliance, factors=factors),

@@ -12,6 +12,7 @@ from analytic.plane_stress import PlaneStress
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
 from fem.stress import nodal_stress
+from fem.surface import hat_nodes
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 from meshes.second_order import add_midpoints
@@ -190,7 +191,9 @@ class Pressed:
         pitch = 1.0 / edges
         reach = edges + 8
         self.x = pitch * np.arange(-reach, reach + 1)
-        self.compliance = FiniteElementCompliance(self.body, self.x[0], pitch, len(self.x))
+        self.compliance = FiniteElementCompliance(
+            self.body, hat_nodes(self.x[0], pitch, len(self.x))
+        )
         gap = pitch * (self.x**2 + pitch**2 / 6.0)
         weights = np.full(len(self.x), pitch)
         self.pressure, self.approach = dense_contact(

@@ -18,13 +18,14 @@ from mpi4py import MPI
 from analytic.material import Material
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
+from fem.surface import hat_nodes
 from meshes.block import BlockMesh, BlockSpec
 
 data = np.load(sys.argv[1])
 spec = BlockSpec(1.0, 1.0, np.array([[-1.0, 1.0]]), 0.1)
 mesh = BlockMesh(data["points"], data["triangles"], data["shift"], spec)
 body = elastic_body(mesh, Material(2.0, 0.3), Support("frictionless", "rollers"))
-operator = FiniteElementCompliance(body, -0.5, 0.05, 21)
+operator = FiniteElementCompliance(body, hat_nodes(-0.5, 0.05, 21))
 pressure = np.linspace(0.0, 1.0, 21)
 found = [operator.apply(pressure), operator.matrix() @ pressure, operator.apply(pressure, 0.2)]
 every = MPI.COMM_WORLD.gather([f.tolist() for f in found])

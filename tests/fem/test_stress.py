@@ -11,6 +11,7 @@ from analytic.stress import stress_at
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
 from fem.stress import along_surface, evaluate, nodal_stress
+from fem.surface import hat_nodes
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
@@ -46,7 +47,9 @@ def test_stresses_under_a_rough_pressure_are_those_of_its_hats():
     x = pitch * np.arange(-99, 100)
     heights = np.random.default_rng(1).normal(size=34)
     pressure = np.maximum(0.0, np.interp(x, np.linspace(-1, 1, 34), heights))
-    moved = FiniteElementCompliance(body, x[0], pitch, len(x)).displacement(pressure, 0.1)
+    moved = FiniteElementCompliance(body, hat_nodes(x[0], pitch, len(x))).displacement(
+        pressure, 0.1
+    )
     nodal = nodal_stress(body, moved, lambda at: np.interp(at, x, pressure), 0.1)
 
     def tau1_error(depths):
@@ -149,7 +152,7 @@ def test_a_tilted_pressure_and_its_friction_act_on_the_inclined_face(structured_
     def direction(x):
         return 0.1 + 0.0 * x, np.ones_like(x)
 
-    operator = FiniteElementCompliance(body, -0.5, 1 / 16, 17, direction)
+    operator = FiniteElementCompliance(body, hat_nodes(-0.5, 1 / 16, 17), direction)
     node = -0.5 + np.arange(17) / 16
     pressure = 1.0 - node**2
     moved = operator.displacement(pressure, 0.25)

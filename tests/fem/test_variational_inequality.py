@@ -9,12 +9,13 @@ from analytic.material import Material
 from analytic.operators import HalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
-from fem.surface import hat_forces
+from fem.surface import hat_forces, hat_nodes
 from fem.variational_inequality import solve_variational_inequality
 
 COUNT = 41
 PITCH = 2.6 / (COUNT + 1)
 X = PITCH * (np.arange(COUNT) - COUNT // 2)
+HATS = hat_nodes(X[0], PITCH, COUNT)
 WEIGHTS = np.full(COUNT, PITCH)
 SMOOTH = 0.5 * PITCH * X**2
 ROUGH = SMOOTH + PITCH * (0.05 * np.cos(17 * X) + 0.03 * np.cos(7 * X + 1) + 0.08)
@@ -33,11 +34,11 @@ def body(structured_block, graded):
 
 
 def forces(body):
-    return hat_forces(body.surface, X[0], PITCH, COUNT)
+    return hat_forces(body.surface, HATS)
 
 
 def compliance(body):
-    return FiniteElementCompliance(body, X[0], PITCH, COUNT)
+    return FiniteElementCompliance(body, HATS)
 
 
 @pytest.fixture(scope="module")
@@ -107,8 +108,8 @@ def test_a_rough_body_with_tilted_pressure(structured_block, graded, dense):
         return 0.3 * x, np.ones_like(x)
 
     body = make(structured_block, graded, height=height)
-    tilted = FiniteElementCompliance(body, X[0], PITCH, COUNT, direction)
-    b = hat_forces(body.surface, X[0], PITCH, COUNT, direction)
+    tilted = FiniteElementCompliance(body, HATS, direction)
+    b = hat_forces(body.surface, HATS, direction)
     found = solve_variational_inequality([(body, b)], SMOOTH, WEIGHTS, 0.6)
     pressure, _ = dense(tilted.matrix(), SMOOTH, WEIGHTS, 0.6)
     np.testing.assert_allclose(found.pressure, pressure, atol=1e-8 * pressure.max())
