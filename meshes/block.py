@@ -20,6 +20,8 @@ class BlockSpec:
     growth              size = surface_size + growth * distance to the nearest interval
     window              (x0, x1, z1, size) or None: inside x0 <= x <= x1, z <= z1 no element is
                         larger than size, so that a stress field there is resolved
+    interface           depth of a line across the whole block that element edges follow (the
+                        lower boundary of a coating), or None
     """
 
     half_width: float
@@ -28,6 +30,7 @@ class BlockSpec:
     surface_size: float
     growth: float = 0.2
     window: tuple[float, float, float, float] | None = None
+    interface: float | None = None
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,15 @@
-"""Nodes on the four sides of the block: equal edges on the refined intervals, graded elsewhere."""
+"""Nodes on the sides of the block and on the lines in it that element edges follow.
+
+Equal edges on the refined intervals, graded elsewhere.
+"""
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from meshes.block import BlockSpec
+from meshes.coating import LAYERS, core
 from meshes.errors import MeshError
 from meshes.size_law import edges_per_size, surface_edge, wanted_size
 
@@ -54,15 +59,16 @@ def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
 def top_nodes(spec: BlockSpec) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, both corners included.
 
-    Raises MeshError when an interval is not a whole number of edges or leaves too short a rest.
+    With a coating the ends of its core are among them. Raises MeshError when an interval is not a
+    whole number of edges or leaves too short a rest.
     """
 
     def size(x: np.ndarray) -> np.ndarray:
         return wanted_size(spec, x, np.zeros_like(x))
 
-    h = surface_edge(spec)
+    h, half = surface_edge(spec), spec.half_width
     pieces = []
-    reached = -spec.half_width
+    reached = -half
 
     def fill(to: float) -> None:
         rest = to - reached
@@ -75,39 +81,98 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
             )
         pieces.append(graded_line(reached, to, size)[:-1])
 
+    low, high = (-half, half) if spec.interface is None else core(spec)
+    fill(low)
+    reached = low
     for start, end in np.asarray(spec.intervals, dtype=float):
         fill(start)
         pieces.append(np.linspace(start, end, interval_edges(spec, start, end) + 1)[:-1])
         reached = end
-    fill(spec.half_width)
-    x = np.concatenate([*pieces, [spec.half_width]])
-    x[0] = -spec.half_width
+    fill(high)
+    reached = high
+    fill(half)
+    x = np.concatenate([*pieces, [half]])
+    x[0] = -half
     return x
 
 
-def boundary_loop(spec: BlockSpec) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 2) [m] once around the block and the (4,) indices of its corners.
+@dataclass(frozen=True)
+class Outline:
+    """Straight lines of nodes, and the regions between them that are to be filled.
 
-    Starts at (-half_width, 0) along the top to (half_width, 0), then down the right side, back
-    along the bottom and up the left side: positive sense of rotation in (x, z).
+    points   (n, 2) [m]
+    lines    numbers of the points on each line, both ends included
+    regions  lines around each region, in the positive sense of rotation in (x, z): k + 1 for line
+             k as it runs, -(k + 1) against that
+    beside   x [m] of the columns of the coating left (descending) and right (ascending) of its
+             core, or none; each begins at the core's end
     """
-    half, depth = spec.half_width, spec.depth
+
+    points: np.ndarray
+    lines: tuple[np.ndarray, ...]
+    regions: tuple[tuple[int, ...], ...]
+    beside: tuple[np.ndarray, ...] = ()
+
+
+def outline(spec: BlockSpec) -> Outline:
+    """The four sides of the block; with a coating its core and what lies below it."""
 
     def across(z: float) -> Callable[[np.ndarray], np.ndarray]:
         return lambda x: wanted_size(spec, x, np.full_like(x, z))
 
-    def down(x: float) -> Callable[[np.ndarray], np.ndarray]:
-        return lambda z: wanted_size(spec, np.full_like(z, x), z)
+    def flat(x: np.ndarray, z: float) -> np.ndarray:
+        return np.column_stack([x, np.full_like(x, z)])
 
-    top = top_nodes(spec)
-    right = graded_line(0.0, depth, down(half))
-    bottom = graded_line(-half, half, across(depth))[::-1]
-    left = graded_line(0.0, depth, down(-half))[::-1]
-    sides = [
-        np.column_stack([top, np.zeros_like(top)])[:-1],
-        np.column_stack([np.full_like(right, half), right])[:-1],
-        np.column_stack([bottom, np.full_like(bottom, depth)])[:-1],
-        np.column_stack([np.full_like(left, -half), left])[:-1],
+    def upright(x: float, z: np.ndarray) -> np.ndarray:
+        return np.column_stack([np.full_like(z, x), z])
+
+    def down(x: float, start: float, stop: float) -> np.ndarray:
+        return upright(
+            x, graded_line(start, stop, lambda z: wanted_size(spec, np.full_like(z, x), z))
+        )
+
+    half, depth, top = spec.half_width, spec.depth, top_nodes(spec)
+    bottom = flat(graded_line(-half, half, across(depth))[::-1], depth)
+    if spec.interface is None:
+        sides = [flat(top, 0.0), down(half, 0.0, depth), bottom, down(-half, 0.0, depth)[::-1]]
+        return joined(sides, ((1, 2, 3, 4),))
+
+    at, (low, high) = spec.interface, core(spec)
+    layers = np.linspace(0.0, at, LAYERS + 1)
+    lines = [
+        flat(top[(low <= top) & (top <= high)], 0.0),
+        upright(high, layers) if high < half else down(half, 0.0, at),
+        flat(graded_line(low, high, across(at))[::-1], at),
+        (upright(low, layers) if low > -half else down(-half, 0.0, at))[::-1],
+        down(half, at, depth),
+        bottom,
+        down(-half, at, depth)[::-1],
     ]
-    corners = np.cumsum([0, *(len(side) for side in sides[:-1])])
-    return np.concatenate(sides), corners
+    # The rest of the interface, from left to right, belongs to what lies below alone.
+    before, after = top[top <= low], top[top >= high]
+    below = [5, 6, 7]
+    if low > -half:
+        lines.append(flat(before, at))
+        below.append(len(lines))
+    below.append(-3)
+    if high < half:
+        lines.append(flat(after, at))
+        below.append(len(lines))
+    beside = tuple(x for x in (before[::-1], after) if len(x) > 1)
+    return replace(joined(lines, ((1, 2, 3, 4), tuple(below))), beside=beside)
+
+
+def joined(lines: list[np.ndarray], regions: tuple[tuple[int, ...], ...]) -> Outline:
+    """Outline of lines (k, 2) [m] that meet at their ends."""
+    points, ends, numbers = [], {}, []
+    for line in lines:
+        number = np.empty(len(line), dtype=np.int64)
+        for k, point in enumerate(map(tuple, line.tolist())):
+            if 0 < k < len(line) - 1:
+                number[k] = len(points)
+            else:
+                number[k] = ends.setdefault(point, len(points))
+            if number[k] == len(points):
+                points.append(point)
+        numbers.append(number)
+    return Outline(np.array(points), tuple(numbers), regions)

@@ -1,20 +1,22 @@
 """From a BlockSpec to the flat, graded, second-order mesh; gmsh runs in a process of its own."""
 
 import io
+import json
 import os
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from zipfile import BadZipFile
 
 import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
-from meshes.boundary import boundary_loop
+from meshes.boundary import outline
 from meshes.errors import MeshError
+from meshes.layers import with_layers
 from meshes.quality import check_quality, cross
 from meshes.second_order import add_midpoints
 
@@ -62,6 +64,11 @@ def check_spec(spec: BlockSpec) -> None:
             bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
             f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
         )
+    if spec.interface is not None:
+        demand(
+            bool(0.0 < spec.interface < spec.depth),
+            f"interface is {spec.interface}: between 0 and the depth, {spec.depth:g} m",
+        )
 
 
 def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
@@ -77,6 +84,7 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
         intervals=scaled(spec.intervals),
         surface_size=float(scaled(spec.surface_size)),
         window=None if spec.window is None else tuple(scaled(spec.window).tolist()),
+        interface=None if spec.interface is None else float(scaled(spec.interface)),
     )
 
 
@@ -147,10 +155,10 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
 def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     """Flat second-order mesh of the block, refined on spec.intervals (see meshes.size_law).
 
-    Every interval carries equal edges of surface_size (a whole fraction of it where a thin block
-    or a fine window needs less), with nodes at both ends; elsewhere the size grows continuously.
-    Points on the sides are exact. The same spec gives the same mesh to the last bit, and a spec
-    in other units of length the same triangles.
+    Every interval carries equal edges of surface_size (a whole fraction of it where a thin block,
+    a fine window or a thin coating needs less), with nodes at both ends; elsewhere the size grows
+    continuously. Points on the sides and on the line below a coating are exact. The same spec
+    gives the same mesh to the last bit, and a spec in other units of length the same triangles.
 
     timeout [s] bounds the run of gmsh. Raises MeshError when spec cannot be meshed, when gmsh
     fails, crashes or runs out of time, and when the elements are not fit to solve on.
@@ -158,22 +166,27 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size
-    loop, corners = boundary_loop(spec)
-    small = in_units(spec, unit)
+    given, small = outline(spec), in_units(spec, unit)
+    # The quotients of the given points can fall on either side of the last decimal kept.
+    scaled = outline(small).points
+    if scaled.shape != given.points.shape:
+        scaled = given.points / unit
     result = run_worker(
         {
-            "loop": np.round(loop / unit, UNIT_DECIMALS),
-            "corners": corners,
-            "numbers": np.array([small.half_width, small.depth, small.surface_size, small.growth]),
-            "intervals": small.intervals,
-            "window": np.array(small.window or ()),
+            "points": np.round(scaled, UNIT_DECIMALS),
+            "lines": np.concatenate(given.lines),
+            "line_lengths": np.array([len(line) for line in given.lines]),
+            "regions": np.concatenate(given.regions),
+            "region_lengths": np.array([len(region) for region in given.regions]),
+            "spec": np.array(json.dumps(asdict(small), default=np.ndarray.tolist)),
         },
         timeout,
     )
     vertices = result["vertices"] * unit
-    vertices[: len(loop)] = loop
-    refuse_unfilled(vertices, result["triangles"], 2.0 * spec.half_width * spec.depth)
-    points, triangles = add_midpoints(vertices, result["triangles"])
+    vertices[: len(given.points)] = given.points
+    vertices, triangles = with_layers(vertices, result["triangles"], spec.interface, given.beside)
+    refuse_unfilled(vertices, triangles, 2.0 * spec.half_width * spec.depth)
+    points, triangles = add_midpoints(vertices, triangles)
     mesh = BlockMesh(points, triangles, np.zeros_like(points), spec)
     quality = check_quality(mesh)
     return replace(mesh, quality=quality | {"seconds": time.perf_counter() - began})

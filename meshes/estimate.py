@@ -4,6 +4,7 @@ import numpy as np
 
 from meshes.block import BlockSpec
 from meshes.build import check_spec
+from meshes.coating import LAYERS, core
 from meshes.size_law import largest_size, uncapped_size, wanted_size
 
 # gmsh's Delaunay triangles have 1.17 times the number that equilateral ones of the wanted edge
@@ -21,8 +22,16 @@ def estimate_unknowns(spec: BlockSpec) -> int:
     """
     check_spec(spec)
     half, depth = spec.half_width, spec.depth
-    inside = integral_of_power(spec, [-half, half, 0.0, depth], -2.0)
-    triangles = TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0) * inside
+    low, high = (-half, half) if spec.interface is None else core(spec)
+    filled = [[low, high, 0.0, spec.interface or depth]]
+    layered = 0.0
+    if spec.interface is not None:
+        filled.append([-half, half, spec.interface, depth])
+        beside = ([-half, low, 0.0, 0.0], [high, half, 0.0, 0.0])
+        columns = sum(integral_of_power(spec, side, -1.0) for side in beside)
+        layered = 2.0 * LAYERS * columns
+    inside = sum(integral_of_power(spec, box, -2.0) for box in filled)
+    triangles = layered + TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0) * inside
     sides = [
         [-half, half, 0.0, 0.0],
         [-half, half, depth, depth],

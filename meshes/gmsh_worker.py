@@ -6,6 +6,7 @@ error. gmsh can crash or abort the process that it lives in; here it takes nothi
 
 import ctypes
 import io
+import json
 import os
 import signal
 import sys
@@ -44,8 +45,13 @@ def die_with_parent() -> None:
         ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
 
 
-def fill(loop: np.ndarray, corners: np.ndarray, spec: BlockSpec) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 2), those of the loop first, and triangles (m, 3) inside the loop (k, 2)."""
+def fill(
+    points: np.ndarray, lines: list[np.ndarray], regions: list[list[int]], spec: BlockSpec
+) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (n, 2), the given points first, and triangles (m, 3) that fill all regions.
+
+    points (k, 2), lines and regions as in `meshes.boundary.Outline`.
+    """
     import gmsh
 
     # No configuration files: the mesh must not depend on what a user set for the gmsh program.
@@ -53,24 +59,25 @@ def fill(loop: np.ndarray, corners: np.ndarray, spec: BlockSpec) -> tuple[np.nda
     for name, value in OPTIONS.items():
         gmsh.option.setNumber(name, value)
     model = gmsh.model
-    flat = np.column_stack([loop, np.zeros(len(loop))])
-    tags = np.arange(1, len(loop) + 1)
+    place = np.column_stack([points, np.zeros(len(points))])
+    tags = np.arange(1, len(points) + 1)
 
-    points = [model.geo.addPoint(*flat[c]) for c in corners]
-    lines = [model.geo.addLine(points[i], points[(i + 1) % 4]) for i in range(4)]
-    surface = model.geo.addPlaneSurface([model.geo.addCurveLoop(lines)])
+    ends = dict.fromkeys(int(end) for line in lines for end in line[[0, -1]])
+    ends = {end: model.geo.addPoint(*place[end]) for end in ends}
+    curves = [model.geo.addLine(ends[line[0]], ends[line[-1]]) for line in lines]
+    for region in regions:
+        loop = [int(np.sign(k)) * curves[abs(k) - 1] for k in region]
+        model.geo.addPlaneSurface([model.geo.addCurveLoop(loop)])
     model.geo.synchronize()
-    for point, c in zip(points, corners, strict=True):
-        model.mesh.addNodes(0, point, [tags[c]], flat[c])
-        model.mesh.addElementsByType(point, 15, [], [tags[c]])
-    ends = [*corners[1:], len(loop)]
-    for line, first, last in zip(lines, corners, ends, strict=True):
-        chain = np.arange(first, last + 1) % len(loop)
-        along = np.linalg.norm(flat[chain] - flat[first], axis=1)
-        inner = chain[1:-1]
-        model.mesh.addNodes(1, line, tags[inner], flat[inner].ravel(), (along / along[-1])[1:-1])
-        edges = np.column_stack([tags[chain[:-1]], tags[chain[1:]]])
-        model.mesh.addElementsByType(line, 1, [], edges.ravel())
+    for end, point in ends.items():
+        model.mesh.addNodes(0, point, [tags[end]], place[end])
+        model.mesh.addElementsByType(point, 15, [], [tags[end]])
+    for curve, line in zip(curves, lines, strict=True):
+        along = np.linalg.norm(place[line] - place[line[0]], axis=1)
+        inner = line[1:-1]
+        model.mesh.addNodes(1, curve, tags[inner], place[inner].ravel(), (along / along[-1])[1:-1])
+        edges = np.column_stack([tags[line[:-1]], tags[line[1:]]])
+        model.mesh.addElementsByType(curve, 1, [], edges.ravel())
 
     size = point_size(spec)
     model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
@@ -80,11 +87,20 @@ def fill(loop: np.ndarray, corners: np.ndarray, spec: BlockSpec) -> tuple[np.nda
     order = np.argsort(node_tags)
     node_tags = node_tags[order]
     vertices = coordinates.reshape(-1, 3)[order, :2]
-    if not np.array_equal(vertices[: len(loop)], loop):
+    if not np.array_equal(vertices[: len(points)], points):
         raise RuntimeError("gmsh moved or renumbered the nodes on the sides of the block")
-    _, corner_tags = model.mesh.getElementsByType(2, surface)
+    _, corner_tags = model.mesh.getElementsByType(2)
     triangles = np.searchsorted(node_tags, corner_tags).reshape(-1, 3)
     return vertices, triangles
+
+
+def read_task(archive: bytes) -> tuple[np.ndarray, list[np.ndarray], list[list[int]], BlockSpec]:
+    """Arguments of `fill` from what `meshes.build` sends."""
+    with np.load(io.BytesIO(archive)) as task:
+        spec = BlockSpec(**json.loads(str(task["spec"])))
+        lines = np.split(task["lines"], np.cumsum(task["line_lengths"])[:-1])
+        regions = np.split(task["regions"], np.cumsum(task["region_lengths"])[:-1])
+        return task["points"], lines, [region.tolist() for region in regions], spec
 
 
 def main() -> int:
@@ -92,13 +108,7 @@ def main() -> int:
     result = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # whatever gmsh prints must not end in the archive
     try:
-        with np.load(io.BytesIO(sys.stdin.buffer.read())) as task:
-            window = tuple(task["window"].tolist()) or None
-            half_width, depth, surface_size, growth = task["numbers"].tolist()
-            spec = BlockSpec(
-                half_width, depth, task["intervals"], surface_size, growth, window=window
-            )
-            vertices, triangles = fill(task["loop"], task["corners"], spec)
+        vertices, triangles = fill(*read_task(sys.stdin.buffer.read()))
     except Exception as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return 1

@@ -14,6 +14,7 @@ Nomenclature
 import numpy as np
 
 from meshes.block import BlockMesh
+from meshes.coating import stretched
 from meshes.errors import MeshError
 from meshes.second_order import EDGES, unique_edges
 
@@ -96,13 +97,18 @@ def measure(points: np.ndarray, triangles: np.ndarray) -> dict:
     }
 
 
+def quality_of(mesh: BlockMesh) -> dict:
+    """Figures of the real body's mesh; the shape of a coating's stretched layers is not in them."""
+    judged = mesh.triangles[~stretched(mesh)]
+    return measure(real_points(mesh), judged) | {"elements": len(mesh.triangles)}
+
+
 def check_quality(mesh: BlockMesh, *, least_angle_degrees: float = LEAST_ANGLE_DEGREES) -> dict:
     """Quality figures of the real body's mesh.
 
     Raises MeshError, with the figure and the place, when the mesh is not fit to solve on.
     """
-    points = real_points(mesh)
-    figures = measure(points, mesh.triangles)
+    figures = quality_of(mesh)
     bounds = [
         ("least_jacobian", LEAST_JACOBIAN, 1.0),
         ("least_angle_degrees", least_angle_degrees, 1.0),
@@ -110,8 +116,9 @@ def check_quality(mesh: BlockMesh, *, least_angle_degrees: float = LEAST_ANGLE_D
     ]
     for name, bound, sense in bounds:
         if sense * (figures[name] - bound) < 0.0:
-            worst = np.argmin(scaled_jacobians(points, mesh.triangles))
-            x, z = points[mesh.triangles[worst, :3]].mean(axis=0)
+            points, judged = real_points(mesh), mesh.triangles[~stretched(mesh)]
+            worst = np.argmin(scaled_jacobians(points, judged))
+            x, z = points[judged[worst, :3]].mean(axis=0)
             raise MeshError(
                 f"mesh not fit to solve on: {name} is {figures[name]:.3g}, the bound is {bound:g} "
                 f"(worst element at x = {x:g} m, z = {z:g} m)"

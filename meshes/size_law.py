@@ -5,6 +5,8 @@ window of a stress field, and leaves at least a few elements across a thin block
 
     s(x, z) = min(h + g d,  s_w + g d_w,  s_max)
 
+A coating adds two bounds, c + g d_c and, so that no stretched element is too long, l + g d_l.
+
 Nomenclature (lengths in m)
 
     s       wanted edge of the elements
@@ -12,7 +14,9 @@ Nomenclature (lengths in m)
     g       spec.growth [-]
     d       distance in the plane to the nearest refined interval
     s_w     size asked for in the window;  d_w distance in the plane to the window
-    s_max   a quarter of the block's smaller extent
+    s_max   a quarter of the block's smaller extent, half of what lies below a coating
+    c       size in the core of the coating; d_c distance in the plane to it (`meshes.coating`)
+    l       longest stretched element;  d_l depth below the coating
 """
 
 import math
@@ -22,24 +26,37 @@ from collections.abc import Callable
 import numpy as np
 
 from meshes.block import BlockSpec
+from meshes.coating import LONGEST, core, layer_size
 
 ELEMENTS_ACROSS = 4
+ELEMENTS_BELOW = 2  # a coating
 
 
 def largest_size(spec: BlockSpec) -> float:
     """Upper bound [m] of the size anywhere: ELEMENTS_ACROSS elements through the block."""
-    return min(spec.depth, 2.0 * spec.half_width) / ELEMENTS_ACROSS
+    largest = min(spec.depth, 2.0 * spec.half_width) / ELEMENTS_ACROSS
+    if spec.interface is None:
+        return largest
+    return min(largest, (spec.depth - spec.interface) / ELEMENTS_BELOW)
+
+
+def boxes(spec: BlockSpec) -> list[tuple[float, float, float, float]]:
+    """Boxes x0, x1, z1, size [m] with z <= z1 in which no element is larger than size."""
+    found = [] if spec.window is None else [spec.window]
+    if spec.interface is not None:
+        size, everywhere = layer_size(spec), (-spec.half_width, spec.half_width)
+        found.append((*core(spec), spec.interface, size))
+        found.append((*everywhere, spec.interface, LONGEST * size))
+    return found
 
 
 def edges_per_size(spec: BlockSpec) -> int:
     """Equal parts into which each stretch of one surface_size is cut.
 
-    One, unless a thin block or a fine window wants smaller elements at the surface than
-    surface_size: then every multiple of surface_size stays a node.
+    One, unless a thin block, a fine window or a thin coating wants smaller elements at the surface
+    than surface_size: then every multiple of surface_size stays a node.
     """
-    finest = largest_size(spec)
-    if spec.window is not None:
-        finest = min(finest, spec.window[3])
+    finest = min([largest_size(spec), *(size for *_, size in boxes(spec))])
     return max(1, math.ceil(spec.surface_size / finest * (1.0 - 1e-9)))
 
 
@@ -49,7 +66,7 @@ def surface_edge(spec: BlockSpec) -> float:
 
 
 def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """min(h + g d, s_w + g d_w) [m] at points x, z [m] (any equal shapes): grows at most by g."""
+    """The law but for s_max [m] at points x, z [m] (any equal shapes): grows at most by g."""
     x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
     starts, ends = np.asarray(spec.intervals, dtype=float).reshape(-1, 2).T
     left = np.searchsorted(starts, x, side="right") - 1
@@ -58,11 +75,10 @@ def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     before = np.where(left + 1 < len(starts), starts[right] - x, np.inf)
     along = np.maximum(0.0, np.minimum(past, before))
     size = surface_edge(spec) + spec.growth * np.hypot(along, z)
-    if spec.window is not None:
-        x0, x1, z1, window_size = spec.window
+    for x0, x1, z1, most in boxes(spec):
         aside = np.maximum(0.0, np.maximum(x0 - x, x - x1))
         below = np.maximum(0.0, z - z1)
-        size = np.minimum(size, window_size + spec.growth * np.hypot(aside, below))
+        size = np.minimum(size, most + spec.growth * np.hypot(aside, below))
     return size
 
 
@@ -80,7 +96,7 @@ def point_size(spec: BlockSpec) -> Callable[[float, float], float]:
     flat_ends = [float(end) for interval in spec.intervals for end in interval]
     count = len(flat_ends)
     h, growth, largest = surface_edge(spec), spec.growth, largest_size(spec)
-    window = spec.window
+    limits = boxes(spec)
     hypot = math.hypot
 
     def size(x: float, z: float) -> float:
@@ -94,10 +110,9 @@ def point_size(spec: BlockSpec) -> Callable[[float, float], float]:
         else:
             along = min(x - flat_ends[i - 1], flat_ends[i] - x)
         s = min(largest, h + growth * hypot(along, z))
-        if window is not None:
-            x0, x1, z1, window_size = window
+        for x0, x1, z1, most in limits:
             outside = hypot(max(0.0, x0 - x, x - x1), max(0.0, z - z1))
-            s = min(s, window_size + growth * outside)
+            s = min(s, most + growth * outside)
         return s
 
     return size

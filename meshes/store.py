@@ -13,7 +13,7 @@ import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
 from meshes.errors import MeshError
-from meshes.quality import measure, real_points
+from meshes.quality import quality_of, real_points
 from meshes.second_order import unique_edges
 
 # Physical groups: name, tag; the sides are curves, the body is a surface.
@@ -87,7 +87,7 @@ def read_msh(path: str | Path) -> BlockMesh:
     points = content.points[:, :2] - shift
     triangles = content.cells_dict["triangle6"].astype(np.int64)
     mesh = BlockMesh(points, triangles, shift, spec)
-    return BlockMesh(points, triangles, shift, spec, measure(real_points(mesh), triangles))
+    return BlockMesh(points, triangles, shift, spec, quality_of(mesh))
 
 
 def _three_components(vectors: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import textwrap
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -82,25 +83,24 @@ def test_missing_gmsh_says_how_to_get_it(monkeypatch, tmp_path):
         build.build_block(SPEC)
 
 
-def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
-    def crossing(spec):
-        loop, corners = boundary_loop(spec)
-        loop[2] = loop[corners[2] + 1]
-        return loop, corners
+def outline_changed(monkeypatch, change):
+    outline = build.outline
+    monkeypatch.setattr(build, "outline", lambda spec: change(outline(spec)))
 
-    boundary_loop = build.boundary_loop
-    monkeypatch.setattr(build, "boundary_loop", crossing)
+
+def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
+    def crossing(given):
+        points = given.points.copy()
+        points[2] = points[given.lines[2][1]]
+        return replace(given, points=points)
+
+    outline_changed(monkeypatch, crossing)
     with pytest.raises(MeshError, match="gmsh failed: its 0 triangles cover 0 of the block"):
         build.build_block(SPEC)
 
 
 def test_an_error_raised_by_gmsh_is_passed_on(monkeypatch):
-    def without_a_side(spec):
-        loop, corners = boundary_loop(spec)
-        return loop, corners[[0, 1, 2, 2]]
-
-    boundary_loop = build.boundary_loop
-    monkeypatch.setattr(build, "boundary_loop", without_a_side)
+    outline_changed(monkeypatch, lambda given: replace(given, regions=((1, 2, 3),)))
     with pytest.raises(MeshError, match=r"gmsh failed: .+"):
         build.build_block(SPEC)
 
