@@ -1,4 +1,4 @@
-"""Newton's method with an active set: linear bodies against dense solutions, then nonlinear ones."""
+"""Newton's method with an active set: linear bodies against dense solutions, nonlinear ones."""
 
 import numpy as np
 import pytest
