@@ -62,6 +62,8 @@ class ElasticBody:
     top                       the top side's mesh points in order
     points                    (k, 2) [m] mesh points of the real body, roughness included
     curved                    whether elements have curved edges
+    space                     dolfinx's space of displacements
+    owned                     our number of each node of it that this process owns
     matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
     assembly_seconds          what mesh transfer and assembly took
     locator                   finds the element that holds a point
@@ -90,10 +92,10 @@ class ElasticBody:
             numbering.elements,
         )
         self._numbering = numbering
-        self.matrix, self._owned = matrix, owned
+        self.matrix, self.owned = matrix, owned
         # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
         # survive it.
-        self._space = space
+        self.space = space
         self.assembly_seconds = assembly_seconds
 
     @property
@@ -162,7 +164,7 @@ class ElasticBody:
                     "bond its base or hold its sides"
                 )
         free = np.where(self.held, 0.0, load)
-        part = free[..., self._owned, :].reshape(*load.shape[:-2], -1).T
+        part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
         return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
 
     def at_points(self, displacement: np.ndarray) -> np.ndarray:
@@ -177,7 +179,7 @@ class ElasticBody:
         if self.matrix.comm.size > 1:
             raise FemError("the stiffness as one matrix is to be had on one process only")
         start, column, value = self.matrix.getValuesCSR()
-        component = (2 * self._owned[:, None] + np.arange(2)).ravel()
+        component = (2 * self.owned[:, None] + np.arange(2)).ravel()
         row = np.repeat(component, np.diff(start))
         value = value * self.material.youngs_modulus
         return csr_matrix((value, (row, component[column])), shape=(len(component),) * 2)
@@ -187,7 +189,7 @@ class ElasticBody:
         part = part.reshape(*part.shape[:-1], -1, 2)
         whole = np.empty((*part.shape[:-2], *self.nodes.shape))
         comm = self.matrix.comm.tompi4py()
-        pieces = [(self._owned, part)] if comm.size == 1 else comm.allgather((self._owned, part))
+        pieces = [(self.owned, part)] if comm.size == 1 else comm.allgather((self.owned, part))
         for owned, piece in pieces:
             whole[..., owned, :] = piece
         return whole
