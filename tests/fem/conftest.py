@@ -78,40 +78,44 @@ def quadratic(t: np.ndarray) -> np.ndarray:
     return np.stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
 
 
-def forces_of(mesh: BlockMesh, stress: Callable, body_force: Callable | None = None) -> np.ndarray:
+def forces_of(
+    mesh: BlockMesh, stress: Callable, body_force: Callable | None = None, degree: int = 2
+) -> np.ndarray:
     """Nodal forces (n, 2) of the boundary tractions of a stress field (and of a body force).
 
-    `stress`(x, z) gives sx, sz, txz; `body_force`(x, z) two components. Written apart from the
-    code under test: plain loops over nodes, own quadrature.
+    `stress`(x, z) gives sx, sz, txz; `body_force`(x, z) two components; `degree` is that of the
+    displacement. Written apart from the code under test: plain loops over nodes, own quadrature.
     """
+    from fem.nodes import nodes_of
+    from fem.triangle import edge_shapes, jacobians, shapes
+
+    elements = nodes_of(mesh, degree).elements
     points = mesh.points + mesh.shift
     corner = points[mesh.triangles[:, :3]]
     side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
     turn = np.sign(side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0])
-    load = np.zeros_like(points)
+    load = np.zeros((elements.max() + 1, 2))
+    inner = [range(3 + k * (degree - 1), 3 + (k + 1) * (degree - 1)) for k in range(3)]
+    own = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
     edges = mesh.triangles[:, [[0, 3, 1], [1, 4, 2], [2, 5, 0]]].reshape(-1, 3)
     turn = np.repeat(turn, 3)
     outer = np.bincount(edges[:, 1], minlength=len(points))[edges[:, 1]] == 1
-    edges, turn = edges[outer], turn[outer]
+    edges, own, turn = edges[outer], own[outer], turn[outer]
     slope = np.stack([4 * LINE - 3, 4 - 8 * LINE, 4 * LINE - 1])
     place = np.einsum("eac,aq->eqc", points[edges], quadratic(LINE))
     tangent = np.einsum("eac,aq->eqc", points[edges], slope) * turn[:, None, None]
     sx, sz, txz = np.broadcast_arrays(*stress(place[..., 0], place[..., 1]))
     along, down = tangent[..., 1], -tangent[..., 0]
     traction = np.stack([sx * along + txz * down, txz * along + sz * down], axis=-1)
-    for node in range(3):
-        force = np.einsum("eqc,q->ec", traction, LINE_WEIGHT * quadratic(LINE)[node])
-        np.add.at(load, edges[:, node], force)
+    for node, shape in enumerate(edge_shapes(LINE, degree).T):
+        np.add.at(load, own[:, node], np.einsum("eqc,q->ec", traction, LINE_WEIGHT * shape))
     if body_force is not None:
-        from fem.triangle import jacobians, shapes
-
         nodes = points[mesh.triangles]
         place = np.einsum("mac,qa->mqc", nodes, shapes(AREA))
         volume = np.abs(np.linalg.det(jacobians(nodes, AREA))) * AREA_WEIGHT
         force = np.stack(body_force(place[..., 0], place[..., 1]), axis=-1)
-        for node in range(6):
-            part = np.einsum("mqc,mq->mc", force, volume * shapes(AREA)[:, node])
-            np.add.at(load, mesh.triangles[:, node], part)
+        for node, shape in enumerate(shapes(AREA, degree).T):
+            np.add.at(load, elements[:, node], np.einsum("mqc,mq->mc", force, volume * shape))
     return load
 
 

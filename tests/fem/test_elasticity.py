@@ -1,10 +1,12 @@
-"""Patch tests, the order of a manufactured solution, supports and scaling of the elastic body."""
+"""Patch tests, supports, scaling and coatings of the elastic body; orders: test_manufactured."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from analytic.material import Material
-from fem.elasticity import ElasticBody, Support, elastic_body
+from fem.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.mumps import FemError
 
 MATERIAL = Material(3.0, 0.3)
@@ -34,7 +36,12 @@ def stress_of(material, exx, ezz, gxz):
     )
 
 
-@pytest.mark.parametrize("height", [None, wavy], ids=["straight", "curved"])
+# Linear displacements on curved elements are no polynomials of the coordinates: no patch test.
+@pytest.mark.parametrize(
+    ("height", "degree"),
+    [(None, 1), (None, 2), (None, 3), (wavy, 2), (wavy, 3)],
+    ids=["straight-1", "straight-2", "straight-3", "curved-2", "curved-3"],
+)
 @pytest.mark.parametrize(
     ("support", "strain"),
     [
@@ -44,90 +51,157 @@ def stress_of(material, exx, ezz, gxz):
     ],
     ids=["shear", "stretch", "confined"],
 )
-def test_constant_strain_is_reproduced_exactly(small, exact_forces, height, support, strain):
+def test_constant_strain_is_reproduced_exactly(
+    small, exact_forces, height, degree, support, strain
+):
     mesh = small(height)
-    body = elastic_body(mesh, MATERIAL, support)
+    body = elastic_body(mesh, MATERIAL, support, degree=degree)
     exx, ezz, gxz = strain
-    x, z = body.points.T
+    x, z = body.nodes.T
     exact = np.column_stack([exx * x + gxz * (z - 1.0), ezz * (z - 1.0)])
     sx, sz, txz = stress_of(MATERIAL, exx, ezz, gxz)
-    moved = body.solve(exact_forces(mesh, lambda x, z: (sx + 0 * x, sz, txz)))
-    np.testing.assert_allclose(moved, exact, atol=1e-13 * np.abs(exact).max() * 100)
+    load = exact_forces(mesh, lambda x, z: (sx + 0 * x, sz, txz), degree=degree)
+    np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
+
+
+@pytest.fixture(params=[1, 2, 3])
+def degree(request):
+    return request.param
+
+
+@pytest.mark.parametrize("ratio", [1e-6, 0.1, 1e6])
+def test_a_coating_under_uniform_traction_is_reproduced_exactly(
+    structured_block, exact_forces, degree, ratio
+):
+    """Uniform pressure and shear: each layer strains by its own compliance; sx jumps."""
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, np.array([0.0, 0.1, 0.25, 0.5, 1.0]))
+    coat = Material(ratio * MATERIAL.youngs_modulus, 0.2)
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=Coating(coat, 0.25))
+    assert np.count_nonzero(body.coated) == len(body.coated) // 2
+    z = body.nodes[:, 1]
+    below, above = np.minimum(1.0 - z, 0.75), np.maximum(0.25 - z, 0.0)
+    exact = np.zeros(body.nodes.shape)
+    for material, height in ((MATERIAL, below), (coat, above)):
+        # bonded below, so exx = 0; moved along by shear, down by pressure
+        mass, shear = stress_of(material, 0.0, 1.0, 1.0)[1:]
+        exact += np.outer(height, [-0.4 / shear, 1.0 / mass])
+
+    def stress(x, z):
+        nu = np.where(z < 0.25, coat.poissons_ratio, MATERIAL.poissons_ratio)
+        return -nu / (1.0 - nu), -1.0, 0.4
+
+    load = exact_forces(mesh, stress, degree=degree)
+    np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
+
+
+def test_each_triangle_has_the_constants_of_its_material(structured_block):
+    line = np.linspace(-1, 1, 5)
+    mesh = structured_block(line, np.linspace(0, 1, 5))
+    coat = Material(7.0, 0.1)
+    body = elastic_body(mesh, MATERIAL, Support(), coating=Coating(coat, 0.5))
+    depth = body.points[body.mesh.triangles[:, :3], 1].mean(axis=1)
+    np.testing.assert_array_equal(body.coated, depth < 0.5)
+    np.testing.assert_array_equal(body.poissons_ratio, np.where(depth < 0.5, 0.1, 0.3))
+    shear = np.where(depth < 0.5, coat.shear_modulus, MATERIAL.shear_modulus)
+    np.testing.assert_array_equal(body.shear_modulus, shear)
+    assert body.surface_material == coat
+    plain = elastic_body(mesh, MATERIAL, Support())
+    assert not plain.coated.any()
+    assert set(plain.shear_modulus) == {MATERIAL.shear_modulus}
+    assert plain.surface_material == MATERIAL
+
+
+def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
+    with pytest.raises(ValueError, match=r"\d+ elements of the mesh cross the coating"):
+        elastic_body(small(), MATERIAL, Support(), coating=Coating(MATERIAL, 0.25))
+    with pytest.raises(ValueError, match="thickness must be positive"):
+        Coating(MATERIAL, 0.0)
+    with pytest.raises(ValueError, match="1, 2 or 3, not 4"):
+        elastic_body(small(), MATERIAL, Support(), degree=4)
+
+
+def test_a_coating_of_the_body_s_material_is_none(structured_block, degree):
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, line[3:], wavy)
+    plain = elastic_body(mesh, MATERIAL, Support(), degree=degree)
+    coated = elastic_body(
+        mesh, MATERIAL, Support(), degree=degree, coating=Coating(MATERIAL, line[4])
+    )
+    np.testing.assert_array_equal(coated.solve(pressed(coated)), plain.solve(pressed(plain)))
 
 
 @pytest.mark.parametrize("height", [None, wavy], ids=["straight", "curved"])
-def test_a_smooth_solution_converges_with_order_three(small, exact_forces, manufactured, height):
-    exact = manufactured(MATERIAL)
-    errors = []
-    for cells in (8, 16, 32):
-        mesh = small(height, cells)
-        body = elastic_body(mesh, MATERIAL, Support())
-        moved = body.solve(exact_forces(mesh, exact.stress, exact.body_force))
-        errors.append(l2_error(body, moved, exact.displacement))
-    orders = np.log2(np.array(errors[:-1]) / errors[1:])
-    assert errors[-1] < 1e-5
-    assert np.all(np.abs(orders - 3.0) < 0.15), orders
+def test_displacements_at_the_mesh_s_points(small, degree, height):
+    """Polynomials of the displacement's degree on straight elements; on curved ones what lies in
+    all degrees: constants, and at vertices anything."""
+    body = elastic_body(small(height), MATERIAL, Support(), degree=degree)
+    assert body.unknowns == 2 * len(body.nodes)
 
+    def moved(place):
+        x, z = np.moveaxis(place, -1, 0)
+        power = degree if height is None else 0
+        return np.stack([1.0 + (x - 0.3 * z) ** power, (0.5 * x * z + z) ** (power // 2)], axis=-1)
 
-def l2_error(body: ElasticBody, moved, displacement) -> float:
-    """Error between the elements' polynomials and the exact solution, not at the nodes only."""
-    from fem.triangle import jacobians, shapes
-
-    line, weight = np.polynomial.legendre.leggauss(5)
-    line, weight = 0.5 * (line + 1), 0.5 * weight
-    at = np.array([[r, s * (1 - r)] for r in line for s in line])
-    weight = np.array([w * v * (1 - r) for r, w in zip(line, weight, strict=True) for v in weight])
-    nodes = body.points[body.mesh.triangles]
-    place = np.einsum("mac,qa->mqc", nodes, shapes(at))
-    value = np.einsum("mac,qa->mqc", moved[body.mesh.triangles], shapes(at))
-    exact = np.stack(displacement(place[..., 0], place[..., 1]), axis=-1)
-    volume = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
-    return float(np.sqrt(np.sum(volume[..., None] * (value - exact) ** 2)))
+    both = np.stack([moved(body.nodes), 2.0 * moved(body.nodes)])
+    found = body.at_points(both)
+    np.testing.assert_allclose(found[1], 2.0 * found[0], rtol=1e-15)
+    np.testing.assert_allclose(found[0], moved(body.points), atol=1e-14)
+    vertices = body.mesh.triangles[:, :3]
+    np.testing.assert_array_equal(body.at_points(body.nodes)[vertices], body.points[vertices])
+    np.testing.assert_array_equal(body.elements[:, :3].shape, vertices.shape)
+    if degree > 1:
+        np.testing.assert_allclose(body.at_points(body.nodes), body.points, atol=1e-15)
 
 
 def pressed(body: ElasticBody) -> np.ndarray:
     """A load that pushes down on a few surface nodes, unevenly."""
-    load = np.zeros(body.mesh.points.shape)
-    load[body.surface.point[3:8], 1] = [1.0, 2.0, 0.5, 3.0, 1.0]
+    load = np.zeros(body.nodes.shape)
+    load[body.surface.point[2:7], 1] = [1.0, 2.0, 0.5, 3.0, 1.0]
     return load
 
 
-def test_points_keep_their_own_numbers(small):
+def test_points_keep_their_own_numbers(small, degree):
     """The pressed points move most, and nothing depends on how points are numbered."""
     mesh = small()
-    body = elastic_body(mesh, MATERIAL, Support())
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
     moved = body.solve(pressed(body))
+    assert np.argmax(moved[:, 1]) in body.surface.point[2:7]
     order = np.random.default_rng(2).permutation(len(mesh.points))
     rank = np.argsort(order)
-    from dataclasses import replace
-
     shuffled = replace(
         mesh, points=mesh.points[order], triangles=rank[mesh.triangles], shift=mesh.shift[order]
     )
-    again = elastic_body(shuffled, MATERIAL, Support())
-    np.testing.assert_allclose(again.solve(pressed(body)[order]), moved[order], atol=1e-13)
-    assert np.argmax(moved[:, 1]) in body.surface.point[3:8]
+    again = elastic_body(shuffled, MATERIAL, Support(), degree=degree)
+    found = again.at_points(again.solve(pressed(again)))
+    np.testing.assert_allclose(found, body.at_points(moved)[order], atol=1e-13)
 
 
-def test_displacement_scales_with_load_and_inversely_with_the_modulus(small):
-    mesh = small()
-    soft = elastic_body(mesh, Material(1e-3, 0.3), Support())
-    hard = elastic_body(mesh, Material(2e12, 0.3), Support())
+def test_displacement_scales_with_load_and_inversely_with_the_moduli(structured_block, degree):
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, line[3:])
+
+    def body(size):
+        coating = Coating(Material(7.0 * size, 0.2), line[4])
+        return elastic_body(mesh, Material(size, 0.3), Support(), degree=degree, coating=coating)
+
+    soft, hard = body(1e-3), body(2e12)
     moved = soft.solve(pressed(soft))
     np.testing.assert_allclose(hard.solve(5.0 * pressed(hard)) * 2e15, 5.0 * moved, rtol=1e-12)
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e6])
-def test_displacement_does_not_depend_on_the_unit_of_length(structured_block, size):
+def test_displacement_does_not_depend_on_the_unit_of_length(structured_block, degree, size):
     line = np.linspace(-1, 1, 7)
-    one = elastic_body(structured_block(line, line[3:], wavy), MATERIAL, Support())
-    other = elastic_body(
-        structured_block(size * line, size * line[3:], lambda x: size * wavy(x / size)),
-        MATERIAL,
-        Support(),
-    )
+
+    def body(size):
+        mesh = structured_block(size * line, size * line[3:], lambda x: size * wavy(x / size))
+        coating = Coating(Material(2.0, 0.1), size * line[4])
+        return elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=coating)
+
+    one, other = body(1.0), body(size)
     np.testing.assert_allclose(
-        other.solve(pressed(one)), one.solve(pressed(one)), rtol=1e-9, atol=1e-12
+        other.solve(pressed(other)), one.solve(pressed(one)), rtol=1e-9, atol=1e-12
     )
 
 
@@ -140,12 +214,11 @@ def test_many_loads_at_once_are_the_loads_one_by_one(small):
     assert body.factor.solves == 6
 
 
-def test_supports_hold_what_they_say(small):
-    load = pressed(elastic_body(small(), MATERIAL, Support()))
+def test_supports_hold_what_they_say(small, degree):
     for base in ("bonded", "frictionless"):
         for sides in ("free", "rollers", "fixed"):
-            body = elastic_body(small(), MATERIAL, Support(base, sides))
-            moved = body.solve(load)
+            body = elastic_body(small(), MATERIAL, Support(base, sides), degree=degree)
+            moved = body.at_points(body.solve(pressed(body)))
             assert np.all(moved[body.sides.bottom, 1] == 0.0)
             assert (base == "frictionless") == (np.abs(moved[body.sides.bottom, 0]).max() > 0.0)
             flank = np.union1d(body.sides.left, body.sides.right)
