@@ -113,16 +113,27 @@ def tangent_of(direction: Direction) -> Direction:
     return tangent
 
 
-def hat_forces(
-    surface: Surface, hats: np.ndarray, direction: Direction = straight_down
-) -> csr_matrix:
-    """Nodal forces B (2k, count) [m] of unit hat pressures, exact.
+@dataclass(frozen=True)
+class HatPoints:
+    """Gauss points under hats, five on each piece between element vertices and hat nodes.
 
-    `hats` (count + 2,) [m] are the hats' nodes, ascending, and the feet of the outer two, where
-    the pressure is zero. A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are
-    the x and z force at surface node a. The integrals run over the pieces between element vertices
-    and hat nodes, on which the integrand is a polynomial. With a `direction` that varies they are
-    exact up to its linear part on each piece.
+    x         (e, g) [m]
+    weight    (e, g) [m]
+    shape     (a, e, g) shape functions of the piece's edge, and `node` (a, e) their surface nodes
+    hat       (2, e, g) the two hats over the piece, and `column` (2, e) their numbers; one that is
+              not among the hats, -1 or their count, bears no pressure
+    """
+
+    x: np.ndarray
+    weight: np.ndarray
+    shape: np.ndarray
+    node: np.ndarray
+    hat: np.ndarray
+    column: np.ndarray
+
+
+def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
+    """Where integrals over `hats` (count + 2,) [m], with their outer feet, are evaluated.
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
     """
@@ -151,19 +162,38 @@ def hat_forces(
     t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + gauss)
     length, bend = (value[:, None] for value in _length_and_bend(edge))
     x = edge[:, :1] + t * (length + bend * (1.0 - t))
-    weight = 0.5 * (end - begin)[:, None] * weight * (length + bend * (1.0 - 2.0 * t))
-
-    shape = np.moveaxis(edge_shapes(t, surface.degree), -1, 0)
     rising = (x - hats[interval, None]) / pitch[interval, None]
-    hat = np.stack([1.0 - rising, rising])
-    along = np.stack(np.broadcast_arrays(*direction(x)))
+    return HatPoints(
+        x=x,
+        weight=0.5 * (end - begin)[:, None] * weight * (length + bend * (1.0 - 2.0 * t)),
+        shape=np.moveaxis(edge_shapes(t, surface.degree), -1, 0),
+        node=surface.degree * element + np.arange(surface.degree + 1)[:, None],
+        hat=np.stack([1.0 - rising, rising]),
+        column=interval + np.arange(-1, 1)[:, None],
+    )
 
+
+def hat_forces(
+    surface: Surface, hats: np.ndarray, direction: Direction = straight_down
+) -> csr_matrix:
+    """Nodal forces B (2k, count) [m] of unit hat pressures, exact.
+
+    `hats` (count + 2,) [m] are the hats' nodes, ascending, and the feet of the outer two, where
+    the pressure is zero. A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are
+    the x and z force at surface node a. The integrals run over the pieces between element vertices
+    and hat nodes, on which the integrand is a polynomial. With a `direction` that varies they are
+    exact up to its linear part on each piece.
+
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
+    """
+    points, count = hat_points(surface, hats), len(hats) - 2
+    along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece
-    value = np.einsum("aeg,ceg,heg,eg->ache", shape, along, hat, weight, optimize=True)
-    node = surface.degree * element + np.arange(surface.degree + 1)[:, None]
-    row = 2 * node[:, None, None, :] + np.arange(2)[None, :, None, None]
-    column = (interval + np.arange(-1, 1)[:, None])[None, None, :, :]
-    row, column = np.broadcast_arrays(row, column)
+    value = np.einsum(
+        "aeg,ceg,heg,eg->ache", points.shape, along, points.hat, points.weight, optimize=True
+    )
+    row = 2 * points.node[:, None, None, :] + np.arange(2)[None, :, None, None]
+    row, column = np.broadcast_arrays(row, points.column[None, None, :, :])
     inside = (column >= 0) & (column < count) & (value != 0.0)
     return csr_matrix(
         (value[inside], (row[inside], column[inside])), shape=(2 * len(surface.x), count)
