@@ -1,7 +1,8 @@
 """Surface compliance of a finite-element body as an operator on hat pressures.
 
 C = B^T K^-1 B: one load vector, one back-substitution, one weighted mean of the surface
-displacement with the same hats; symmetric and positive definite by construction.
+displacement with the same hats; symmetric and positive definite by construction. With a far field
+(`fem.far_field`) the displacement that the outer boundary is given adds a symmetric part.
 Nomenclature: p hat pressures [Pa], K stiffness, B nodal forces of unit hats (`fem.surface`).
 """
 
@@ -9,6 +10,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.elasticity import ElasticBody
+from fem.far_field import FarField
 from fem.surface import Direction, hat_forces, straight_down, tangent_of
 
 # Right-hand sides that are solved at once for the dense matrix; more only costs memory.
@@ -23,6 +25,8 @@ class FiniteElementCompliance:
                 (d_x, d_z) of the force per length of x that a unit pressure exerts: for a
                 contact on a rough boundary (slope, 1) of the smooth roller, since the traction
                 acts along the roller's normal
+    far         None: the body is held as its support says. Else its boundary gets the half-plane's
+                displacement; made for the same body and the hats' stretch
     normal      B of the pressure, (2k, count)
     tangential  B of a sliding traction towards +x, (2k, count)
     applications   back-substitutions so far
@@ -35,9 +39,10 @@ class FiniteElementCompliance:
         body: ElasticBody,
         hats: np.ndarray,
         direction: Direction | None = None,
+        far: FarField | None = None,
     ) -> None:
         direction = straight_down if direction is None else direction
-        self.body, self.hats, self.count = body, hats, len(hats) - 2
+        self.body, self.hats, self.count, self.far = body, hats, len(hats) - 2, far
         self.normal = hat_forces(body.surface, hats, direction)
         self.tangential = hat_forces(body.surface, hats, tangent_of(direction))
         self.applications = 0
@@ -48,40 +53,51 @@ class FiniteElementCompliance:
         With `friction` the sliding traction friction * pressure acts too; the operator is then
         no longer symmetric.
         """
-        return self.weighted(self.displacement(pressure, friction))
+        force = self._force(pressure, friction)
+        self.applications += 1
+        moved = self.weighted(self.body.solve(self._load(force)))
+        return moved if self.far is None else moved + self.normal.T @ self.far.symmetric(force)
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
         self.applications += 1
-        return self.body.solve(self.load(pressure, friction))
+        load = self.load(pressure, friction)
+        return self.body.solve(load) if self.far is None else self.far.displacement(load)
 
     def load(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Nodal forces (n, 2) [N/m] of a pressure (count,) [Pa] and its sliding traction."""
-        force = self.normal @ pressure
-        if friction:
-            force = force + friction * (self.tangential @ pressure)
-        load = np.zeros(self.body.nodes.shape)
-        load[self.body.surface.point] = force.reshape(-1, 2)
-        return load
+        return self._load(self._force(pressure, friction))
 
     def weighted(self, displacement: np.ndarray) -> np.ndarray:
         """B^T u (count,) [m^2] of a displacement (n, 2) [m]."""
         return self.normal.T @ displacement[self.body.surface.point].ravel()
 
-    def matrix(self) -> np.ndarray:
+    def matrix(self, friction: float = 0.0) -> np.ndarray:
         """C dense (count, count) [m^2/Pa]: one back-substitution a hat."""
+        forces = self.normal + friction * self.tangential if friction else self.normal
         return np.vstack(
-            [
-                self._columns(self.normal[:, first : first + BATCH])
-                for first in range(0, self.count, BATCH)
-            ]
+            [self._columns(forces[:, i : i + BATCH]) for i in range(0, self.count, BATCH)]
         ).T
 
     def _columns(self, forces: csr_matrix) -> np.ndarray:
-        """Columns of C, as rows, for a batch of load columns."""
-        count = forces.shape[1]
+        """Columns of C, as rows, for a batch of columns of surface forces."""
+        force = forces.toarray()
+        count = force.shape[1]
         load = np.zeros((count, *self.body.nodes.shape))
-        load[:, self.body.surface.point] = forces.T.toarray().reshape(count, -1, 2)
+        load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
         self.applications += count
-        moved = self.body.solve(load)[:, self.body.surface.point]
-        return (self.normal.T @ moved.reshape(count, -1).T).T
+        moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
+        if self.far is not None:
+            moved = moved + self.far.symmetric(force)
+        return (self.normal.T @ moved).T
+
+    def _force(self, pressure: np.ndarray, friction: float) -> np.ndarray:
+        """Forces (2k,) [N/m] on the surface's nodes."""
+        force = self.normal @ pressure
+        return force + friction * (self.tangential @ pressure) if friction else force
+
+    def _load(self, force: np.ndarray) -> np.ndarray:
+        """Forces (n, 2) on all nodes from those (2k,) on the surface's."""
+        load = np.zeros(self.body.nodes.shape)
+        load[self.body.surface.point] = force.reshape(-1, 2)
+        return load
