@@ -101,7 +101,7 @@ def contact_residuals(
     lowered = displacement / weights
     largest = np.max(np.abs(lowered))
     scale = largest if constraints.load is None else max(np.ptp(lowered), EVEN * largest)
-    scale = scale or 1.0
+    scale = scale or max(0.0, -np.min(actual)) or 1.0  # overlapping without pressure
     load = weights @ pressure
     highest = np.max(pressure)
     free = pressure < hardness * (1.0 - SET_TOLERANCE)

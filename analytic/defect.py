@@ -1,16 +1,25 @@
 """Contact on an expensive compliance operator, by way of a cheap model of it.
 
-The operator C (finite elements: one back-substitution an application) is close to a model D
-(the Galerkin half-plane of the same hats). Each step solves the contact problem of the model
-with the defect of the last iterate carried to the linear term,
+The operator C (finite elements: one back-substitution an application) is close to a model D (the
+Galerkin half-plane of the same hats, the surfaces moved by friction included). Each step solves
+the contact problem of the model with what it leaves out carried to the linear term,
 
-    q = argmin 1/2 p'Dp + (G + (C - D) p_k - d w)'p   over the constraints of the problem,
-    p_k+1 = p_k + t (q - p_k),   t the minimiser of the energy 1/2 p'Cp + G'p on the segment,
+    p = solution of the model's problem with G + r for G,     r wanted such that r = (C - D) p.
 
-so that one application of C is spent a step and the energy of the true problem never rises.
+The misfit f(r) = (C - D) p - r is exactly the gap by which p misses the contact conditions on C.
+Repeating r <- r + f shrinks it by what the model leaves out of C. Secants through the last steps
+do better (Anderson 1965; Walker and Ni 2011): with F and R the differences of misfits and of r,
+
+    y = argmin |f - F y| over the nodes in contact,    r <- r - R y + s (f - F y),    s = 1,
+
+which makes a model of the wrong stiffness, or a layer thinner than the contact, harmless. Mixing
+r instead of p keeps every p within the constraints. There is no energy to descend on where
+friction makes C unsymmetric. Instead, when PATIENCE steps in a row have not improved on the best
+one, the iteration goes back to it, forgets the secants and halves s.
 Symbols as in `analytic.contact`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -22,10 +31,17 @@ from analytic.contact import (
     common_gap,
     solve_contact,
 )
+from analytic.coupled_contact import solve_coupled
+from analytic.coupling import CoupledOperator
 from analytic.equilibrium import SET_TOLERANCE, Constraints
 from analytic.operators import ComplianceOperator, ModelOperator
 
 MAX_STEPS = 40
+SECANTS = 2  # with one, half as many steps again over 144 cases; with three, no fewer
+PATIENCE = 3  # four lose time on what does not lead on, two lose secants that do
+SECANT_RANK = 1e-10  # of the larger difference: below, the two point the same way
+
+_Solver = Callable[..., ContactSolution]
 
 
 def solve_with_model(
@@ -40,41 +56,94 @@ def solve_with_model(
     """Solve the contact problem of `operator`; residuals are those of `operator` itself.
 
     gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
-    A model of the wrong stiffness costs steps, not accuracy: what misses `tolerance` after
-    MAX_STEPS, or stops improving, is returned with `converged` False.
+    A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
+    the best of all steps, with `converged` False.
     `iterations` counts the steps and the applications of C and of D.
     """
+    return _solve(operator, model, solve_contact, gap, weights, constraints, start, tolerance)
+
+
+def solve_with_coupled_model(
+    operator: ComplianceOperator,
+    model: CoupledOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+    tolerance: float = KKT_TOLERANCE,
+) -> ContactSolution:
+    """As `solve_with_model`, where sliding traction moves the surfaces.
+
+    `operator` turns pressures into displacements under them and under the traction that they drag
+    along; nothing is asked of it but that its symmetric part is positive definite. `model` is such
+    an operator, too (`analytic.coupling`); without a skew part it serves a frictionless contact.
+    """
+    return _solve(operator, model, solve_coupled, gap, weights, constraints, start, tolerance)
+
+
+def _solve(
+    operator: ComplianceOperator,
+    model: ModelOperator,
+    solver: _Solver,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None,
+    tolerance: float,
+) -> ContactSolution:
     common, constraints = common_gap(gap, weights, constraints)
     gap = gap - common * weights
-    trial = solve_contact(model, gap, weights, constraints, start)
-    pressure, displacement = trial.pressure, operator.apply(trial.pressure)
-    model_applications = trial.iterations["applications"]
-    best = None
+    pressure, carried, share = start, np.zeros_like(gap), 1.0
+    path: list[tuple[np.ndarray, np.ndarray]] = []  # r and f of the last steps
+    best, model_applications = None, 0
     for step in range(1, MAX_STEPS + 1):
-        approach = _approach(displacement, pressure, gap, weights, constraints)
+        trial = solver(model, gap + carried, weights, constraints, pressure)
+        model_applications += 1 + trial.iterations["applications"]
+        pressure = trial.pressure
+        displacement = operator.apply(pressure)
         counts = {"steps": step, "applications": step, "model_applications": model_applications}
+        free = _free(pressure, constraints)
+        approach = _approach(displacement, pressure, gap, weights, constraints)
         solution = assessed(
             displacement, pressure, gap, weights, approach, constraints, counts, tolerance
         )
+        misfit = displacement - model.apply(pressure) - carried
+        if constraints.approach is None:  # the approach takes up what is common to all nodes
+            misfit -= (weights @ misfit) / (weights @ weights) * weights
         if best is None or solution.residuals.worst < best.residuals.worst:
-            best, since_best = solution, 0
+            best, since = solution, 0
+            back = carried, misfit
         else:
-            since_best += 1
-        if solution.converged or since_best == 4:
+            since += 1
+        if solution.converged:
             break
-        defect = displacement - model.apply(pressure)
-        trial = solve_contact(model, gap + defect, weights, constraints, start=pressure)
-        model_applications += 1 + trial.iterations["applications"]
-        direction = trial.pressure - pressure
-        image = operator.apply(trial.pressure) - displacement
-        # w'(q - p) is zero where the load is prescribed; taking the approach off anyway keeps
-        # its round-off, times a large constant, out of the slope
-        slope = direction @ (gap + displacement - approach * weights)
-        curvature = direction @ image
-        length = np.clip(-slope / curvature, 0.0, 1.0) if curvature > 0.0 else 1.0
-        pressure = pressure + length * direction
-        displacement = displacement + length * image
+        if since == PATIENCE:
+            pressure, (carried, misfit) = best.pressure, back
+            free, path = _free(pressure, constraints), []
+            share, since = 0.5 * share, 0
+        path = [*path[-SECANTS:], (carried, misfit)]
+        carried = _onward(path, free, share)
     return replace(best, approach=best.approach + common, iterations=counts)
+
+
+def _onward(
+    path: list[tuple[np.ndarray, np.ndarray]], nodes: np.ndarray, share: float
+) -> np.ndarray:
+    """The next r (n,) [m^2] from the pairs (r, f) of the last steps, the newest last."""
+    carried, misfit = path[-1]
+    if len(path) > 1:
+        steps = np.stack([carried - former for former, _ in path[:-1]], axis=1)
+        changes = np.stack([misfit - former for _, former in path[:-1]], axis=1)
+        amounts = np.linalg.lstsq(changes[nodes], misfit[nodes], rcond=SECANT_RANK)[0]
+        carried, misfit = carried - steps @ amounts, misfit - changes @ amounts
+    return carried + share * misfit
+
+
+def _free(pressure: np.ndarray, constraints: Constraints) -> np.ndarray:
+    """Which nodes (n,) touch and are below the hardness; where there are none, all that touch."""
+    touching = pressure > 0.0
+    free = touching & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
+    return free if free.any() else touching
 
 
 def _approach(
@@ -87,6 +156,5 @@ def _approach(
     """The approach as prescribed, or the one that closes the mean gap of the free nodes [m]."""
     if constraints.approach is not None:
         return constraints.approach
-    free = (pressure > 0.0) & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
-    carriers = np.where(free, pressure, 0.0) if free.any() else pressure
+    carriers = np.where(_free(pressure, constraints), pressure, 0.0)
     return float(carriers @ (gap + displacement) / (carriers @ weights))

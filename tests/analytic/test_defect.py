@@ -4,11 +4,19 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from analytic.contact import solve_contact
-from analytic.defect import solve_with_model
+from analytic import defect
+from analytic.contact import contact_residuals, solve_contact
+from analytic.coupled_contact import solve_coupled
+from analytic.coupling import CoupledHalfPlane, CoupledPair
+from analytic.defect import solve_with_coupled_model, solve_with_model
 from analytic.equilibrium import Constraints
 from analytic.gap import HatGrid, roller_gap
+from analytic.layer import LayeredSurface
+from analytic.layer_coupling import TangentialLayer
+from analytic.layered import LayeredBody
+from analytic.material import Material
 from analytic.operators import HalfPlane, SumOfBodies
+from analytic.synthetic import self_affine
 
 RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 1.0e6
 GRID = HatGrid.within(-0.5e-3, 0.5e-3, 4e-6)
@@ -66,7 +74,7 @@ def test_the_model_itself_needs_one_step():
     assert solution.pressure == pytest.approx(direct.pressure, abs=1e-9 * direct.pressure.max())
 
 
-@pytest.mark.parametrize("factor", [0.7, 1.5])
+@pytest.mark.parametrize("factor", [0.3, 0.7, 1.5, 3.0])
 def test_a_model_of_the_wrong_modulus_does_not_change_the_answer(factor):
     right = solve_contact(half_plane(), average_gap(), GRID.weights, Constraints(load=LOAD))
     solution = solve_with_model(
@@ -114,3 +122,143 @@ def test_a_large_common_displacement_does_not_stall_the_iteration():
     )
     assert plain.converged and raised.converged
     assert raised.pressure == pytest.approx(plain.pressure, abs=1e-6 * plain.pressure.max())
+
+
+LIGHT = Constraints(load=0.8e6)
+CAPPED = Constraints(load=0.8e6, hardness=8e9)
+
+
+def rough_gap(seed: int) -> np.ndarray:
+    curve = self_affine(
+        hurst=0.8,
+        samples=2049,
+        length=4e-3,
+        seed=seed,
+        rms_slope=0.05,
+        shortest_wavelength=60e-6,
+        longest_wavelength=0.4e-3,
+    ).spline()
+    return GRID.average(lambda x: roller_gap(RADIUS)(x) - curve(x))
+
+
+def sliding(friction_dundurs: float, modulus: float = MODULUS) -> CoupledHalfPlane:
+    return CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction_dundurs)
+
+
+def misses(operator, found, gap: np.ndarray, constraints: Constraints) -> float:
+    """How far the contact conditions fail, over the range of displacements; written anew."""
+    moved = operator.apply(found.pressure)
+    gap = gap + moved - found.approach * GRID.weights
+    touching = found.pressure > 0.0
+    free = touching & (found.pressure < 0.999999 * constraints.hardness)
+    wrong = [np.abs(gap[free]), -gap[~touching], gap[touching & ~free], -found.pressure]
+    return max(np.max(each, initial=0.0) for each in wrong) / np.ptp(moved)
+
+
+class TestSurfacesMovedByFriction:
+    @pytest.mark.parametrize("constraints", [LIGHT, CAPPED, Constraints(approach=3e-7)])
+    @pytest.mark.parametrize("friction_dundurs", [0.05, -0.15, 0.5])
+    def test_result_is_that_of_the_operator(self, friction_dundurs, constraints):
+        """A few per cent beside the model: as few steps as without friction."""
+        skew = sliding(friction_dundurs).block(np.arange(GRID.count)) - toeplitz(
+            half_plane().column
+        )
+        operator = Dense(perturbed().matrix + 1.05 * skew)
+        gap = rough_gap(4)
+        found = solve_with_coupled_model(
+            operator, sliding(friction_dundurs), gap, GRID.weights, constraints
+        )
+        assert found.converged
+        assert found.iterations["steps"] == found.iterations["applications"] <= 9
+        assert misses(operator, found, gap, constraints) < 1e-7
+
+    def test_without_a_skew_part_it_is_the_frictionless_contact(self):
+        gap = rough_gap(4)
+        one = solve_with_coupled_model(perturbed(), sliding(0.0), gap, GRID.weights, LIGHT)
+        other = solve_with_model(perturbed(), half_plane(), gap, GRID.weights, LIGHT)
+        assert one.pressure == pytest.approx(other.pressure, abs=1e-12 * one.pressure.max())
+        assert one.iterations == other.iterations
+
+    @pytest.mark.parametrize("constraints", [LIGHT, CAPPED])
+    @pytest.mark.parametrize("factor", [0.3, 2.5])
+    @pytest.mark.parametrize("seed", [3, 4, 5])
+    def test_a_model_of_the_wrong_modulus_does_not_change_the_answer(
+        self, seed, factor, constraints
+    ):
+        gap = rough_gap(seed)
+        right = solve_coupled(sliding(0.3), gap, GRID.weights, constraints)
+        found = solve_with_coupled_model(
+            sliding(0.3), sliding(0.3, factor * MODULUS), gap, GRID.weights, constraints
+        )
+        assert found.converged and found.iterations["steps"] > 2
+        assert found.pressure == pytest.approx(right.pressure, abs=1e-5 * right.pressure.max())
+
+    def test_where_no_whole_step_comes_nearer_shorter_ones_do(self, monkeypatch):
+        """A model five times too stiff."""
+        gap = rough_gap(3)
+        right = solve_coupled(sliding(0.3), gap, GRID.weights, LIGHT)
+
+        def found():
+            return solve_with_coupled_model(
+                sliding(0.3), sliding(0.3, 5.0 * MODULUS), gap, GRID.weights, LIGHT
+            )
+
+        assert found().converged
+        assert found().pressure == pytest.approx(right.pressure, abs=1e-5 * right.pressure.max())
+        monkeypatch.setattr(defect, "PATIENCE", defect.MAX_STEPS)
+        assert found().residuals.worst > 1e-3
+
+    def test_a_model_without_friction_takes_more_steps_to_the_same(self):
+        gap, steps = rough_gap(6), []
+        right = solve_coupled(sliding(0.3), gap, GRID.weights, LIGHT)
+        for known in (0.3, 0.15, 0.0):
+            found = solve_with_coupled_model(sliding(0.3), sliding(known), gap, GRID.weights, LIGHT)
+            assert found.converged
+            assert found.pressure == pytest.approx(right.pressure, abs=1e-6 * right.pressure.max())
+            steps.append(found.iterations["steps"])
+        assert steps[0] == 1 < steps[1] < steps[2] <= 16
+
+    @pytest.mark.parametrize("base", ["bonded", "frictionless"])
+    @pytest.mark.parametrize(("thickness", "most"), [(1e-3, 7), (1e-4, 16)])
+    def test_a_layer_thinner_than_the_contact(self, base, thickness, most):
+        """Half-width 0.15 mm: the half-plane still leads there."""
+        body = LayeredBody(Material(105e9, 0.3), thickness, base)
+        operator = CoupledPair(
+            LayeredSurface(GRID.count, GRID.pitch, body),
+            TangentialLayer(GRID.count, GRID.pitch, body),
+            0.5,
+        )
+        gap = rough_gap(7)
+        right = solve_coupled(operator, gap, GRID.weights, Constraints(load=LOAD))
+        found = solve_with_coupled_model(
+            operator, sliding(0.5 * 2 / 7), gap, GRID.weights, Constraints(load=LOAD)
+        )
+        assert found.converged and found.iterations["steps"] <= most
+        assert found.pressure == pytest.approx(right.pressure, abs=1e-6 * right.pressure.max())
+
+    def test_what_does_not_converge_is_the_best_of_all_steps(self):
+        rng = np.random.default_rng(2)
+        matrix = sliding(0.3).block(np.arange(GRID.count))
+        operator = Dense(matrix + matrix.max() * rng.standard_normal(matrix.shape))
+        found = solve_with_coupled_model(operator, sliding(0.3), rough_gap(3), GRID.weights, LIGHT)
+        first = solve_coupled(sliding(0.3), rough_gap(3), GRID.weights, LIGHT)
+        assert not found.converged and found.iterations["steps"] == 40
+        _, start = contact_residuals(
+            operator.apply(first.pressure),
+            first.pressure,
+            rough_gap(3),
+            GRID.weights,
+            first.approach,
+            LIGHT,
+        )
+        assert 1e-6 < found.residuals.worst < start.worst
+
+
+def test_no_pressure_under_an_approach_that_closes_the_gap_is_no_solution():
+    """In whatever unit of length."""
+    for unit in (1.0, 1e-9):
+        gap, weights = np.array([0.2, 0.0, 0.2]) * unit**2, np.ones(3) * unit
+        _, residuals = contact_residuals(
+            np.zeros(3), np.zeros(3), gap, weights, 0.1 * unit, Constraints(approach=0.1 * unit)
+        )
+        assert residuals.penetration == pytest.approx(1.0)
