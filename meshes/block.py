@@ -22,6 +22,9 @@ class BlockSpec:
                         larger than size, so that a stress field there is resolved
     interface           depth of a line across the whole block that element edges follow (the
                         lower boundary of a coating), or None
+    vertices            (k,) ascending x of the mesh nodes on the surface from the start of the
+                        first interval to the end of the last, in place of equal edges there, or
+                        None; sizes below follow these edges
     """
 
     half_width: float
@@ -31,6 +34,7 @@ class BlockSpec:
     growth: float = 0.2
     window: tuple[float, float, float, float] | None = None
     interface: float | None = None
+    vertices: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from meshes.block import BlockSpec
 from meshes.coating import LAYERS, core
 from meshes.errors import MeshError
-from meshes.size_law import edges_per_size, surface_edge, wanted_size
+from meshes.size_law import edges_per_size, own_vertices, wanted_size
 
 # An interval may miss a whole number of edges by this part of an edge (rounding of its ends).
 WHOLE_EDGES_TOLERANCE = 1e-6
@@ -56,6 +56,17 @@ def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
     return whole * edges_per_size(spec)
 
 
+def refined_nodes(spec: BlockSpec) -> list[np.ndarray]:
+    """Ascending x [m] of the vertices on each refined interval, or on all of them together where
+    spec gives its own."""
+    if spec.vertices is not None:
+        return [own_vertices(spec)]
+    return [
+        np.linspace(start, end, interval_edges(spec, start, end) + 1)
+        for start, end in np.asarray(spec.intervals, dtype=float)
+    ]
+
+
 def top_nodes(spec: BlockSpec) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, both corners included.
 
@@ -66,12 +77,11 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
     def size(x: np.ndarray) -> np.ndarray:
         return wanted_size(spec, x, np.zeros_like(x))
 
-    h, half = surface_edge(spec), spec.half_width
-    pieces = []
+    half, pieces = spec.half_width, []
     reached = -half
 
     def fill(to: float) -> None:
-        rest = to - reached
+        rest, h = to - reached, size(np.array([reached, to])).min()
         if rest <= WHOLE_EDGES_TOLERANCE * h:
             return
         if rest < LEAST_LEFTOVER * h:
@@ -84,10 +94,10 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
     low, high = (-half, half) if spec.interface is None else core(spec)
     fill(low)
     reached = low
-    for start, end in np.asarray(spec.intervals, dtype=float):
-        fill(start)
-        pieces.append(np.linspace(start, end, interval_edges(spec, start, end) + 1)[:-1])
-        reached = end
+    for inside in refined_nodes(spec):
+        fill(inside[0])
+        pieces.append(inside[:-1])
+        reached = inside[-1]
     fill(high)
     reached = high
     fill(half)

@@ -64,6 +64,19 @@ def check_spec(spec: BlockSpec) -> None:
             bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
             f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
         )
+    if spec.vertices is not None:
+        vertices = np.asarray(spec.vertices, dtype=float)
+        demand(
+            bool(
+                vertices.ndim == 1
+                and len(vertices) > 1
+                and np.isfinite(vertices).all()
+                and (np.diff(vertices) > 0.0).all()
+                and np.abs(vertices[[0, -1]] - flat[[0, -1]]).max() <= slack
+            ),
+            "vertices must be finite, ascending, and reach from the first interval's start to the "
+            "last one's end",
+        )
     if spec.interface is not None:
         demand(
             bool(0.0 < spec.interface < spec.depth),
@@ -85,6 +98,7 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
         surface_size=float(scaled(spec.surface_size)),
         window=None if spec.window is None else tuple(scaled(spec.window).tolist()),
         interface=None if spec.interface is None else float(scaled(spec.interface)),
+        vertices=None if spec.vertices is None else scaled(spec.vertices),
     )
 
 

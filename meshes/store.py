@@ -59,7 +59,10 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
         field_data={name: np.array([tag, 1]) for name, tag in SIDES.items()}
         | {BODY[0]: np.array([BODY[1], 2])},
     )
-    spec = asdict(mesh.spec) | {"intervals": np.asarray(mesh.spec.intervals).tolist()}
+    spec = {
+        name: value.tolist() if isinstance(value, np.ndarray) else value
+        for name, value in asdict(mesh.spec).items()
+    }
     unfinished = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         meshio.write(unfinished, content, file_format="gmsh22", binary=True)
@@ -105,4 +108,7 @@ def read_spec(path: Path) -> BlockSpec:
     kept = json.loads(content[at + len(start) :].split(b"\n", 1)[0])
     window = None if kept["window"] is None else tuple(kept["window"])
     intervals = np.array(kept["intervals"], dtype=float).reshape(-1, 2)
-    return BlockSpec(**(kept | {"intervals": intervals, "window": window}))
+    vertices = kept.get("vertices")
+    vertices = None if vertices is None else np.array(vertices, dtype=float)
+    kept |= {"intervals": intervals, "window": window, "vertices": vertices}
+    return BlockSpec(**kept)
