@@ -1,0 +1,149 @@
+"""The disc's sector: on its circle, of its area, fit to solve on up to the bounds."""
+
+import numpy as np
+import pytest
+
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.disc import bent, sagitta
+from meshes.errors import MeshError
+from meshes.quality import corner_jacobians, real_points
+from meshes.roughen import roughen
+from meshes.second_order import EDGES
+from meshes.store import read_msh, write_msh
+
+RADIUS = 2.0
+# Degree 4 on the triangle (0,0), (1,0), (0,1): Strang and Fix, 6 points; weights sum to 1/2.
+A, B = 0.445948490915965, 0.091576213509771
+POINTS = np.array([[A, A], [1 - 2 * A, A], [A, 1 - 2 * A], [B, B], [1 - 2 * B, B], [B, 1 - 2 * B]])
+WEIGHTS = 0.5 * np.repeat([0.223381589678011, 0.109951743655322], 3)
+
+
+def block(half_width=1.2, depth=1.0, size=0.02, growth=0.2):
+    return build_block(BlockSpec(half_width, depth, np.array([[-0.2, 0.2]]), size, growth))
+
+
+def even_block(size):
+    """Edges of one size all along the surface and in the body."""
+    return build_block(BlockSpec(1.2, 1.0, np.array([[-1.2, 1.2]]), size, 0.0))
+
+
+@pytest.fixture(scope="module")
+def flat():
+    return block()
+
+
+@pytest.fixture(scope="module")
+def disc(flat):
+    return bent(flat, RADIUS)
+
+
+def from_centre(points):
+    x, z = points[..., 0], points[..., 1]
+    return np.hypot(x, RADIUS - z), np.arctan2(x, RADIUS - z)
+
+
+def determinants(mesh, at):
+    """Of the quadratic map, from its shape functions' derivatives, at points (q, 2)."""
+    r, s = at.T
+    t = 1.0 - r - s
+    zero = np.zeros_like(r)
+    d_r = np.stack([1 - 4 * t, 4 * r - 1, zero, 4 * (t - r), 4 * s, -4 * s], axis=1)
+    d_s = np.stack([1 - 4 * t, zero, 4 * s - 1, -4 * r, 4 * r, 4 * (t - s)], axis=1)
+    nodes = real_points(mesh)[mesh.triangles]
+    a, b = (np.einsum("qk,ekd->eqd", d, nodes) for d in (d_r, d_s))
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def test_surface_lies_on_the_circle_and_keeps_x(flat, disc):
+    on = flat.points[:, 1] == 0.0
+    top = real_points(disc)[on]
+    assert np.array_equal(top[:, 0], flat.points[on, 0])
+    assert from_centre(top)[0] == pytest.approx(np.full(on.sum(), RADIUS), rel=4e-16)
+    assert on.sum() > 50
+
+
+def test_depths_become_circles_and_upright_lines_rays(flat, disc):
+    distance, angle = from_centre(real_points(disc))
+    x, z = flat.points.T
+    assert distance == pytest.approx(RADIUS - z, rel=2e-15)
+    assert np.sin(angle) == pytest.approx(x / RADIUS, abs=1e-15)
+
+
+def test_nothing_but_the_places_changes(flat, disc):
+    assert np.array_equal(disc.points, flat.points)
+    assert np.array_equal(disc.triangles, flat.triangles)
+    assert disc.spec is flat.spec and not flat.shift.any()
+
+
+def test_sagitta_of_a_nearly_flat_circle_keeps_its_digits():
+    x = np.array([1e-6, 1e-3])
+    assert sagitta(x, 1e3) == pytest.approx([5e-16, 5e-10 * (1.0 + 2.5e-13)], rel=1e-15)
+
+
+def test_between_its_nodes_the_surface_is_off_the_circle_by_the_cube_of_the_edge():
+    errors = []
+    for size in (0.2, 0.1, 0.05):
+        mesh = bent(even_block(size), RADIUS)
+        ends = mesh.triangles[:, EDGES].reshape(-1, 2)
+        edge = np.column_stack([ends, mesh.triangles[:, 3:].ravel()])
+        edge = edge[(mesh.points[edge, 1] == 0.0).all(axis=1)]
+        start, end, middle = np.moveaxis(real_points(mesh)[edge], 1, 0)
+        t = np.linspace(0.0, 1.0, 21)[:, None, None]
+        curve = (1 - t) * (1 - 2 * t) * start + t * (2 * t - 1) * end + 4 * t * (1 - t) * middle
+        errors.append(np.abs(from_centre(curve)[0] - RADIUS).max())
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(3.0, abs=0.3)
+    assert errors[-1] < 2e-6 * RADIUS
+
+
+def test_area_is_that_of_the_sector():
+    exact = np.arcsin(1.2 / RADIUS) * (RADIUS**2 - (RADIUS - 1.0) ** 2)
+    errors = []
+    for size in (0.15, 0.075, 0.0375):
+        found = (determinants(bent(even_block(size), RADIUS), POINTS) @ WEIGHTS).sum()
+        errors.append(abs(found / exact - 1.0))
+    assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(4.0, abs=0.5)
+    assert errors[-1] < 1e-6
+
+
+@pytest.mark.parametrize("growth", [0.1, 0.5])
+@pytest.mark.parametrize(("half_width", "depth"), [(1.6, 1.4), (1.6, 0.2), (0.4, 1.4), (1.4, 1.2)])
+def test_fit_to_solve_on_up_to_the_bounds(half_width, depth, growth):
+    """0.8 of the radius wide to a side and 0.7 of it deep."""
+    mesh = bent(block(half_width, depth, 0.005, growth), RADIUS)
+    assert mesh.quality["least_angle_degrees"] > 12.0
+    assert mesh.quality["least_jacobian"] > 0.2
+    assert mesh.quality["size_jump"] < 2.2
+    inside = determinants(mesh, np.random.default_rng(1).dirichlet([1, 1, 1], 30)[:, :2])
+    corners = corner_jacobians(real_points(mesh), mesh.triangles).min(axis=1)
+    # the corners tell whether an element is turned over although their map is not linear
+    assert np.all(inside.min(axis=1) > 0.95 * corners) and corners.min() > 0.0
+
+
+@pytest.mark.parametrize(
+    ("half_width", "depth", "what"), [(1.7, 0.5, "half-width 1.7"), (0.5, 1.5, "depth 1.5")]
+)
+def test_more_than_that_is_refused(half_width, depth, what):
+    with pytest.raises(MeshError, match=f"{what} m cannot be bent to a disc of radius 2 m"):
+        bent(block(half_width, depth), RADIUS)
+
+
+def test_only_a_flat_block_is_bent(disc, flat):
+    for mesh in (disc, roughen(flat, lambda x: 0.01 * np.cos(x))):
+        with pytest.raises(MeshError, match="flat block"):
+            bent(mesh, RADIUS)
+
+
+def test_scales_with_the_unit_of_length(flat, disc):
+    small = build_block(BlockSpec(1.2e-3, 1e-3, np.array([[-2e-4, 2e-4]]), 2e-5))
+    assert real_points(bent(small, 1e-3 * RADIUS)) == pytest.approx(
+        1e-3 * real_points(disc), abs=1e-15
+    )
+
+
+def test_comes_back_from_its_file(disc, tmp_path):
+    write_msh(disc, tmp_path / "disc.msh")
+    found = read_msh(tmp_path / "disc.msh")
+    assert np.array_equal(found.shift, disc.shift)
+    assert found.points == pytest.approx(disc.points, abs=1e-15)
+    assert real_points(found) == pytest.approx(real_points(disc), abs=1e-15)
