@@ -174,3 +174,14 @@ def real_number(value: float) -> np.floating:
     from petsc4py import PETSc
 
     return PETSc.ScalarType(value)
+
+
+def assembled_vector(linear: "Form") -> np.ndarray:
+    """Values of a compiled linear form at the components that this process knows.
+
+    The vector of 0.5 is a metaclass' product, later ones have a class of their own; all have an
+    array, of which dolfinx itself lets go with the vector.
+    """
+    from dolfinx import fem
+
+    return fem.assemble_vector(linear).array.copy()
