@@ -18,10 +18,10 @@ import numpy as np
 from fem.compliance import FiniteElementCompliance
 from fem.contact_terms import Contact, Response
 from fem.elasticity import ElasticBody
-from fem.hyperelastic import NeoHookeanBody, nodal_cauchy_stress
+from fem.hyperelastic import NeoHookeanBody, along_surface, nodal_cauchy_stress
 from fem.nonlinear_contact import ContactState, NonlinearSolution, solve_nonlinear_contact
 from fem.rigid_roller import CurrentContact, Roller
-from fem.stress import NodalStress, along_surface, nodal_stress
+from fem.stress import NodalStress, nodal_stress
 
 
 @dataclass(frozen=True)
