@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -66,15 +67,21 @@ class HatGrid:
 
 
 def roller_gap(
-    radius: float, height: Callable[[np.ndarray], np.ndarray] | None = None
+    radius: float,
+    height: Callable[[np.ndarray], np.ndarray] | None = None,
+    shape: Literal["parabola", "circle"] = "parabola",
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """Initial gap g0(x) [m] of a parabolic roller x^2 / 2R over heights z(x) [m]; flat if None.
+    """Initial gap g0(x) [m] of a roller over heights z(x) [m]; flat if None.
+
+    shape  x^2 / 2R, or R - sqrt(R^2 - x^2) for |x| <= R
 
     The constant of the gap is arbitrary: the approach absorbs it.
     """
 
     def gap(x: np.ndarray) -> np.ndarray:
-        parabola = x**2 / (2.0 * radius)
-        return parabola if height is None else parabola - height(x)
+        # the circle's sagitta without the difference of nearly equal numbers
+        twice = 2.0 * radius if shape == "parabola" else radius + np.sqrt(radius**2 - x**2)
+        sagitta = x**2 / twice
+        return sagitta if height is None else sagitta - height(x)
 
     return gap

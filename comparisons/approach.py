@@ -7,7 +7,9 @@ is then compared under the load that the layer carries.
 import numpy as np
 
 from comparisons.errors import SceneError
-from comparisons.finite_element import Refinement, finite_element_level
+from comparisons.finite_element import finite_element_level
+from comparisons.finite_element_bodies import BodyStore
+from comparisons.finite_element_mesh import Refinement
 from comparisons.plan import make_plan
 from comparisons.problem import Problem, problem_of
 from comparisons.scene import ResolvedScene
@@ -28,13 +30,14 @@ def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
     half_width = np.sqrt(scene.roller_radius * wanted)
     modulus = scene.body.plane_strain_modulus
     load = np.pi * modulus * half_width**2 / (4.0 * scene.roller_radius)
+    store = BodyStore()
     for _ in range(MOST_ROUNDS):
         problem = problem_of(scene, load)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
         listener("finite elements: load of the prescribed approach")
         level = finite_element_level(
-            problem, plan, Refinement(pitch), None, Stages(), approach=wanted
+            problem, plan, Refinement(pitch), None, Stages(), approach=wanted, store=store
         )
         before, load = load, level.solution.load
         low, high = problem.extent

@@ -1,13 +1,15 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
 from itertools import count
+from typing import Any
 
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import discretisations
 from comparisons.level import Level, ModelRun, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
-from comparisons.stages import Listener, Stages, silent
+from comparisons.rank import from_first
+from comparisons.stages import Listener, Stages, machine_memory, silent
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 MOST_LEVELS = 8
@@ -31,10 +33,12 @@ def refined(
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     halved: Level | None = None
 
+    shared: dict[str, Any] = {}
+
     def solved(name: str, kept: str, pitch: float, tell: Listener, **how: bool) -> Level:
         level = checkpoint.load(kept)
         if level is None:
-            level = _solve(name, problem, plan, pitch, window, tell, **how)
+            level = _solve(name, problem, plan, pitch, window, tell, shared, **how)
             checkpoint.save(kept, level)
         return level
 
@@ -94,15 +98,18 @@ def _spent(problem: Problem, plan: Plan, runs: dict[str, ModelRun]) -> str | Non
     budget = problem.scene.budget
     total = sum(sum(run.seconds.values()) for run in runs.values())
     last = sum(sum(run.finest.seconds.values()) for run in runs.values())
-    if total + GROWTH_OF_TIME * last > budget.time:
+    if from_first(lambda: total + GROWTH_OF_TIME * last) > budget.time:
         return f"a finer level would exceed {budget.time:g} s (budget.time)"
     if "finite_element" in runs:
-        from comparisons.finite_element import Refinement, expected_memory
+        from comparisons.finite_element_cost import expected
+        from comparisons.finite_element_mesh import Refinement
 
         finest = runs["finite_element"].finest
-        refinement = Refinement(0.5 * finest.grid.pitch)
-        if expected_memory(problem, plan, refinement, finest.patches) > budget.memory:
+        finer = expected(problem, plan, Refinement(0.5 * finest.grid.pitch), finest.patches)
+        if finer.memory > budget.memory:
             return f"a finer level would exceed {budget.memory:g} bytes (budget.memory)"
+        if finer.memory > from_first(machine_memory):
+            return f"a finer level would take {finer.memory:.2g} bytes, more than this machine has"
     return None
 
 
@@ -113,14 +120,22 @@ def _solve(
     pitch: float,
     window: Window | None,
     listener: Listener,
+    shared: dict[str, Any],
     halved: bool = False,
 ) -> Level:
-    """One level of one model; what the other model alone needs is not imported."""
+    """One level of one model; what the other model alone needs is not imported.
+
+    `shared` keeps the bodies of one pitch, for a second level of it.
+    """
     if name == "half_plane":
         from comparisons.half_plane import half_plane_level
 
         return half_plane_level(problem, plan, pitch, window, Stages(listener))
-    from comparisons.finite_element import Refinement, finite_element_level
+    from comparisons.finite_element import finite_element_level
+    from comparisons.finite_element_bodies import BodyStore
+    from comparisons.finite_element_mesh import Refinement
 
-    refinement = Refinement(pitch, halved)
-    return finite_element_level(problem, plan, refinement, window, Stages(listener))
+    if shared.get("pitch") != pitch:  # the coarser ones would only fill the memory
+        shared |= {"pitch": pitch, "store": BodyStore()}
+    refinement, stages = Refinement(pitch, halved), Stages(listener)
+    return finite_element_level(problem, plan, refinement, window, stages, store=shared["store"])

@@ -74,6 +74,8 @@ class Level:
     unknowns      of the linear systems behind the compliance
     factor_memory bytes that their factors hold, 0 without any
     peak_memory   largest memory of the process when the level was done [bytes]
+    expected_seconds, expected_memory   [bytes] by the laws that a level is refused or planned by,
+                  0 without finite elements
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
     """
@@ -86,6 +88,8 @@ class Level:
     unknowns: int
     factor_memory: int = 0
     peak_memory: int = 0
+    expected_seconds: float = 0.0
+    expected_memory: float = 0.0
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None

@@ -6,8 +6,8 @@ leaves nothing out, for the test of that.
 
 from dataclasses import dataclass, replace
 
+from comparisons.assumptions import assumptions_of
 from comparisons.problem import Problem
-from comparisons.running_in import running_in_assumptions
 from comparisons.scene import ResolvedScene
 
 MODELS = ("half_plane", "finite_element")
@@ -33,7 +33,7 @@ class Plan:
     coupling        what friction does to the contact by moving the surfaces, on the half-plane
     domain_check    repeat the coarsest finite-element level on a block of half the size
     skipped         what is left out, each with its reason
-    assumptions     what both models of this run take for granted
+    assumptions     what the models of this run take for granted
     """
 
     models: tuple[str, ...]
@@ -60,7 +60,8 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     shared = finite_elements and _shares_factor(scene)
     uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
     coupling = "half_plane" in models and not all(uncoupled)
-    domain_check = finite_elements and (scene.thickness is None or scene.width is None)
+    unbounded = scene.thickness is None or scene.width is None
+    domain_check = finite_elements and unbounded
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
     ]
@@ -94,7 +95,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         coupling=coupling,
         domain_check=domain_check,
         skipped=tuple(skipped),
-        assumptions=_assumptions(problem),
+        assumptions=assumptions_of(problem),
     )
 
 
@@ -114,44 +115,14 @@ def unpruned(plan: Plan) -> Plan:
 
 def _shares_factor(scene: ResolvedScene) -> bool:
     """Whether the roller's block is the body's, but for a factor on its modulus."""
+    settings = scene.finite_element
     return (
         scene.roller is not None
         and scene.roller.poissons_ratio == scene.body.poissons_ratio
         and scene.thickness is None
         and scene.width is None
-        and scene.finite_element.geometry == "flat"
+        and scene.coating is None
+        and settings.geometry == "flat"
+        and settings.roller_body == "half-plane"
+        and not settings.plastic
     )
-
-
-def _assumptions(problem: Problem) -> tuple[str, ...]:
-    scene = problem.scene
-    beta = problem.dundurs_beta
-    listed = [
-        "linear elasticity, small deformation, plane strain",
-        "the roller is a parabola of the relative curvature",
-        "the gap is taken at the undeformed place",
-    ]
-    if scene.finite_element.geometry == "flat":
-        listed.append("the roughness is in the gap: the pressure acts along the mean normal")
-    else:
-        listed.append(
-            "finite elements: the pressure acts on the real, undeformed boundary along the "
-            "roller's normal; next to it stresses are those of asperities that do not flatten"
-        )
-    if scene.running_in is not None:
-        listed += running_in_assumptions(scene)
-    if scene.hardness is not None:
-        listed.append("plastic flow is a cap on the pressure (hardness)")
-    if any(scene.friction):
-        size = max(scene.friction) * abs(beta)
-        listed.append(
-            f"the sliding traction moves the surfaces (friction times Dundurs' beta is {size:.3g})"
-            if scene.coupled
-            else "the sliding traction does not change the pressure"
-            + (
-                " (exact: Dundurs' beta is 0)"
-                if beta == 0.0
-                else f" (friction times Dundurs' beta is {size:.3g})"
-            )
-        )
-    return tuple(listed)

@@ -10,16 +10,19 @@ from functools import cached_property
 
 import numpy as np
 
+from analytic.contact import solve_contact
 from analytic.coupled_contact import solve_coupled
 from analytic.coupling import CoupledHalfPlane
 from analytic.equilibrium import Constraints
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.gap import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
+from analytic.operators import ModelOperator
 from analytic.patches import contact_patches
 from analytic.profile import surface
 from analytic.roughness import shortest_wavelength
 from comparisons.errors import SceneError
+from comparisons.nearest_operator import is_layered, nearest_operator
 from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
 
@@ -43,7 +46,7 @@ class Problem:
     scene      as resolved, its surface run in where it asks for that
     modulus    E* of roller and body [Pa]
     hertz      the smooth contact under the same load
-    gap        initial gap g0(x) [m] but for a constant
+    gap        initial gap g0(x) [m] under a parabola, but for a constant
     knots      (k,) [m] places where the gap's third derivative jumps, None if smooth
     extent     (2,) [m] stretch of the surface that contact may reach
     pitches    of the first levels, coarse to fine, each half of the one before [m]
@@ -75,6 +78,13 @@ class Problem:
         """
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
         return self.scene.finite_element.block * half_width
+
+    @cached_property
+    def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
+        """Initial gap g0(x) [m] of the finite elements' roller, but for a constant."""
+        curve = None if self.scene.profile is None else surface(self.scene.profile)
+        shape = self.scene.finite_element.roller_shape
+        return roller_gap(self.scene.roller_radius, curve, shape)
 
     @cached_property
     def first_touch(self) -> float:
@@ -123,6 +133,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
         pitches=(),
     )
     plain = scene.profile is None and scene.width is None and scene.hardness is None
+    plain = plain and scene.coating is None
     if not plain or problem.coupling:
         problem = replace(problem, extent=_reach(problem))
     problem = replace(problem, pitches=_pitches(problem))
@@ -188,17 +199,24 @@ def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
 
 
 def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
-    """First and last contact [m] of the half-plane between `low` and `high`, by SCOUT_HATS
+    """First and last contact [m] of either model between `low` and `high`, by SCOUT_HATS
     pressures; and how near to the ends [m] that is too near."""
     grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
-    solution = solve_coupled(
-        CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling),
-        grid.average(problem.gap, problem.knots),
-        grid.weights,
-        problem.constraints(),
-    )
+    half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+    start, stop = touched(problem, grid, half_plane)
+    if is_layered(problem.scene):
+        other = touched(problem, grid, nearest_operator(problem.scene, grid))
+        start, stop = min(start, other[0]), max(stop, other[1])
+    return (start, stop), 2.0 * grid.pitch
+
+
+def touched(problem: Problem, grid: HatGrid, operator: ModelOperator) -> tuple[float, float]:
+    """First and last contact [m] on an operator."""
+    average = grid.average(problem.gap, problem.knots)
+    solve = solve_coupled if isinstance(operator, CoupledHalfPlane) else solve_contact
+    solution = solve(operator, average, grid.weights, problem.constraints())
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return (float(patches[0, 0]), float(patches[-1, 1])), 2.0 * grid.pitch
+    return float(patches[0, 0]), float(patches[-1, 1])
 
 
 def _pitches(problem: Problem) -> tuple[float, ...]:
@@ -208,6 +226,10 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     if scene.resolution.pitch is not None:
         return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
+    if is_layered(scene):
+        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SCOUT_HATS)
+        start, stop = touched(problem, grid, nearest_operator(scene, grid))
+        finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
     # a light load on a crest touches far less ground than its Hertz contact of the roller

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -9,17 +10,25 @@ from pydantic import ValidationError
 from analytic.material import Material
 from comparisons.scene import (
     Budget,
-    FiniteElementSettings,
+    Coated,
     Load,
     Resolution,
     ResolvedScene,
     StressWindow,
+    Yielding,
 )
 from comparisons.scene_errors import scene_error
 from comparisons.scene_file import find_scene, read_toml
+from comparisons.scene_finite_element import settings_of
 from comparisons.scene_profile import profile_of, sinusoid_length
 from comparisons.scene_running_in import running_in_of
-from comparisons.scene_schema import RollerTable, SceneTables, plain_tables
+from comparisons.scene_schema import (
+    BodyTable,
+    CoatingTable,
+    RollerTable,
+    SceneTables,
+    plain_tables,
+)
 
 LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
 
@@ -55,6 +64,8 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
     plain = plain_tables(scene)
     if scene.body.thickness is not None:
         plain["body"].setdefault("base", "bonded")
+    settings = settings_of(scene.finite_element, scene.load.coupled)
+    plain["finite_element"] = asdict(settings)
     profile = info = None
     position = scene.load.position or 0.0
     if scene.profile is not None:
@@ -83,6 +94,8 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         roller=roller,
         body=body,
         hardness=scene.body.hardness,
+        yielding=_yielding(scene.body),
+        coating=_coating(scene.coating),
         thickness=scene.body.thickness,
         width=scene.body.width,
         base=plain["body"].get("base"),
@@ -95,7 +108,7 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
         position=position,
         stress=None if scene.stress is None else StressWindow(**dict(scene.stress)),
         tolerance={name: value for name, value in scene.tolerance if value is not None},
-        finite_element=FiniteElementSettings(**dict(scene.finite_element)),
+        finite_element=settings,
         resolution=Resolution(**dict(scene.resolution)),
         budget=Budget(**dict(scene.budget)),
         tables=plain,
@@ -104,3 +117,15 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
 
 def _roller(table: RollerTable) -> Material | None:
     return None if table.rigid else Material(table.youngs_modulus, table.poissons_ratio)
+
+
+def _yielding(table: BodyTable) -> Yielding | None:
+    if table.yield_stress is None:
+        return None
+    return Yielding(table.yield_stress, table.hardening_modulus or 0.0)
+
+
+def _coating(table: CoatingTable | None) -> Coated | None:
+    if table is None:
+        return None
+    return Coated(Material(table.youngs_modulus, table.poissons_ratio), table.thickness)

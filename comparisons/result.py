@@ -114,8 +114,24 @@ def _model(
             "iterations": level.solution.iterations,
             "unknowns": level.unknowns,
             "peak_memory": _peak_memory(problem, run),
+            "levels": [_cost_of(level) for level in run.levels],
         },
         **(_coupling(problem, friction, couplings) if run.name == "half_plane" else {}),
+    }
+
+
+def _cost_of(level: Level) -> dict:
+    """One level: what it took, and what the laws said before it was meshed."""
+    found = {
+        "pitch": level.grid.pitch,
+        "unknowns": level.unknowns,
+        "seconds": sum(level.seconds.values()),
+    }
+    if level.mesh is None:
+        return found
+    return found | {
+        "expected_seconds": level.expected_seconds,
+        "expected_memory": level.expected_memory,
     }
 
 

@@ -37,11 +37,6 @@ def run(
     nothing is written then.
     """
     stages = Stages(listener)
-    if scene.coupled and "finite_element" in models:
-        raise SceneError(
-            f"{scene.source}: load.coupled: is true, but the finite elements leave out that "
-            "friction moves the surfaces; allowed is true with --models half-plane, else false"
-        )
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):

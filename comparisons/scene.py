@@ -29,6 +29,22 @@ class Load:
 
 
 @dataclass(frozen=True)
+class Yielding:
+    """Where the body flows: in tension at `stress` [Pa], hardening by `hardening` [Pa] a strain."""
+
+    stress: float
+    hardening: float
+
+
+@dataclass(frozen=True)
+class Coated:
+    """A coating of `material` and `thickness` [m], bonded to the body."""
+
+    material: Material
+    thickness: float
+
+
+@dataclass(frozen=True)
 class RunningIn:
     """How the surface is run in before it is pressed.
 
@@ -116,16 +132,39 @@ class StressWindow:
 
 @dataclass(frozen=True)
 class FiniteElementSettings:
-    """How the finite-element model is made.
+    """How the finite-element model is made: which of the half-plane's assumptions it keeps.
 
-    geometry   flat: the roughness is in the gap | rough: it is the boundary
-    block      width and depth, in Hertz half-widths, of the stand-in for an unbounded body
-    growth     element size gained per distance from the contact
+    geometry      flat: the roughness is in the gap | rough: it is the boundary
+    gap           reference: at the place before loading, pressure along the mean normal |
+                  displaced: at the displaced place, pressure along the roller's normal
+    roller_shape  parabola | circle
+    roller_body   half-plane | disc: an elastic roller is a block, or a sector of its own circle
+    coupled       the sliding traction moves the surfaces
+    deformation   linear | finite: current shape and normals, hyperelastic
+    plastic       the body yields where its yield stress is reached
+    element       P1 | P2 | P3: degree of the displacements
+    far_field     held: an unbounded body ends at a fixed boundary | half-plane: at one that moves
+                  as a half-plane does there
+    block         width and depth, in Hertz half-widths, of the stand-in for an unbounded body
+    growth        element size gained per distance from the contact
     """
 
     geometry: str
+    gap: str
+    roller_shape: str
+    roller_body: str
+    coupled: bool
+    deformation: str
+    plastic: bool
+    element: str
+    far_field: str
     block: float
     growth: float
+
+    @property
+    def degree(self) -> int:
+        """Of the displacements' polynomials."""
+        return int(self.element[1:])
 
 
 @dataclass(frozen=True)
@@ -152,6 +191,8 @@ class ResolvedScene:
     source           what messages call the scene: its path
     roller           None is a rigid roller
     hardness         [Pa] cap on the contact pressure, or None
+    yielding         of the body, where the finite elements let it; None: elastic
+    coating          of the body, in the finite elements; None: it is of one material
     thickness, width [m] of the body, None where it is unbounded
     base             bonded | frictionless, None without thickness
     profile          None is a smooth body
@@ -174,6 +215,8 @@ class ResolvedScene:
     roller: Material | None
     body: Material
     hardness: float | None
+    yielding: Yielding | None
+    coating: Coated | None
     thickness: float | None
     width: float | None
     base: str | None

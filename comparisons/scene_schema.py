@@ -20,6 +20,7 @@ from comparisons.scene_fields import (
     Truth,
     Whole,
 )
+from comparisons.scene_finite_element import FiniteElementTable
 from comparisons.scene_profile_table import ProfileTable
 from comparisons.scene_running_in import RunningInTable
 from comparisons.scene_table import FieldError, Fraction, Length, Table
@@ -58,6 +59,8 @@ class BodyTable(Table):
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
     hardness: Pressure | None = None
+    yield_stress: Pressure | None = None
+    hardening_modulus: Annotated[float, Number(PRESSURE, at_least=0.0)] | None = None
     thickness: Length | None = None
     width: Length | None = None
     base: Annotated[str, Choice(("bonded", "frictionless"))] | None = None
@@ -69,6 +72,21 @@ class BodyTable(Table):
                 "base", "is given for a half-plane, which has none; allowed only with thickness"
             )
         return self
+
+    @model_validator(mode="after")
+    def _hardening_of_what_yields(self) -> "BodyTable":
+        if self.hardening_modulus is not None and self.yield_stress is None:
+            raise FieldError(
+                "hardening_modulus",
+                "is given for a body that does not yield; allowed only with yield_stress",
+            )
+        return self
+
+
+class CoatingTable(Table):
+    thickness: Length
+    youngs_modulus: Pressure
+    poissons_ratio: PoissonsRatio
 
 
 class LoadTable(Table):
@@ -126,12 +144,6 @@ class ToleranceTable(Table):
     tau1_field_deep: Fraction | None = None
 
 
-class FiniteElementTable(Table):
-    geometry: Annotated[str, Choice(("flat", "rough"))] = "flat"
-    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] = 400.0
-    growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
-
-
 class ResolutionTable(Table):
     pitch: Length | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
@@ -148,6 +160,7 @@ class SceneTables(Table):
     title: Annotated[str, Text("what the scene shows")] | None = None
     roller: RollerTable
     body: BodyTable
+    coating: CoatingTable | None = None
     profile: ProfileTable | None = None
     load: LoadTable
     running_in: RunningInTable | None = None
@@ -171,6 +184,29 @@ class SceneTables(Table):
     def _running_in_has_what_it_takes(self) -> "SceneTables":
         if self.running_in is not None:
             self.running_in.check(self.profile, self.body.hardness, self.load.kind)
+        return self
+
+    @model_validator(mode="after")
+    def _finite_elements_have_what_they_take(self) -> "SceneTables":
+        self.finite_element.check(self.roller, self.body, self.load, self.coating is not None)
+        return self
+
+    @model_validator(mode="after")
+    def _coating_is_on_something(self) -> "SceneTables":
+        if self.coating is None:
+            return self
+        thickness = self.body.thickness
+        if thickness is not None and self.coating.thickness >= thickness:
+            raise FieldError(
+                "coating.thickness",
+                f"is {self.coating.thickness:g} m on a body of {thickness:g} m; allowed is less, "
+                "the body's thickness contains it",
+            )
+        if self.finite_element.plastic:
+            raise FieldError(
+                "finite_element.plastic",
+                "is true for a coated body; allowed without [coating]",
+            )
         return self
 
     @model_validator(mode="after")
@@ -201,6 +237,7 @@ class SceneTables(Table):
 SECTIONS: dict[str, type[Table]] = {
     "roller": RollerTable,
     "body": BodyTable,
+    "coating": CoatingTable,
     "profile": ProfileTable,
     "load": LoadTable,
     "running_in": RunningInTable,

@@ -1,5 +1,6 @@
 """What a run spends its time on: seconds by stage, told to whoever watches."""
 
+import math
 import resource
 import sys
 from collections.abc import Callable, Iterator
@@ -14,6 +15,16 @@ def peak_memory() -> int:
     """Largest resident memory of this process so far [bytes]."""
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return kilobytes * (1 if sys.platform == "darwin" else 1024)
+
+
+def machine_memory() -> float:
+    """Memory that processes of this machine could still get [bytes]; infinite if it tells none."""
+    try:
+        with open("/proc/meminfo") as file:
+            kilobytes = dict(line.split(":") for line in file)["MemAvailable"].split()[0]
+    except (OSError, KeyError):
+        return math.inf
+    return 1024.0 * float(kilobytes)
 
 
 def silent(stage: str) -> None:

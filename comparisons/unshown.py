@@ -40,21 +40,24 @@ def unshown_effects(
 
     couplings  of the half-plane, one a friction coefficient
     """
-    scene = problem.scene
+    scene, settings = problem.scene, problem.scene.finite_element
+    linear = settings.deformation == "linear"
     peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
     slope = 0.0 if scene.profile_info is None else scene.profile_info.roughness.rms_slope
     tilt = TILT_PER_A_OVER_RADIUS * problem.hertz.half_width / scene.roller_radius
     strain = STRAIN_PER_PRESSURE_OVER_MODULUS * peak / scene.body.youngs_modulus
-    effects = [
-        ("finite rotation", tilt, (*CONTACT, *STRESS)),
-        ("finite strain", strain, (*CONTACT, *STRESS)),
-    ]
-    if scene.finite_element.geometry == "flat":
+    effects = []
+    if linear:
+        effects.append(("finite strain", strain, (*CONTACT, *STRESS)))
+        if settings.gap == "reference":
+            effects.append(("finite rotation", tilt, (*CONTACT, *STRESS)))
+    if settings.geometry == "rough":
+        if linear:
+            unflattened = UNFLATTENED_PER_SLOPE * slope
+            effects.append(("asperities that do not flatten", unflattened, NEAR_SURFACE))
+    else:
         boundary = BOUNDARY_PER_SLOPE_SQUARED * slope**2
         effects.append(("the real boundary", boundary, (*CONTACT, *STRESS)))
-    else:
-        unflattened = UNFLATTENED_PER_SLOPE * slope
-        effects.append(("asperities that do not flatten", unflattened, NEAR_SURFACE))
     found: dict[str, dict[str, float]] = {}
     effects += [
         ("friction moving the surfaces", size, (quantity,))
@@ -75,7 +78,7 @@ def _by_friction(problem: Problem, couplings: tuple[Coupling, ...]) -> dict[str,
         for quantity in quantities:
             found[quantity] = max(found.get(quantity, 0.0), size)
 
-    if problem.scene.coupled:
+    if problem.scene.finite_element.coupled:
         return found  # it is contained
     measured = {coupling.friction: coupling.changes for coupling in couplings}
     for friction in problem.scene.friction:

@@ -202,12 +202,6 @@ class TestSwitch:
         length = other.couplings[0].changes["contact_length"].value
         assert length / a == pytest.approx(2.0 * half, rel=2e-3)
 
-    def test_finite_elements_refuse_it(self, tmp_path):
-        scene = scene_of(RIGID, friction=0.3, coupled=True)
-        with pytest.raises(SceneError, match=r"load\.coupled: is true.*--models half-plane"):
-            run(scene, tmp_path / "out", ("half_plane", "finite_element"))
-        assert not (tmp_path / "out").exists()
-
     def test_one_friction_alone(self):
         with pytest.raises(SceneError, match=r"load\.coupled: is true with 3 friction.*allowed"):
             scene_of(RIGID, coupled=True)

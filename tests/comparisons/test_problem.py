@@ -9,7 +9,7 @@ from analytic.contact import solve_contact
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.profile import Profile
-from comparisons.finite_element import Refinement, block_spec
+from comparisons.finite_element_mesh import Refinement, block_spec
 from comparisons.problem import problem_of
 from comparisons.resolve import load_scene
 from comparisons.scene import ResolvedScene

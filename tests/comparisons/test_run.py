@@ -15,7 +15,8 @@ from comparisons import finite_element
 from comparisons.checkpoint import Checkpoint
 from comparisons.errors import SceneError
 from comparisons.exit_status import ExitStatus
-from comparisons.finite_element import Refinement, finite_element_level
+from comparisons.finite_element import finite_element_level
+from comparisons.finite_element_mesh import Refinement
 from comparisons.plan import MODELS, make_plan, unpruned
 from comparisons.problem import problem_of
 from comparisons.resolve import load_scene, resolve_tables
@@ -55,6 +56,8 @@ def figures(outcome) -> dict:
     for entries in result["models"].values():
         for entry in entries:
             del entry["cost"]["seconds"], entry["cost"]["peak_memory"]
+            for level in entry["cost"]["levels"]:
+                del level["seconds"]
     return result
 
 

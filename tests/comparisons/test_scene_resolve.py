@@ -16,7 +16,16 @@ from analytic.material import Material, combined_modulus
 from comparisons.errors import SceneError
 from comparisons.quantities import QUANTITIES
 from comparisons.resolve import load_scene, resolve_tables
-from comparisons.scene import Budget, Extent, FiniteElementSettings, Load, Resolution, RunningIn
+from comparisons.scene import (
+    Budget,
+    Coated,
+    Extent,
+    FiniteElementSettings,
+    Load,
+    Resolution,
+    RunningIn,
+    Yielding,
+)
 from comparisons.scene_file import SCENES, scene_names
 from comparisons.scene_schema import SECTIONS, ToleranceTable
 
@@ -35,7 +44,10 @@ FULL = {
         "thickness": "5 mm",
         "width": "40 mm",
         "base": "bonded",
+        "yield_stress": "2.5 GPa",
+        "hardening_modulus": "1 GPa",
     },
+    "coating": {"thickness": "2 um", "youngs_modulus": "400 GPa", "poissons_ratio": 0.2},
     "profile": {
         "kind": "self-affine",
         "hurst": 0.8,
@@ -55,7 +67,15 @@ FULL = {
     },
     "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
     "tolerance": {"peak_pressure": 0.01, "tau1_field_deep": "5 %"},
-    "finite_element": {"geometry": "rough", "block": 200, "growth": 0.1},
+    "finite_element": {
+        "geometry": "rough",
+        "gap": "reference",
+        "roller_shape": "circle",
+        "roller_body": "disc",
+        "element": "P3",
+        "block": 200,
+        "growth": 0.1,
+    },
     "resolution": {"pitch": "1 um", "levels": 4},
     "budget": {"time": "10 min", "memory": "2 GiB"},
 }
@@ -83,7 +103,20 @@ def test_a_bare_scene_has_the_defaults():
     assert (scene.profile, scene.profile_info, scene.stress) == (None, None, None)
     assert (scene.hardness, scene.thickness, scene.width, scene.base) == (None,) * 4
     assert scene.tolerance == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
-    assert scene.finite_element == FiniteElementSettings("flat", 400.0, 0.2)
+    assert scene.finite_element == FiniteElementSettings(
+        geometry="flat",
+        gap="reference",
+        roller_shape="parabola",
+        roller_body="half-plane",
+        coupled=False,
+        deformation="linear",
+        plastic=False,
+        element="P2",
+        far_field="held",
+        block=400.0,
+        growth=0.2,
+    )
+    assert (scene.yielding, scene.coating) == (None, None)
     assert scene.resolution == Resolution(None, 3)
     assert scene.budget == Budget(300.0, 8e9)
 
@@ -105,7 +138,21 @@ def test_everything_that_can_be_said():
         "tau1_max": 0.02,
         "tau1_field_deep": 0.05,
     }
-    assert scene.finite_element == FiniteElementSettings("rough", 200.0, 0.1)
+    assert scene.yielding == Yielding(2.5e9, 1e9)
+    assert scene.coating == Coated(Material(400e9, 0.2), 2e-6)
+    assert scene.finite_element == FiniteElementSettings(
+        geometry="rough",
+        gap="reference",
+        roller_shape="circle",
+        roller_body="disc",
+        coupled=False,
+        deformation="linear",
+        plastic=False,
+        element="P3",
+        far_field="held",
+        block=200.0,
+        growth=0.1,
+    )
     assert scene.resolution == Resolution(1e-6, 4)
     assert scene.budget == Budget(600.0, 2.0**31)
 

@@ -8,7 +8,9 @@ import pytest
 from analytic.gap import HatGrid
 from comparisons.compare import figures
 from comparisons.exit_status import ExitStatus
-from comparisons.finite_element import Refinement, _bodies, _factors, block_spec
+from comparisons.finite_element_bodies import BodyStore, bodies_of
+from comparisons.finite_element_contact import mutual_compliance
+from comparisons.finite_element_mesh import Refinement
 from comparisons.half_plane import half_plane_level
 from comparisons.plan import MODELS, make_plan
 from comparisons.problem import problem_of
@@ -98,10 +100,8 @@ class TestGroundUnrun:
 def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
     from analytic.defect import solve_with_model
-    from analytic.operators import HalfPlane, SumOfBodies
+    from analytic.operators import HalfPlane
     from analytic.patches import contact_patches
-    from fem.compliance import FiniteElementCompliance
-    from fem.surface import hat_nodes
     from fem.variational_inequality import solve_variational_inequality
 
     problem = problem_of(load_scene("sinusoid"))
@@ -112,11 +112,10 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     level = half_plane_level(problem, plan, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
-    bodies, _ = _bodies(problem, plan, block_spec(problem, refinement, patches), False, Stages())
-    compliance = FiniteElementCompliance(bodies[0], hat_nodes(grid.x[0], grid.pitch, grid.count))
-    factors = _factors(problem, bodies)
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyStore())
+    operator = mutual_compliance(problem, bodies, grid)
     one = solve_with_model(
-        SumOfBodies(compliance, factors=factors),
+        operator,
         HalfPlane(grid.count, grid.pitch, problem.modulus),
         average,
         grid.weights,
@@ -124,9 +123,10 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
         tolerance=1e-10,
     )
     # two equal blocks: the same body twice in one system
-    assert factors == (2.0,)
+    [part] = operator.parts
+    assert part.factor == 2.0
     other = solve_variational_inequality(
-        [(bodies[0], compliance.normal), (bodies[0], compliance.normal)],
+        [(bodies.rough, part.compliance.normal), (bodies.rough, part.compliance.normal)],
         average,
         grid.weights,
         problem.hertz.load_per_length,

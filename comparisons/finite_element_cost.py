@@ -1,0 +1,58 @@
+"""What a level of finite elements will take, before anything is meshed."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.errors import SceneError
+from comparisons.finite_element_mesh import Refinement, expected_unknowns
+from comparisons.plan import Plan
+from comparisons.problem import Problem
+from comparisons.rank import from_first
+from comparisons.stages import machine_memory
+from fem.cost import estimate
+
+# Peak of the whole process, measured at 2.8 to 3.2 kB from 95 000 to 655 000 unknowns.
+BYTES_PER_UNKNOWN = 3200.0
+# Seconds an unknown of gmsh, assembly, back-substitutions and stresses, on one core.
+MESH_SECONDS, ASSEMBLY_SECONDS, REST_SECONDS = 5e-6, 1.6e-6, 3e-6
+START_SECONDS = 0.3  # of gmsh's own process
+
+
+@dataclass(frozen=True)
+class Expected:
+    """`unknowns`, `memory` [bytes] at the peak and `seconds` of a level, from measured laws."""
+
+    unknowns: int
+    memory: float
+    seconds: float
+
+
+def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray) -> Expected:
+    """For contact predicted on `patches` (k, 2) [m]."""
+    unknowns = expected_unknowns(problem, plan, refinement, patches)
+    factorisation, _ = estimate(unknowns)
+    others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS
+    return Expected(
+        unknowns, BYTES_PER_UNKNOWN * unknowns, START_SECONDS + factorisation + others * unknowns
+    )
+
+
+def refuse_too_large(problem: Problem, wanted: Expected, pitch: float) -> None:
+    """Raise SceneError where a level takes more memory than it may, or than there is."""
+    source, allowed = problem.scene.source, problem.scene.budget.memory
+    need = (
+        f"finite elements on pressures of {pitch:.3g} m, {wanted.unknowns:.2g} unknowns, need "
+        f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
+    )
+    if wanted.memory > allowed:
+        raise SceneError(
+            f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; allowed is a larger "
+            "budget, or coarser pressures (resolution.pitch)"
+        )
+    there = from_first(machine_memory)
+    if wanted.memory > there:
+        raise SceneError(
+            f"{source}: resolution.pitch: {need}, but this machine has {there:.2g} bytes; allowed "
+            "are coarser pressures (resolution.pitch), or a smaller finite_element.block"
+        )

@@ -1,0 +1,49 @@
+"""The analytic surface that is nearest to a scene's bodies: half-planes, layers and coatings.
+
+It predicts where finite elements will touch, and is the model of their outer iteration, whose
+answer is checked on the finite elements themselves.
+"""
+
+from analytic.coupling import CoupledHalfPlane, CoupledPair
+from analytic.gap import HatGrid
+from analytic.layer import LayeredSurface
+from analytic.layer_coupling import TangentialLayer
+from analytic.layered import LayeredBody
+from analytic.material import combined_modulus, dundurs_constants
+from analytic.operators import HalfPlane, ModelOperator, SumOfConvolutions
+from comparisons.scene import ResolvedScene
+
+
+def is_layered(scene: ResolvedScene) -> bool:
+    """Whether the body is more than a half-plane of one material."""
+    return scene.thickness is not None or scene.coating is not None
+
+
+def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
+    """Mutual compliance of roller and body on a grid of hats.
+
+    friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out
+    """
+    count, pitch = grid.count, grid.pitch
+    if not is_layered(scene):
+        modulus = combined_modulus(scene.roller, scene.body)
+        beta = friction * dundurs_constants(scene.body, scene.roller)[1]
+        if not beta:
+            return HalfPlane(count, pitch, modulus)
+        return CoupledHalfPlane(count, pitch, modulus, beta)
+    body = _layered_body(scene)
+    normal = LayeredSurface(count, pitch, body)
+    if scene.roller is not None:
+        roller = HalfPlane(count, pitch, scene.roller.plane_strain_modulus)
+        normal = SumOfConvolutions(normal, roller)
+    if not friction:
+        return normal
+    # what the roller's own traction adds is left to the outer iteration
+    return CoupledPair(normal, TangentialLayer(count, pitch, body), friction)
+
+
+def _layered_body(scene: ResolvedScene) -> LayeredBody:
+    """The coating on its body, or the body on its base."""
+    if scene.coating is not None:
+        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body)
+    return LayeredBody(scene.body, scene.thickness, scene.base or "bonded")

@@ -1,0 +1,102 @@
+"""The [finite_element] section: which of the half-plane's assumptions the finite elements keep."""
+
+from typing import Annotated
+
+from pydantic import model_validator
+
+from comparisons.scene import FiniteElementSettings
+from comparisons.scene_fields import Choice, Number, Truth
+from comparisons.scene_table import FieldError, Table
+from comparisons.units import DIMENSIONLESS
+
+HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
+HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
+
+
+class FiniteElementTable(Table):
+    """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
+
+    geometry: Annotated[str, Choice(("flat", "rough"))] = "flat"
+    gap: Annotated[str, Choice(("reference", "displaced"))] | None = None
+    roller_shape: Annotated[str, Choice(("parabola", "circle"))] = "parabola"
+    roller_body: Annotated[str, Choice(("half-plane", "disc"))] = "half-plane"
+    coupled: Annotated[bool, Truth()] | None = None
+    deformation: Annotated[str, Choice(("linear", "finite"))] = "linear"
+    plastic: Annotated[bool, Truth()] = False
+    element: Annotated[str, Choice(("P1", "P2", "P3"))] = "P2"
+    far_field: Annotated[str, Choice(("held", "half-plane"))] = "held"
+    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
+    growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
+
+    @model_validator(mode="after")
+    def _nonlinear_bodies_have_what_they_take(self) -> "FiniteElementTable":
+        nonlinear = "finite_element.deformation" if self.deformation == "finite" else "plastic"
+        if self.deformation == "finite" and self.plastic:
+            raise FieldError(
+                "plastic",
+                'is true beside deformation = "finite"; allowed is either, plastic flow is of '
+                "small deformation",
+            )
+        if (self.deformation == "finite" or self.plastic) and self.element != "P2":
+            raise FieldError(
+                "element", f'is "{self.element}" with {nonlinear}; allowed there is "P2"'
+            )
+        return self
+
+    @property
+    def defaults(self) -> dict:
+        """Fields that follow from others where the section leaves them out."""
+        found = {}
+        if self.gap is None:
+            found["gap"] = "displaced" if self.geometry == "rough" else "reference"
+        if self.block is None:
+            found["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
+        return found
+
+    def check(self, roller: Table, body: Table, load: Table, coated: bool) -> None:
+        """Raise FieldError unless the rest of the scene fits what this section asks for."""
+        unbounded = body.thickness is None and body.width is None
+        rules = [
+            (
+                self.roller_body == "disc" and roller.rigid,
+                "roller_body",
+                'is "disc", but the roller is rigid; allowed with an elastic roller',
+            ),
+            (
+                self.far_field == "half-plane" and not unbounded,
+                "far_field",
+                'is "half-plane", but the body has a thickness or a width; allowed is "held"',
+            ),
+            (
+                self.far_field == "half-plane" and coated,
+                "far_field",
+                'is "half-plane", but the body has a coating; allowed is "held"',
+            ),
+            (
+                self.plastic and body.yield_stress is None,
+                "plastic",
+                "is true, but the body has no yield stress; allowed with body.yield_stress",
+            ),
+            (
+                bool(self.coupled) and len(load.friction) != 1,
+                "coupled",
+                f"is true with {len(load.friction)} friction coefficients, each of which has "
+                "pressures of its own then; allowed is one friction coefficient",
+            ),
+            (
+                self.deformation == "finite" and not roller.rigid,
+                "deformation",
+                'is "finite" with an elastic roller; allowed with roller.rigid = true',
+            ),
+        ]
+        for broken, field, message in rules:
+            if broken:
+                raise FieldError(f"finite_element.{field}", message)
+
+
+def settings_of(table: FiniteElementTable, coupled: bool) -> FiniteElementSettings:
+    """The section with its defaults; `coupled` is what [load] says of both models."""
+    given = dict(table) | table.defaults
+    if table.coupled is None:
+        given["coupled"] = coupled
+    return FiniteElementSettings(**given)

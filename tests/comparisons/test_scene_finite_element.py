@@ -1,0 +1,136 @@
+"""The [finite_element] switches: what follows from others, what they refuse, and what is said."""
+
+import copy
+from pathlib import Path
+
+import pytest
+
+from comparisons.assumptions import assumptions_of
+from comparisons.errors import SceneError
+from comparisons.problem import problem_of
+from comparisons.resolve import resolve_tables
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+ELASTIC = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6, "friction": 0.2},
+}
+RIGID = {**ELASTIC, "roller": {"radius": 8e-3, "rigid": True}}
+
+
+def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict):
+    tables = copy.deepcopy(tables)
+    for name, fields in {**sections, "finite_element": finite_element or {}}.items():
+        tables[name] = {**tables.get(name, {}), **fields}
+    return resolve_tables(tables, name="mine", folder=Path("."), source="mine.toml")
+
+
+@pytest.mark.parametrize(
+    ("given", "follows"),
+    [
+        ({}, {"gap": "reference", "block": 400.0}),
+        ({"geometry": "rough"}, {"gap": "displaced"}),
+        ({"geometry": "rough", "gap": "reference"}, {"gap": "reference"}),
+        ({"far_field": "half-plane"}, {"block": 20.0}),
+        ({"far_field": "half-plane", "block": 40}, {"block": 40.0}),
+    ],
+)
+def test_what_follows_from_other_fields(given, follows):
+    settings = scene_of(ELASTIC, given).finite_element
+    assert {name: getattr(settings, name) for name in follows} == follows
+
+
+@pytest.mark.parametrize("load", [False, True])
+@pytest.mark.parametrize("own", [None, False, True])
+def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
+    given = {} if own is None else {"coupled": own}
+    scene = scene_of(RIGID, given, load={"coupled": load})
+    assert scene.coupled == load
+    assert scene.finite_element.coupled == (load if own is None else own)
+
+
+@pytest.mark.parametrize(
+    ("tables", "given", "sections", "complaint"),
+    [
+        (RIGID, {"roller_body": "disc"}, {}, 'roller_body: is "disc", but the roller is rigid'),
+        (
+            ELASTIC,
+            {"far_field": "half-plane"},
+            {"body": {"thickness": 1e-3}},
+            'far_field: is "half-plane", but the body has a thickness',
+        ),
+        (
+            ELASTIC,
+            {"far_field": "half-plane"},
+            {"coating": {"thickness": 1e-5, **STEEL}},
+            'far_field: is "half-plane", but the body has a coating',
+        ),
+        (ELASTIC, {"plastic": True}, {}, "plastic: is true, but the body has no yield stress"),
+        (
+            RIGID,
+            {"plastic": True, "deformation": "finite"},
+            {"body": {"yield_stress": 1e9}},
+            'plastic: is true beside deformation = "finite"',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True, "element": "P3"},
+            {"body": {"yield_stress": 1e9}},
+            'element: is "P3" with plastic; allowed there is "P2"',
+        ),
+        (RIGID, {"deformation": "finite", "element": "P1"}, {}, 'element: is "P1" with'),
+        (
+            ELASTIC,
+            {"deformation": "finite"},
+            {},
+            'deformation: is "finite" with an elastic roller; allowed with roller.rigid = true',
+        ),
+        (
+            ELASTIC,
+            {"coupled": True},
+            {"load": {"friction": [0.1, 0.2]}},
+            "coupled: is true with 2 friction coefficients",
+        ),
+    ],
+)
+def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, complaint):
+    with pytest.raises(SceneError) as refused:
+        scene_of(tables, given, **sections)
+    message = str(refused.value)
+    assert message.startswith("mine.toml: finite_element.") and message.count("\n") == 0
+    assert complaint in message and "allowed" in message
+
+
+@pytest.mark.parametrize(
+    ("sections", "complaint"),
+    [
+        ({"body": {"hardening_modulus": 1e9}}, "body.hardening_modulus: is given for a body that"),
+        (
+            {"body": {"thickness": 1e-5}, "coating": {"thickness": 1e-5, **STEEL}},
+            "coating.thickness: is 1e-05 m on a body of 1e-05 m",
+        ),
+        ({"coating": {"thickness": 0.0, **STEEL}}, "coating.thickness: is 0"),
+    ],
+)
+def test_bodies_that_cannot_be(sections, complaint):
+    with pytest.raises(SceneError, match=complaint):
+        scene_of(ELASTIC, **sections)
+
+
+@pytest.mark.parametrize(
+    ("given", "said", "unsaid"),
+    [
+        ({}, "the gap is taken at the undeformed place", "finite elements:"),
+        ({"gap": "displaced"}, "the displaced one, and the pressure acts along the roller's", None),
+        ({"geometry": "rough"}, "finite elements: it is the boundary", "the boundary is flat"),
+        ({"roller_shape": "circle"}, "finite elements: it is a circle", "disc"),
+        ({"roller_body": "disc"}, "finite elements: it is an elastic body of a disc's", None),
+        ({"coupled": True}, "finite elements: the sliding traction moves the surfaces", None),
+    ],
+)
+def test_assumptions_say_what_is_dropped(given, said, unsaid):
+    tables = {**ELASTIC, "body": {**STEEL, "poissons_ratio": 0.2}}
+    spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, given))))
+    assert said in spoken
+    assert unsaid is None or unsaid not in spoken
