@@ -22,7 +22,7 @@ from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.files import ATTEMPTS, unfinished
 from comparisons.level import Level, MeshField, StressResult
 from comparisons.plan import Plan
-from comparisons.rank import is_first
+from comparisons.rank import from_first, is_first
 from comparisons.record import digest, versions
 from comparisons.scene import ResolvedScene
 from meshes.block import BlockMesh, BlockSpec
@@ -55,6 +55,9 @@ class Checkpoint:
 
     def load(self, name: str) -> Level | None:
         """The level kept under `name` by a run with the same key, else None."""
+        return from_first(lambda: self._read(name))
+
+    def _read(self, name: str) -> Level | None:
         path = self.folder / f"{name}.npz"
         try:
             with np.load(path, allow_pickle=False) as arrays:

@@ -12,7 +12,7 @@ import sys
 import traceback
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -21,7 +21,7 @@ import typer
 
 from comparisons.errors import InputError, one_line
 from comparisons.exit_status import ExitStatus
-from comparisons.rank import is_first
+from comparisons.rank import as_one, from_first, is_several
 from comparisons.stages import Listener, silent
 
 Job = Callable[[], int]
@@ -29,6 +29,7 @@ Job = Callable[[], int]
 MODELS = {"half-plane": "half_plane", "finite-element": "finite_element"}
 RESULTS = Path("results")
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
+FINISHED = (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE, ExitStatus.NOT_CONVERGED)
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 
 app = typer.Typer(
@@ -75,15 +76,12 @@ def doctor() -> Job:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (default: the process's own) and return the exit status.
 
-    Of several processes under mpirun the first alone is heard.
+    Several processes under mpirun are heard, and end, as one.
     """
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers, not to this reader
     arguments = list(sys.argv[1:] if arguments is None else arguments)
-    if is_first():
-        return _carry_out(arguments)
-    with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):
-        return _carry_out(arguments)
+    return as_one(lambda: _carry_out(arguments), FINISHED)
 
 
 def _carry_out(arguments: list[str]) -> int:
@@ -116,9 +114,9 @@ def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
     from comparisons.files import check_writable
     from comparisons.resolve import load_scene
 
-    resolved = load_scene(scene)
+    resolved = from_first(lambda: load_scene(scene))
     directory = out or RESULTS / resolved.name
-    check_writable(directory)
+    from_first(lambda: check_writable(directory))
     from comparisons.run import run as run_scene
 
     with _progress() as progress:
@@ -181,7 +179,11 @@ def _progress() -> Iterator[Listener]:
 def _show(renderable: object) -> None:
     from rich.console import Console
 
-    Console(width=None if sys.stdout.isatty() else UNSEEN_WIDTH).print(renderable)
+    # Open MPI hands its processes a terminal, whatever its own output goes to
+    if sys.stdout.isatty() and not is_several():
+        Console().print(renderable)
+    else:
+        Console(width=UNSEEN_WIDTH, force_terminal=False).print(renderable)
 
 
 def _end(status: ExitStatus, message: str) -> int:

@@ -1,11 +1,93 @@
-"""Which of several processes speaks and writes, where mpirun starts the command more than once."""
+"""Several processes of one command, as mpirun starts them: one decides, speaks and writes.
 
+All carry out the same program, since it takes all of them to factorise and to solve, and nothing
+but the factor is spread over them. What could turn out otherwise on each (files, clocks, free
+memory) is found by the first and handed to the others: processes that go different ways wait for
+each other for ever.
+"""
+
+import io
 import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Container
+from contextlib import redirect_stderr, redirect_stdout, suppress
+from typing import TypeVar
+
+Result = TypeVar("Result")
 
 # the number of the process, as Open MPI, MPICH and PMIx launchers hand it on
 RANKS = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
+
+# Seconds that another process than the first keeps an error to itself: where the first has met the
+# same it says so and ends all before that.
+PATIENCE = 10.0
+
+
+def is_several() -> bool:
+    """Whether mpirun started this process, one of several perhaps."""
+    return any(name in os.environ for name in RANKS)
 
 
 def is_first() -> bool:
     """Whether this is rank 0, or was started alone; the others solve the same and stay silent."""
     return all(os.environ.get(name, "0") == "0" for name in RANKS)
+
+
+def from_first(make: Callable[[], Result]) -> Result:
+    """What `make` returns in the first process, in every process; it runs in no other.
+
+    To be called by all. An exception that it raises there is raised in all.
+    """
+    if not is_several():
+        return make()
+    from mpi4py import MPI
+
+    result = error = None
+    if MPI.COMM_WORLD.rank == 0:
+        try:
+            result = make()
+        except Exception as caught:
+            error = caught
+    kept = result
+    result, error = MPI.COMM_WORLD.bcast((result, error))
+    if error is not None:
+        raise error
+    return kept if MPI.COMM_WORLD.rank == 0 else result
+
+
+def as_one(work: Callable[[], int], ends: Container[int]) -> int:
+    """Carry out `work`, which returns an exit status, in every process, as if they were one.
+
+    Only the first is heard, but for errors of another one alone. `ends` are the statuses with
+    which all come to their end; with any other one a process ends the others too, which may be
+    waiting for it. mpirun stops its processes by SIGTERM: they are interrupted as by Ctrl-C.
+    """
+    if not is_several():
+        return work()
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    said = io.StringIO()
+    if is_first():
+        status = work()
+    else:
+        with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(said):
+            status = work()
+    signal.signal(signal.SIGTERM, before)
+    if status not in ends:
+        if not is_first():
+            time.sleep(PATIENCE)
+            sys.stderr.write(said.getvalue())
+        _end_all(status)
+    return status
+
+
+def _end_all(status: int) -> None:
+    """End every process with this status, if there are others and MPI knows of them."""
+    with suppress(OSError):  # nobody reads on
+        sys.stdout.flush()
+    sys.stderr.flush()
+    if "mpi4py.MPI" in sys.modules:
+        comm = sys.modules["mpi4py.MPI"].COMM_WORLD
+        if comm.size > 1:
+            comm.Abort(status)

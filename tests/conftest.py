@@ -1,9 +1,18 @@
 """What every test needs of the process that it runs in, and its random numbers."""
 
+import os
+import shutil
 import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+PROJECT = Path(__file__).resolve().parents[1]
+LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
@@ -14,3 +23,24 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 def rng() -> np.random.Generator:
     """The same numbers in each test, whichever ran before."""
     return np.random.default_rng(29)
+
+
+@pytest.fixture
+def launch() -> Callable[..., subprocess.CompletedProcess]:
+    """launch(2, "-m", "comparisons.cli", …): Python in two processes under mpirun, in one without
+    it; its status and what it said."""
+
+    def launched(processes: int, *arguments: str | Path) -> subprocess.CompletedProcess:
+        command = [sys.executable, *map(str, arguments)]
+        if processes > 1:
+            if shutil.which("mpirun") is None:
+                pytest.skip("mpirun is not installed")
+            command = ["mpirun", "-q", "--oversubscribe", "-n", str(processes), *command]
+        environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
+        environment |= {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
+        environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        return subprocess.run(
+            command, env=environment, cwd=PROJECT, capture_output=True, text=True, timeout=120
+        )
+
+    return launched
