@@ -8,6 +8,27 @@ a displacement is the same on each.
 The stiffness is assembled for Young's modulus 1 of the body, a coating's relative to it, and the
 displacement divided by the modulus: the factor depends on the ratio of moduli, Poisson's ratios
 and the shape only, and results scale exactly.
+
+Which degree: quadratic, unless the material is nearly incompressible, then cubic; a mixed element
+is not needed. A pressure's work on its displacement is too small by (bonded layer, contact four
+times as wide as it is thick, n square cells of two triangles across the thickness)
+
+    nu         n    linear    quadratic   cubic     mixed (Taylor and Hood)
+    0.3        4    4e-3      1.0e-5      1.9e-8    6e-6
+    0.49       4    0.11      6e-4        6e-7      3e-5
+    0.4999     4    0.92      6e-3        4e-6      5e-5
+    0.499999   4    1.0       7e-3        5e-6      5e-5
+    0.499999   8    1.0       2e-3        3e-7      4e-6
+    0.499999   16   1.0       4e-4        2e-8      6e-7
+
+Near nu = 0.5 quadratic displacements lose two orders there: a thin bonded layer takes eight
+elements across for 2e-3 (on unstructured meshes 2e-4 with four, 3e-5 with eight), cubic ones take
+two for 1e-4. In a large block with 16 edges to a half-width the surface's slopes are off by 4e-2,
+7e-4 and 2e-4 with nu = 0.3, by all, 6e-3 and 5e-4 with nu = 0.499999. Linear displacements are for
+rough work with nu <= 0.3.
+
+On the same mesh cubic displacements have 2.2 times the unknowns of quadratic ones, their factor
+takes 2.5 times the memory and 2.2 to 3.3 times the time.
 """
 
 from dataclasses import dataclass
