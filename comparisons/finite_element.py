@@ -17,8 +17,9 @@ from comparisons.finite_element_bodies import BodyStore, bodies_of
 from comparisons.finite_element_contact import mutual_compliance, solve_mutual
 from comparisons.finite_element_cost import expected, refuse_too_large
 from comparisons.finite_element_mesh import Refinement
-from comparisons.finite_element_stress import stresses_of
-from comparisons.level import Level, MeshField, Window
+from comparisons.finite_element_nonlinear import pressed_finitely
+from comparisons.finite_element_stress import pressed_linearly, stresses_of
+from comparisons.level import Level, Window
 from comparisons.nearest_operator import nearest_operator
 from comparisons.plan import Plan
 from comparisons.problem import Problem
@@ -71,31 +72,26 @@ def finite_element_level(
         if len(missed) == 0:
             break
         ground, start = merge(np.vstack([ground, missed])), solution.pressure
-    body, compliance = bodies.rough, operator.rough
+    with stages.stage("contact", "finite elements: contact"):
+        pressed = pressed_linearly(problem, operator, solution)
+    if scene.finite_element.deformation == "finite":
+        with stages.stage("finite deformation", "finite elements: finite deformation"):
+            pressed = pressed_finitely(problem, operator, solution, constraints)
+    solution = pressed.solution
     level = Level(
         grid=grid,
         solution=solution,
-        displacement=compliance.apply(solution.pressure, friction) / grid.weights,
+        displacement=pressed.displacement / grid.weights,
         patches=contact_patches(grid.x, solution.pressure, solution.gap),
         seconds=stages.seconds,
         unknowns=sum(each.unknowns for each in bodies.all),
         factor_memory=bodies.factor_memory,
         expected_seconds=cost.seconds,
         expected_memory=cost.memory,
-        mesh=body.mesh,
+        mesh=bodies.rough.mesh,
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
-        found = [
-            stresses_of(problem, compliance, grid, solution.pressure, each, window)
-            for each in scene.friction
-        ]
-    return replace(
-        level,
-        peak_memory=peak_memory(),
-        stresses=tuple(result for result, _ in found),
-        mesh_field=MeshField(
-            body.points, body.mesh.triangles, {r.friction: nodal for r, nodal in found}
-        ),
-    )
+        stresses, mesh_field = stresses_of(pressed, scene.friction, window)
+    return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)

@@ -1,46 +1,72 @@
-"""Stresses of the rough body on finite elements: on the window, and at the mesh's points."""
+"""What a pressed body shows: its surface, its stresses on the window and at the mesh's points."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from analytic.gap import HatGrid
+from analytic.contact import ContactSolution
 from analytic.plane_stress import PlaneStress
-from comparisons.finite_element_contact import roller_normal
-from comparisons.level import StressResult, Window
+from comparisons.finite_element_contact import MutualCompliance, roller_normal
+from comparisons.level import MeshField, StressResult, Window
 from comparisons.problem import Problem
-from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody
 from fem.maximum import maximum
 from fem.stress import NodalStress, evaluate, nodal_stress
 from fem.surface import straight_down
 
 
+@dataclass(frozen=True)
+class Pressed:
+    """The rough body in contact.
+
+    displacement  (count,) [m^2] of its surface into the body, weighted by each hat
+    stress        by friction coefficient
+    others        further fields at the mesh's points (n,), by name with their unit
+    """
+
+    body: ElasticBody
+    solution: ContactSolution
+    displacement: np.ndarray
+    stress: Callable[[float], NodalStress]
+    others: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def pressed_linearly(
+    problem: Problem, operator: MutualCompliance, solution: ContactSolution
+) -> Pressed:
+    """The linear elastic body under the pressures of a contact."""
+    rough, settings = operator.rough, problem.scene.finite_element
+    direction = roller_normal(problem) if settings.gap == "displaced" else straight_down
+    pressure = solution.pressure
+
+    def stress(friction: float) -> NodalStress:
+        moved = rough.displacement(pressure, friction)
+        return nodal_stress(rough.body, moved, rough.hats, pressure, friction, direction)
+
+    dragged = problem.scene.friction[0] if settings.coupled else 0.0
+    return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress)
+
+
 def stresses_of(
-    problem: Problem,
-    compliance: FiniteElementCompliance,
-    grid: HatGrid,
-    pressure: np.ndarray,
-    friction: float,
-    window: Window,
-) -> tuple[StressResult, PlaneStress]:
-    """Stresses of linear elasticity under one friction coefficient."""
-    body = compliance.body
-    displaced = problem.scene.finite_element.gap == "displaced"
-    nodal = nodal_stress(
-        body,
-        compliance.displacement(pressure, friction),
-        compliance.hats,
-        pressure,
-        friction,
-        roller_normal(problem) if displaced else straight_down,
+    pressed: Pressed, frictions: tuple[float, ...], window: Window
+) -> tuple[tuple[StressResult, ...], MeshField]:
+    """Extremes and fields on the window, one set a friction coefficient, and all on the mesh."""
+    body, results, on_mesh = pressed.body, [], {}
+    for friction in frictions:
+        nodal = pressed.stress(friction)
+        results.append(_on_window(body, nodal, friction, window))
+        stress, nodes = nodal.stress, nodal.nodes
+        on_mesh[friction] = PlaneStress(stress.sx, stress.sz, stress.txz)
+    mesh_field = MeshField(
+        body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
     )
-    stress = PlaneStress(nodal.stress.sx, nodal.stress.sz, nodal.stress.txz)
-    return on_window(problem, body, nodal, friction, window), stress
+    return tuple(results), mesh_field
 
 
-def on_window(
-    problem: Problem, body: ElasticBody, nodal: NodalStress, friction: float, window: Window
+def _on_window(
+    body: ElasticBody, nodal: NodalStress, friction: float, window: Window
 ) -> StressResult:
-    """Extremes and the field on the window from stresses at the mesh's points."""
     bounds = (-window.reach, window.reach, window.z[-1])
     quantities = {
         "tau1": lambda stress: stress.tau1,

@@ -1,6 +1,6 @@
 """One model's solution on one level of refinement, as data that both models fill in."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -52,14 +52,18 @@ class StressResult:
 class MeshField:
     """A finite-element level's own mesh, with stresses at its points, one set a friction.
 
-    points     (n, 2) x and z [m] of the real body
-    triangles  (m, 6) quadratic triangles in gmsh order
-    stresses   by friction coefficient, (n,) each
+    points          (n, 2) x and z [m] of the real body; twice where two materials meet
+    triangles       (m, 6) quadratic triangles in gmsh order
+    stresses        by friction coefficient, (n,) each
+    poissons_ratio  (n,) of the material at each point
+    others          further fields (n,) by name with their unit: what plastic flow leaves
     """
 
     points: np.ndarray
     triangles: np.ndarray
     stresses: dict[float, PlaneStress]
+    poissons_ratio: np.ndarray
+    others: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

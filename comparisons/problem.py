@@ -36,7 +36,9 @@ FIRST_TOUCH_POINTS = 100_001
 FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
 NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
-MARGIN = 0.15  # ground beyond the outermost contact that stays in the grid, in half-widths
+# Ground beyond the outermost contact that stays in the grid, in half-widths. The edge of a contact
+# is found from the six elements beyond it, which are as wide as a smooth contact's are few.
+MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 
 @dataclass(frozen=True)
@@ -184,7 +186,8 @@ def _reach(problem: Problem) -> tuple[float, float]:
         around = max(touching[1] - touching[0], slack)
         low, high = max(low, touching[0] - around), min(high, touching[1] + around)
         touching, slack = scout(problem, low, high)
-    margin = MARGIN * half_width + 2.0 * slack
+    margin = MARGIN if scene.profile is not None else SMOOTH_MARGIN
+    margin = margin * half_width + 2.0 * slack
     return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
 
 

@@ -53,9 +53,13 @@ class FiniteElementTable(Table):
             found["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
         return found
 
-    def check(self, roller: Table, body: Table, load: Table, coated: bool) -> None:
+    def check(
+        self, roller: Table, body: Table, load: Table, profile: Table | None, coating: Table | None
+    ) -> None:
         """Raise FieldError unless the rest of the scene fits what this section asks for."""
         unbounded = body.thickness is None and body.width is None
+        coated, finite = coating is not None, self.deformation == "finite"
+        coupled = load.coupled if self.coupled is None else self.coupled
         rules = [
             (
                 self.roller_body == "disc" and roller.rigid,
@@ -84,9 +88,31 @@ class FiniteElementTable(Table):
                 "pressures of its own then; allowed is one friction coefficient",
             ),
             (
-                self.deformation == "finite" and not roller.rigid,
+                finite and not roller.rigid,
                 "deformation",
                 'is "finite" with an elastic roller; allowed with roller.rigid = true',
+            ),
+            (
+                finite and coated,
+                "deformation",
+                'is "finite" for a coated body; allowed without [coating]',
+            ),
+            (
+                finite and profile is not None and self.geometry == "flat",
+                "geometry",
+                'is "flat" at finite deformation, which takes a real boundary; allowed is "rough"',
+            ),
+            (
+                finite and max(load.friction) > 0.0 and not coupled,
+                "coupled",
+                "is false at finite deformation, where the sliding traction moves the surface; "
+                "allowed is true",
+            ),
+            (
+                self.plastic and max(load.friction) > 0.0 and not coupled,
+                "coupled",
+                "is false for a body that yields, in which stresses of pressure and sliding "
+                "traction do not add up; allowed is true",
             ),
         ]
         for broken, field, message in rules:

@@ -188,7 +188,7 @@ class SceneTables(Table):
 
     @model_validator(mode="after")
     def _finite_elements_have_what_they_take(self) -> "SceneTables":
-        self.finite_element.check(self.roller, self.body, self.load, self.coating is not None)
+        self.finite_element.check(self.roller, self.body, self.load, self.profile, self.coating)
         return self
 
     @model_validator(mode="after")

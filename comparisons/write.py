@@ -80,14 +80,16 @@ def write_stress(path: Path, outcome: Outcome, run: ModelRun) -> None:
     """stress.vtu: stresses at the model's own points, which lie in the plane y = 0.
 
     Arrays sx, sz, sy, txz, tau1, von_mises [Pa] for the first friction coefficient; further
-    coefficients add arrays with the coefficient in the name.
+    coefficients add arrays with the coefficient in the name. Where the body yields there are
+    also what flow leaves behind when the roller is gone.
     """
     import meshio
 
-    level = run.finest
+    level, arrays = run.finest, {}
+    nu = outcome.problem.scene.body.poissons_ratio
     if level.mesh_field is not None:
         plane, stresses = level.mesh_field.points, level.mesh_field.stresses
-        cells = level.mesh_field.triangles
+        cells, nu = level.mesh_field.triangles, level.mesh_field.poissons_ratio
         kind = "triangle6"
     else:
         x, z = np.meshgrid(outcome.window.x, outcome.window.z)
@@ -101,8 +103,6 @@ def write_stress(path: Path, outcome: Outcome, run: ModelRun) -> None:
         cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
         kind = "quad"
     points = np.column_stack([plane[:, 0], np.zeros(len(plane)), plane[:, 1]])
-    nu = outcome.problem.scene.body.poissons_ratio
-    arrays = {}
     for index, (friction, stress) in enumerate(stresses.items()):
         suffix = "" if index == 0 else f" (friction {friction:g})"
         for name, values in {
@@ -114,4 +114,6 @@ def write_stress(path: Path, outcome: Outcome, run: ModelRun) -> None:
             "von_mises": stress.von_mises(nu),
         }.items():
             arrays[name + suffix] = values
+    if level.mesh_field is not None:
+        arrays |= level.mesh_field.others
     meshio.write(path, meshio.Mesh(points, [(kind, cells)], point_data=arrays))

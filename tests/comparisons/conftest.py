@@ -92,7 +92,7 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     if mesh is not None and window is not None:
         zero = np.zeros(len(mesh.points))
         nodal = {friction: PlaneStress(zero, zero, zero) for friction in problem.scene.friction}
-        mesh_field = MeshField(mesh.points, mesh.triangles, nodal)
+        mesh_field = MeshField(mesh.points, mesh.triangles, nodal, np.full(len(mesh.points), 0.3))
     return Level(
         grid=grid,
         solution=solution,

@@ -15,13 +15,10 @@ from comparisons import finite_element
 from comparisons.checkpoint import Checkpoint
 from comparisons.errors import SceneError
 from comparisons.exit_status import ExitStatus
-from comparisons.finite_element import finite_element_level
-from comparisons.finite_element_mesh import Refinement
 from comparisons.plan import MODELS, make_plan, unpruned
 from comparisons.problem import problem_of
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.run import run, solve
-from comparisons.stages import Stages
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
@@ -220,46 +217,6 @@ class TestSliding:
             outcome.result["models"]["half_plane"][0]["stress"]
             == smooth.result["models"]["half_plane"][0]["stress"]
         )
-
-
-LAYERS = json.loads((Path(__file__).parents[1] / "data" / "e_layer_contact.json").read_text())
-
-
-@pytest.mark.parametrize(
-    ("base", "ratio", "nu"),
-    [
-        ("bonded", "0.1", "0.3"),
-        ("bonded", "1", "0.4999"),
-        ("frictionless", "1", "any"),
-        ("bonded", "4", "0.45"),
-    ],
-)
-def test_a_layer_under_a_rigid_cylinder_meets_its_reference(base, ratio, nu):
-    """Half-width and peak pressure of finite elements; at a/t = 4 the half-plane is no model."""
-    case = next(
-        c for c in LAYERS["cases"] if (c["base"], c["a_over_t"], c["nu"]) == (base, ratio, nu)
-    )
-    radius, thickness, modulus = 10e-3, 1e-3, 3e9
-    poisson = 0.3 if nu == "any" else float(nu)
-    unit = modulus / (1.0 - poisson**2) * thickness / radius
-    tables = {
-        "roller": {"radius": radius, "rigid": True},
-        "body": {
-            "youngs_modulus": modulus,
-            "poissons_ratio": poisson,
-            "thickness": thickness,
-            "base": base,
-        },
-        "load": {"per_length": float(case["P_R_over_Eprime_t2"]) * unit * thickness},
-    }
-    problem = problem_of(scene_of(tables))
-    plan = make_plan(problem, ("finite_element",))
-    level = finite_element_level(problem, plan, Refinement(problem.pitches[-1]), None, Stages())
-    assert level.solution.converged
-    assert level.contact_length == pytest.approx(2.0 * float(ratio) * thickness, rel=5e-3)
-    assert level.solution.pressure.max() == pytest.approx(
-        float(case["p0_R_over_Eprime_t"]) * unit, rel=5e-3
-    )
 
 
 class TestRefusals:

@@ -87,6 +87,25 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
             'deformation: is "finite" with an elastic roller; allowed with roller.rigid = true',
         ),
         (
+            RIGID,
+            {"deformation": "finite"},
+            {"coating": {"thickness": 1e-5, **STEEL}},
+            'deformation: is "finite" for a coated body',
+        ),
+        (
+            RIGID,
+            {"deformation": "finite"},
+            {"profile": {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}},
+            'geometry: is "flat" at finite deformation',
+        ),
+        (RIGID, {"deformation": "finite"}, {}, "coupled: is false at finite deformation"),
+        (
+            ELASTIC,
+            {"plastic": True},
+            {"body": {"yield_stress": 1e9}},
+            "coupled: is false for a body that yields",
+        ),
+        (
             ELASTIC,
             {"coupled": True},
             {"load": {"friction": [0.1, 0.2]}},
