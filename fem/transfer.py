@@ -21,7 +21,8 @@ GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
 def domain_of(comm: "Comm", mesh: BlockMesh, degree: int) -> tuple["Mesh", np.ndarray]:
     """dolfinx mesh, and the mesh point (k,) behind each of its input points.
 
-    `degree` is that of the elements' edges: 1, from the vertices alone, or 2. The first process hands the whole mesh in; dolfinx spreads it.
+    `degree` is that of the elements' edges: 1, from the vertices alone, or 2. The first process
+    hands the whole mesh in; dolfinx spreads it.
     """
     if degree == 2:
         cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(mesh.points))
