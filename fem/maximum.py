@@ -11,11 +11,13 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.plane_stress import Extremum
 from fem.elasticity import ElasticBody
+from fem.stress import NodalStress, within
+from fem.stress_nodes import MaterialStress
 from fem.triangle import shapes
 
-Quantity = Callable[[PlaneStress], np.ndarray]
+Quantity = Callable[[MaterialStress], np.ndarray]
 Window = tuple[float, float, float]
 
 UNSEEN = 0.25  # what may lie between an element's nodes above the highest, of the maximum
@@ -27,30 +29,32 @@ MISFIT = 0.01
 
 
 def maximum(
-    body: ElasticBody, nodal: PlaneStress, quantity: Quantity, window: Window | None = None
+    body: ElasticBody, nodal: NodalStress, quantity: Quantity, window: Window | None = None
 ) -> Extremum:
-    """Largest value of a `quantity` made of the stresses point by point.
+    """Largest value of a `quantity` made of the stresses (and Poisson's ratio) point by point.
 
     `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1. Raises ValueError
     if no sample lies in it.
     """
-    stress = np.column_stack([nodal.sx, nodal.sz, nodal.txz])
-    triangles = body.mesh.triangles
+    triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
 
     def sampled(elements: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        place = _lattice(body.points[elements], count)
-        value = quantity(PlaneStress(*np.moveaxis(_lattice(stress[elements], count), -1, 0)))
+        at = _lattice(count)
+        place = np.einsum("mac,qa->mqc", points[triangles[elements]], shapes(at))
+        stress = np.moveaxis(within(body, nodal, elements, at), -1, 0)
+        nu = np.broadcast_to(body.poissons_ratio[elements, None], stress.shape[1:])
+        value = quantity(MaterialStress(*stress, nu))
         return np.where(_inside(place, window), value, -np.inf), place
 
-    at_nodes = np.where(_inside(body.points, window), quantity(nodal), -np.inf)
+    at_nodes = np.where(_inside(points, window), quantity(nodal.stress), -np.inf)
     highest = at_nodes[triangles].max(axis=1)
     top = highest.max()
     promising = np.flatnonzero(highest >= top - UNSEEN * abs(top))
     if top == -np.inf:  # a window between the nodes
         promising = np.arange(len(triangles))
-    coarse, _ = sampled(triangles[promising], COARSE)
+    coarse, _ = sampled(promising, COARSE)
     best = promising[np.argsort(coarse.max(axis=1))[-BEST:]]
-    fine, place = sampled(triangles[best], FINE)
+    fine, place = sampled(best, FINE)
     element, point = np.unravel_index(np.argmax(fine), fine.shape)
     if fine[element, point] == -np.inf:
         raise ValueError(f"no part of the body lies in the window {window}")
@@ -58,16 +62,16 @@ def maximum(
 
     touching = np.isin(triangles, triangles[best[element]]).any(axis=1)
     patch = np.unique(triangles[touching])
-    if np.isin(patch, body.surface.point).any():
+    if np.isin(nodal.nodes.point[patch], body.top.point).any():
         return found
-    smooth = _smooth_maximum(body.points[patch], stress[patch], quantity, found)
+    nu = body.poissons_ratio[best[element]]
+    smooth = _smooth_maximum(points[patch], nodal.values[patch], nu, quantity, found)
     return smooth if smooth and _inside(np.array([smooth.x, smooth.z]), window) else found
 
 
-def _lattice(nodal: np.ndarray, count: int) -> np.ndarray:
-    """Values (m, q, k) of nodal ones (m, 6, k) on a lattice with `count` steps along an edge."""
-    at = np.array([[i, j] for i in range(count + 1) for j in range(count + 1 - i)]) / count
-    return np.einsum("mac,qa->mqc", nodal, shapes(at), optimize=True)
+def _lattice(count: int) -> np.ndarray:
+    """Reference points (q, 2) with `count` steps along an edge."""
+    return np.array([[i, j] for i in range(count + 1) for j in range(count + 1 - i)]) / count
 
 
 def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
@@ -79,10 +83,13 @@ def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
 
 
 def _smooth_maximum(
-    points: np.ndarray, stress: np.ndarray, quantity: Quantity, start: Extremum
+    points: np.ndarray, stress: np.ndarray, nu: float, quantity: Quantity, start: Extremum
 ) -> Extremum | None:
     """Largest value of the cubics through `stress` (k, 3) at `points`; None if they do not fit."""
     from scipy.optimize import minimize
+
+    def of(values: np.ndarray) -> np.ndarray:
+        return quantity(MaterialStress(*values.T, np.full(len(values), nu)))
 
     origin = np.array([start.x, start.z])
     unit = np.abs(points - origin).max()
@@ -91,15 +98,17 @@ def _smooth_maximum(
     if start.value == 0.0 or len(points) <= terms.shape[1]:
         return None
     fit, *_ = np.linalg.lstsq(terms, stress, rcond=None)
-    misfit = quantity(PlaneStress(*(terms @ fit).T)) - quantity(PlaneStress(*stress.T))
+    misfit = of(terms @ fit) - of(stress)
     if np.abs(misfit).max() > MISFIT * abs(start.value):
         return None
 
     def loss(at: np.ndarray) -> float:
-        return -float(quantity(PlaneStress(*(_cubic(at[None]) @ fit).T))[0]) / abs(start.value)
+        return -float(of(_cubic(at[None]) @ fit)[0]) / abs(start.value)
 
     low, high = offset.min(axis=0), offset.max(axis=0)
-    top = minimize(loss, np.zeros(2), bounds=list(zip(low, high, strict=True)))
+    # to 1e-9 of the patch: the place must not depend on how the stresses were rounded
+    bounds = list(zip(low, high, strict=True))
+    top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
     if not top.success or np.any((top.x <= low) | (top.x >= high)):
         return None
     place = origin + unit * top.x

@@ -1,97 +1,114 @@
-"""Stresses of a solved body at its nodes and at any point.
+"""Stresses of a solved body at its nodes and at any point."""
 
-Nomenclature at the surface
-    t, n          unit tangent towards +x and unit normal out of the body
-    s_nn, s_nt    normal and shear stress on the surface, known from the tractions
-    s_tt          stress along the surface, E' e_tt + nu / (1 - nu) s_nn
-"""
-
-from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from analytic.plane_stress import PlaneStress
 from fem.elasticity import ElasticBody
+from fem.kinks import Kinks
 from fem.recovery import recovered_stress
-from fem.surface import Direction, straight_down, tangent_of
+from fem.stress_nodes import MaterialStress, StressNodes, stress_nodes
+from fem.surface import Direction, straight_down
+from fem.surface_load import SurfaceLoad, from_surface, to_surface
 from fem.triangle import shapes
+
+
+@dataclass(frozen=True)
+class NodalStress:
+    """Stresses at the nodes of a body, and how they run between them.
+
+    stress  (k,) at the nodes [Pa], with Poisson's ratio there
+    nodes   mesh point of each, and the nodes of each triangle; a plain body has one node a mesh
+            point, in the mesh's order
+    kinks   of the pressure, around which stresses do not run like polynomials; None: they all do
+    """
+
+    stress: MaterialStress
+    nodes: StressNodes
+    kinks: Kinks | None = None
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """sx, sz, txz (k, 3) [Pa]."""
+        return np.column_stack([self.stress.sx, self.stress.sz, self.stress.txz])
 
 
 def nodal_stress(
     body: ElasticBody,
     displacement: np.ndarray,
-    pressure_at: Callable[[np.ndarray], np.ndarray],
+    hats: np.ndarray,
+    pressure: np.ndarray,
     friction: float = 0.0,
     direction: Direction = straight_down,
-) -> PlaneStress:
-    """Stresses at all mesh points under a displacement (n, 2) [m].
+) -> NodalStress:
+    """Stresses under a displacement (n, 2) [m].
 
-    `pressure_at`(x [m]) gives the pressure [Pa] that causes it, `friction` times that the sliding
-    traction towards +x; both act along `direction` as in `fem.compliance`. They make the stresses
-    at the surface: on a flat one sz = -p and txz = -friction p exactly, and on a rough one the
-    same holds on its inclined faces. What is left there is the stress along the surface, from the
-    surface's stretch. Inside by patch recovery (`fem.recovery`).
+    The `pressure` (count,) [Pa] on `hats` (count + 2,) [m] causes it, and `friction` times that
+    as sliding traction towards +x; all as in `fem.compliance`. They make the stresses at the
+    surface: on a flat one sz = -p and txz = -friction p exactly, and on a rough one the same holds
+    on its inclined faces. The stress along the surface, and all below it, are recovered from the
+    displacement (`fem.recovery`).
     """
-    stress = recovered_stress(body, displacement)
-    point = body.surface.point
-    stress[point] = _surface_stress(body, displacement[point], pressure_at, friction, direction)
-    return PlaneStress(*stress.T)
+    nodes = stress_nodes(body)
+    load = SurfaceLoad(body, hats, pressure, friction, direction)
+    values = recovered_stress(body, displacement, load)
+    top, x = nodes.at_surface(body.top.point), body.top.x
+    t = load.tangent(x)
+    s_tt, _, _ = to_surface(t, values[top])
+    values[top] = from_surface(t, s_tt, *load.across(x))
+    stress = MaterialStress(*values.T, _poissons_ratio(body, nodes))
+    return NodalStress(stress, nodes, load.kinks)
 
 
-def evaluate(body: ElasticBody, nodal: PlaneStress, x: np.ndarray, z: np.ndarray) -> PlaneStress:
+def at_mesh_points(body: ElasticBody, stress: PlaneStress) -> NodalStress:
+    """Stresses at the mesh's points of a plain body (n,), with polynomials between them."""
+    if body.coated.any():
+        raise ValueError("a coated body has two stresses at the points of its interface")
+    nodes = stress_nodes(body)
+    nu = _poissons_ratio(body, nodes)
+    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes)
+
+
+def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> PlaneStress:
     """Stresses [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
     inside = element >= 0
-    node, share = body.mesh.triangles[element[inside]], shapes(at[inside])
     found = np.full((3, x.size), np.nan)
-    for row, stress in zip(found, (nodal.sx, nodal.sz, nodal.txz), strict=True):
-        row[inside] = (stress[node] * share).sum(axis=1)
+    found[:, inside] = within(body, nodal, element[inside], at[inside, None])[:, 0].T
     return PlaneStress(*found.reshape(3, *x.shape))
 
 
-def _surface_stress(
-    body: ElasticBody,
-    displacement: np.ndarray,
-    pressure_at: Callable[[np.ndarray], np.ndarray],
-    friction: float,
-    direction: Direction,
+def within(
+    body: ElasticBody, nodal: NodalStress, element: np.ndarray, at: np.ndarray
 ) -> np.ndarray:
-    """sx, sz, txz (k, 3) at the surface's nodes, from the tractions and the stretch there."""
-    x = body.surface.x
-    rise = along_surface(x, body.points[body.surface.point, 1])
-    longer = np.hypot(1.0, rise)
-    t = np.column_stack([np.ones_like(rise), rise]) / longer[:, None]
-    n = np.column_stack([rise, -np.ones_like(rise)]) / longer[:, None]
+    """sx, sz, txz (r, q, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
 
-    down = np.stack(direction(x), axis=-1)
-    along = np.stack(tangent_of(direction)(x), axis=-1)
-    traction = (pressure_at(x) / longer)[:, None] * (down + friction * along)
-    s_nn, s_nt = (traction * n).sum(-1), (traction * t).sum(-1)
-    e_tt = (along_surface(x, displacement) * t).sum(-1) / longer
-    nu, modulus = body.material.poissons_ratio, body.material.plane_strain_modulus
-    s_tt = modulus * e_tt + nu / (1.0 - nu) * s_nn
-
-    def component(i: int, j: int) -> np.ndarray:
-        mixed = t[:, i] * n[:, j] + n[:, i] * t[:, j]
-        return s_tt * t[:, i] * t[:, j] + s_nn * n[:, i] * n[:, j] + s_nt * mixed
-
-    return np.column_stack([component(0, 0), component(1, 1), component(0, 1)])
-
-
-def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:
-    """d value / dx of `value` (k,) or (k, 2) at the nodes of quadratic edges, a vertex first.
-
-    At midpoints the chord's slope, more accurate than the quadratic's own at its ends; at
-    vertices the line through the slopes of the two nearest midpoints.
+    Quadratic between the nodes, but for the kinks near the element: the difference between their
+    stress and its own quadratic is added.
     """
-    columns = value.reshape(len(x), -1)
-    vertex, middle = x[::2], x[1::2]
-    chord = np.diff(columns[::2], axis=0) / np.diff(vertex)[:, None]
-    after = np.clip(np.arange(len(vertex)), 1, len(middle) - 1)
-    before = after - 1
-    share = ((vertex - middle[before]) / (middle[after] - middle[before]))[:, None]
-    slope = np.empty_like(columns)
-    slope[1::2] = chord
-    slope[::2] = (1.0 - share) * chord[before] + share * chord[after]
-    return slope.reshape(value.shape)
+    share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
+    held, which = np.unique(element, return_inverse=True)
+    value = nodal.values[nodal.nodes.triangles[held]]
+    if nodal.kinks is None:
+        return share @ value[which]
+    triangles = body.mesh.triangles[held]
+    corner = body.points[triangles[:, :3]]
+    centre = corner.mean(axis=1)
+    radius = np.sqrt(((corner - centre[:, None]) ** 2).sum(axis=2).mean(axis=1))
+    seen = body.coated[held] == body.coated.any()
+    weights = nodal.kinks.weights(centre, radius, seen)
+    every = np.arange(len(held))
+    value = value - nodal.kinks.stress(weights, every, body.points, triangles)
+    place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
+    number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
+    return share @ value[which] + nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+
+
+def _poissons_ratio(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
+    """(k,) of the material at each node."""
+    nu = np.empty(len(nodes.point))
+    nu[nodes.triangles] = body.poissons_ratio[:, None]
+    return nu

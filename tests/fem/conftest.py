@@ -8,10 +8,9 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
-from analytic.plane_stress import PlaneStress
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
-from fem.stress import nodal_stress
+from fem.stress import NodalStress, nodal_stress
 from fem.surface import hat_nodes
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
@@ -210,8 +209,9 @@ class Pressed:
     def displacement(self, friction: float) -> np.ndarray:
         return self.compliance.displacement(self.pressure, friction)
 
-    def stress(self, friction: float) -> PlaneStress:
-        return nodal_stress(self.body, self.displacement(friction), self.pressure_at, friction)
+    def stress(self, friction: float) -> NodalStress:
+        moved = self.displacement(friction)
+        return nodal_stress(self.body, moved, self.compliance.hats, self.pressure, friction)
 
 
 @pytest.fixture(scope="session")

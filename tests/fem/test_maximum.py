@@ -6,8 +6,9 @@ import pytest
 from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
 from analytic.plane_stress import PlaneStress
-from fem.elasticity import Support, elastic_body
+from fem.elasticity import Coating, Support, elastic_body
 from fem.maximum import maximum
+from fem.stress import at_mesh_points, nodal_stress
 
 
 def tau1(stress):
@@ -48,13 +49,13 @@ def body(structured_block):
     return elastic_body(mesh, Material(1.0, 0.3), Support())
 
 
-def field(value):
-    return PlaneStress(value, 0.0 * value, 0.0 * value)
+def field(body, value):
+    return at_mesh_points(body, PlaneStress(value, 0.0 * value, 0.0 * value))
 
 
 def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
     x, z = body.points.T
-    hill = field(2.0 - (x - 0.123) ** 2 - 2.0 * (z - 0.456) ** 2)
+    hill = field(body, 2.0 - (x - 0.123) ** 2 - 2.0 * (z - 0.456) ** 2)
     found = maximum(body, hill, lambda stress: stress.sx)
     assert (found.value, found.x, found.z) == pytest.approx((2.0, 0.123, 0.456), abs=1e-6)
 
@@ -63,20 +64,20 @@ def test_a_sharp_ridge_is_not_smoothed(body):
     """A cone: its tip, on a node, is the sample's, not the lower one of a cubic."""
     x, z = body.points.T
     tip = np.argmin(np.hypot(x - 0.2, z - 0.5))
-    cone = field(1.0 - np.hypot(x - x[tip], z - z[tip]))
+    cone = field(body, 1.0 - np.hypot(x - x[tip], z - z[tip]))
     found = maximum(body, cone, lambda stress: stress.sx)
     assert (found.value, found.x, found.z) == pytest.approx((1.0, x[tip], z[tip]), abs=2e-2)
 
 
 def test_largest_at_the_surface_stays_there(body):
     x, z = body.points.T
-    found = maximum(body, field(np.exp(-z) - x**2), lambda stress: stress.sx)
+    found = maximum(body, field(body, np.exp(-z) - x**2), lambda stress: stress.sx)
     assert (found.x, found.z) == pytest.approx((0.0, 0.0), abs=1e-2)
 
 
 def test_the_window_limits_the_search(body):
     x, z = body.points.T
-    slope = field(x + z)
+    slope = field(body, x + z)
     found = maximum(body, slope, lambda stress: stress.sx, (-0.5, 0.25, 0.5))
     assert found.value == pytest.approx(0.75, abs=0.03)
     assert found.x <= 0.25 and found.z <= 0.5
@@ -84,9 +85,24 @@ def test_the_window_limits_the_search(body):
         maximum(body, slope, lambda stress: stress.sx, (2.0, 3.0, 1.0))
 
 
+def test_each_material_has_its_own_poissons_ratio(structured_block):
+    """Strain alike on both sides: the quantity tells them apart only by Poisson's ratio."""
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
+    coating = Coating(Material(1.0, 0.1), 0.25)
+    body = elastic_body(mesh, Material(1.0, 0.4), Support(), coating=coating)
+    x, z = body.nodes.T
+    hats, none = np.array([-9.0, 0.0, 9.0]), np.zeros(1)
+    nodal = nodal_stress(body, np.column_stack([x, z]), hats, none)
+    found = maximum(body, nodal, lambda stress: -stress.poissons_ratio)
+    assert found.value == -0.1 and found.z < 0.25
+    found = maximum(body, nodal, lambda stress: stress.sy(stress.poissons_ratio))
+    lame = 0.4 / (1.4 * 0.2)
+    assert found.value == pytest.approx(2.0 * lame) and found.z >= 0.25
+
+
 def test_an_unstressed_body_has_a_largest_value_of_zero(body):
     nothing = np.zeros(len(body.points))
-    assert maximum(body, field(nothing), tau1).value == 0.0
+    assert maximum(body, field(body, nothing), tau1).value == 0.0
 
 
 @pytest.mark.parametrize(

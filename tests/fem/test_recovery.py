@@ -1,10 +1,12 @@
 """Recovered stresses: exact for linear stresses, of high order for smooth ones."""
 
 import numpy as np
+import pytest
 
 from analytic.material import Material
-from fem.elasticity import Support, elastic_body
+from fem.elasticity import Coating, Support, elastic_body
 from fem.recovery import element_stress, recovered_stress
+from fem.stress_nodes import stress_nodes
 from fem.triangle import GAUSS, jacobians, reference_nodes, slopes
 
 MATERIAL = Material(3.0, 0.3)
@@ -30,6 +32,48 @@ def test_linear_stresses_are_recovered_exactly_everywhere(structured_block):
     np.testing.assert_allclose(recovered_stress(body, moved), exact, atol=1e-7)
     elements = element_stress(body, moved, reference_nodes(2))
     np.testing.assert_allclose(elements, exact[body.mesh.triangles], atol=1e-12)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3])
+def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(
+    structured_block, degree
+):
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), seed=5)
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
+    power = degree - 1
+
+    def field(x, z):
+        return (x - 0.4 * z + 2.0) ** degree / degree, -((0.3 * x + z + 1.0) ** degree) / degree
+
+    x, z = body.points.T
+    first, second = (x - 0.4 * z + 2.0) ** power, -((0.3 * x + z + 1.0) ** power)
+    exact = stress_of(MATERIAL, first, second, -0.4 * first + 0.3 * second)
+    found = recovered_stress(body, np.column_stack(field(*body.nodes.T)))
+    np.testing.assert_allclose(found, exact, atol=1e-6 if degree > 1 else 1e-12)
+
+
+@pytest.mark.parametrize("thickness", [0.25, 0.5])
+def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
+    """The displacement bends there; linear stresses on both sides, one or two elements thick."""
+    coating = Coating(Material(9.0, 0.2), thickness)
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
+    body = elastic_body(mesh, MATERIAL, Support(), coating=coating)
+    nodes = stress_nodes(body)
+    x, z = body.points.T
+    below = np.maximum(z - thickness, 0.0)
+    moved = np.column_stack([x**2 + below * (x - z), x * z + below * (1.0 + 2.0 * z)])
+    found = recovered_stress(body, moved)
+
+    material = np.zeros(len(nodes.point), dtype=bool)
+    material[nodes.triangles] = body.coated[:, None]
+    x, z = body.points[nodes.point].T
+    coat = stress_of(coating.material, 2 * x, x, z)
+    depth = z - thickness
+    core = stress_of(MATERIAL, 2 * x + depth, x + 1 + 2 * z + 2 * depth, x - z - depth + z + 0 * x)
+    exact = np.where(material[:, None], coat, core)
+    np.testing.assert_allclose(found, exact, atol=1e-6)
+    twice = np.bincount(nodes.point)[nodes.point] == 2
+    assert twice.sum() == 2 * 17 and np.all(z[twice] == thickness)
 
 
 def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block):
