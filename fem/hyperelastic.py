@@ -4,6 +4,10 @@
 
 In the limit of small strains it is the linear body of the same Young's modulus and Poisson's ratio
 (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27).
+What lies beyond that limit is the law's own: with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2
+as the last term the peak under a flat on a sinusoid (slope 0.025, p0/E = 0.015) differs from the
+linear one by 0.29 and 0.22 % where this law gives 0.42 %. Of the three it is the one that gets
+stiffer with pressure, as metals do.
 
 Nomenclature: u displacement [m], F = I + grad u, J = det F, W energy [J/m^3], mu and lambda Lame's
 constants [Pa], sigma Cauchy's stress [Pa].
@@ -169,7 +173,7 @@ def _surface_stress(
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:
-    """d value / dx (t, c) of `value` (t, c) at the points x (t,) of quadratic edges, a vertex first.
+    """d value / dx (t, c) of `value` (t, c) at points x (t,) of quadratic edges, a vertex first.
 
     At midpoints the chord's slope, more accurate than the quadratic's own at its ends; at vertices
     the line through the slopes of the two nearest midpoints.
