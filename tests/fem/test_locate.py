@@ -55,3 +55,22 @@ def test_points_just_below_and_above_a_rough_surface(structured_block):
     x = np.linspace(-0.99, 0.99, 997)
     assert np.all(locator(np.column_stack([x, -wavy(x) + 1e-3]))[0] >= 0)
     assert np.all(locator(np.column_stack([x, -wavy(x) - 1e-3]))[0] == -1)
+
+
+def test_a_block_bent_along_x_too(structured_block):
+    """A sector of a ring: inside and outside are told apart on its curved sides and its top."""
+    mesh = structured_block(np.linspace(-1, 1, 33), np.linspace(0, 1, 17), seed=6)
+    angle, radius = mesh.points[:, 0], 2.0 - mesh.points[:, 1]
+    points = np.column_stack([radius * np.sin(angle), 2.0 - radius * np.cos(angle)])
+    locator = Locator(points, mesh.triangles, True)
+    random = np.random.default_rng(5)
+    angle, radius = random.uniform(-1, 1, 5000), random.uniform(0.9, 2.1, 5000)
+    inside = np.abs(radius - 1.5) < 0.499
+    outside = np.abs(radius - 1.5) > 0.501
+    where = np.column_stack([radius * np.sin(angle), 2.0 - radius * np.cos(angle)])
+    element, at = locator(where)
+    assert np.all(element[outside] == -1)
+    assert np.all(element[inside & (np.abs(angle) < 0.999)] >= 0)
+    found = element >= 0
+    back = np.einsum("kac,ka->kc", points[mesh.triangles[element[found]]], shapes(at[found]))
+    np.testing.assert_allclose(back, where[found], atol=1e-12)
