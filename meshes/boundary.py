@@ -11,6 +11,7 @@ import numpy as np
 from meshes.block import BlockSpec
 from meshes.coating import LAYERS, core
 from meshes.errors import MeshError
+from meshes.size_field import SizeField
 from meshes.size_law import edges_per_size, own_vertices, wanted_size
 
 # An interval may miss a whole number of edges by this part of an edge (rounding of its ends).
@@ -67,16 +68,27 @@ def refined_nodes(spec: BlockSpec) -> list[np.ndarray]:
     ]
 
 
-def top_nodes(spec: BlockSpec) -> np.ndarray:
+def sizes_on(
+    spec: BlockSpec, sizes: SizeField | None, axis: int, at: float
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Wanted sizes [m] on the line x = at (axis 0) or z = at (axis 1), at z or x [m]."""
+
+    def wanted(place: np.ndarray) -> np.ndarray:
+        line = np.full_like(place, at)
+        law = wanted_size(spec, *((line, place) if axis == 0 else (place, line)))
+        return law if sizes is None else np.minimum(law, sizes.along(axis, at, place))
+
+    return wanted
+
+
+def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, both corners included.
 
     With a coating the ends of its core are among them. Raises MeshError when an interval is not a
     whole number of edges or leaves too short a rest.
     """
 
-    def size(x: np.ndarray) -> np.ndarray:
-        return wanted_size(spec, x, np.zeros_like(x))
-
+    size = sizes_on(spec, sizes, 1, 0.0)
     half, pieces = spec.half_width, []
     reached = -half
 
@@ -124,11 +136,11 @@ class Outline:
     beside: tuple[np.ndarray, ...] = ()
 
 
-def outline(spec: BlockSpec) -> Outline:
-    """The four sides of the block; with a coating its core and what lies below it."""
+def outline(spec: BlockSpec, sizes: SizeField | None = None) -> Outline:
+    """The four sides of the block; with a coating its core and what lies below it.
 
-    def across(z: float) -> Callable[[np.ndarray], np.ndarray]:
-        return lambda x: wanted_size(spec, x, np.full_like(x, z))
+    Where `sizes` ask for smaller elements than the size law, beside spec.vertices, they prevail.
+    """
 
     def flat(x: np.ndarray, z: float) -> np.ndarray:
         return np.column_stack([x, np.full_like(x, z)])
@@ -137,12 +149,13 @@ def outline(spec: BlockSpec) -> Outline:
         return np.column_stack([np.full_like(z, x), z])
 
     def down(x: float, start: float, stop: float) -> np.ndarray:
-        return upright(
-            x, graded_line(start, stop, lambda z: wanted_size(spec, np.full_like(z, x), z))
-        )
+        return upright(x, graded_line(start, stop, sizes_on(spec, sizes, 0, x)))
 
-    half, depth, top = spec.half_width, spec.depth, top_nodes(spec)
-    bottom = flat(graded_line(-half, half, across(depth))[::-1], depth)
+    def across(start: float, stop: float, z: float) -> np.ndarray:
+        return flat(graded_line(start, stop, sizes_on(spec, sizes, 1, z)), z)
+
+    half, depth, top = spec.half_width, spec.depth, top_nodes(spec, sizes)
+    bottom = across(-half, half, depth)[::-1]
     if spec.interface is None:
         sides = [flat(top, 0.0), down(half, 0.0, depth), bottom, down(-half, 0.0, depth)[::-1]]
         return joined(sides, ((1, 2, 3, 4),))
@@ -152,7 +165,7 @@ def outline(spec: BlockSpec) -> Outline:
     lines = [
         flat(top[(low <= top) & (top <= high)], 0.0),
         upright(high, layers) if high < half else down(half, 0.0, at),
-        flat(graded_line(low, high, across(at))[::-1], at),
+        across(low, high, at)[::-1],
         (upright(low, layers) if low > -half else down(-half, 0.0, at))[::-1],
         down(half, at, depth),
         bottom,

@@ -19,6 +19,7 @@ from meshes.errors import MeshError
 from meshes.layers import with_layers
 from meshes.quality import check_quality, cross
 from meshes.second_order import add_midpoints
+from meshes.size_field import SizeField
 
 WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
 # Under mpirun the mesher must not take itself for one more rank.
@@ -102,6 +103,15 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
     )
 
 
+def field_in_units(sizes: SizeField, unit: float) -> SizeField:
+    """sizes with all lengths divided by unit [m] and rounded to UNIT_DECIMALS."""
+    return replace(
+        sizes,
+        vertices=np.round(sizes.vertices / unit, UNIT_DECIMALS),
+        size=np.round(sizes.size / unit, UNIT_DECIMALS),
+    )
+
+
 def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
     """Arrays that the gmsh process returns for the arrays of task.
 
@@ -166,7 +176,9 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
         )
 
 
-def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
+def build_block(
+    spec: BlockSpec, *, sizes: SizeField | None = None, timeout: float = 600.0
+) -> BlockMesh:
     """Flat second-order mesh of the block, refined on spec.intervals (see meshes.size_law).
 
     Every interval carries equal edges of surface_size (a whole fraction of it where a thin block,
@@ -174,28 +186,37 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     continuously. Points on the sides and on the line below a coating are exact. The same spec
     gives the same mesh to the last bit, and a spec in other units of length the same triangles.
 
-    timeout [s] bounds the run of gmsh. Raises MeshError when spec cannot be meshed, when gmsh
-    fails, crashes or runs out of time, and when the elements are not fit to solve on.
+    sizes   from an earlier mesh of the same block: where they are smaller than the size law's,
+            outside the refined intervals, elements follow them
+    timeout [s] bounds the run of gmsh
+
+    Raises MeshError when spec cannot be meshed, when gmsh fails, crashes or runs out of time, and
+    when the elements are not fit to solve on.
     """
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size
-    given, small = outline(spec), in_units(spec, unit)
+    given, small = outline(spec, sizes), in_units(spec, unit)
+    field = None if sizes is None else field_in_units(sizes, unit)
     # The quotients of the given points can fall on either side of the last decimal kept.
-    scaled = outline(small).points
+    scaled = outline(small, field).points
     if scaled.shape != given.points.shape:
         scaled = given.points / unit
-    result = run_worker(
-        {
-            "points": np.round(scaled, UNIT_DECIMALS),
-            "lines": np.concatenate(given.lines),
-            "line_lengths": np.array([len(line) for line in given.lines]),
-            "regions": np.concatenate(given.regions),
-            "region_lengths": np.array([len(region) for region in given.regions]),
-            "spec": np.array(json.dumps(asdict(small), default=np.ndarray.tolist)),
-        },
-        timeout,
-    )
+    task = {
+        "points": np.round(scaled, UNIT_DECIMALS),
+        "lines": np.concatenate(given.lines),
+        "line_lengths": np.array([len(line) for line in given.lines]),
+        "regions": np.concatenate(given.regions),
+        "region_lengths": np.array([len(region) for region in given.regions]),
+        "spec": np.array(json.dumps(asdict(small), default=np.ndarray.tolist)),
+    }
+    if field is not None:
+        task |= {
+            "size_vertices": field.vertices,
+            "size_triangles": field.triangles,
+            "sizes": field.size,
+        }
+    result = run_worker(task, timeout)
     vertices = result["vertices"] * unit
     vertices[: len(given.points)] = given.points
     vertices, triangles = with_layers(vertices, result["triangles"], spec.interface, given.beside)

@@ -10,10 +10,12 @@ import json
 import os
 import signal
 import sys
+from types import ModuleType
 
 import numpy as np
 
 from meshes.block import BlockSpec
+from meshes.size_field import SizeField
 from meshes.size_law import point_size
 
 OPTIONS = {
@@ -46,7 +48,11 @@ def die_with_parent() -> None:
 
 
 def fill(
-    points: np.ndarray, lines: list[np.ndarray], regions: list[list[int]], spec: BlockSpec
+    points: np.ndarray,
+    lines: list[np.ndarray],
+    regions: list[list[int]],
+    spec: BlockSpec,
+    sizes: SizeField | None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2), the given points first, and triangles (m, 3) that fill all regions.
 
@@ -80,7 +86,11 @@ def fill(
         model.mesh.addElementsByType(curve, 1, [], edges.ravel())
 
     size = point_size(spec)
-    model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
+    if sizes is None:
+        model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
+    else:
+        show_sizes(gmsh, sizes)
+        model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: min(lc, size(x, y)))
     model.mesh.generate(2)
 
     node_tags, coordinates, _ = model.mesh.getNodes()
@@ -94,13 +104,29 @@ def fill(
     return vertices, triangles
 
 
-def read_task(archive: bytes) -> tuple[np.ndarray, list[np.ndarray], list[list[int]], BlockSpec]:
+def show_sizes(gmsh: ModuleType, sizes: SizeField) -> None:
+    """Have gmsh interpolate the sizes: it hands them to the callback, at 2 us each."""
+    corner = np.column_stack([sizes.vertices, np.zeros(len(sizes.vertices))])[sizes.triangles]
+    values = np.hstack([corner.transpose(0, 2, 1).reshape(-1, 9), sizes.size[sizes.triangles]])
+    view = gmsh.view.add("sizes")
+    gmsh.view.addListData(view, "ST", len(values), values.ravel())
+    field = gmsh.model.mesh.field.add("PostView")
+    gmsh.model.mesh.field.setNumber(field, "ViewTag", view)
+    gmsh.model.mesh.field.setAsBackgroundMesh(field)
+
+
+def read_task(
+    archive: bytes,
+) -> tuple[np.ndarray, list[np.ndarray], list[list[int]], BlockSpec, SizeField | None]:
     """Arguments of `fill` from what `meshes.build` sends."""
     with np.load(io.BytesIO(archive)) as task:
         spec = BlockSpec(**json.loads(str(task["spec"])))
         lines = np.split(task["lines"], np.cumsum(task["line_lengths"])[:-1])
         regions = np.split(task["regions"], np.cumsum(task["region_lengths"])[:-1])
-        return task["points"], lines, [region.tolist() for region in regions], spec
+        sizes = None
+        if "sizes" in task:
+            sizes = SizeField(task["size_vertices"], task["size_triangles"], task["sizes"])
+        return task["points"], lines, [region.tolist() for region in regions], spec, sizes
 
 
 def main() -> int:

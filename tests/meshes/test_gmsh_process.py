@@ -85,7 +85,7 @@ def test_missing_gmsh_says_how_to_get_it(monkeypatch, tmp_path):
 
 def outline_changed(monkeypatch, change):
     outline = build.outline
-    monkeypatch.setattr(build, "outline", lambda spec: change(outline(spec)))
+    monkeypatch.setattr(build, "outline", lambda *given: change(outline(*given)))
 
 
 def test_sides_that_gmsh_cannot_fill_are_reported(monkeypatch):
