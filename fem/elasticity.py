@@ -28,7 +28,10 @@ two for 1e-4. In a large block with 16 edges to a half-width the surface's slope
 rough work with nu <= 0.3.
 
 On the same mesh cubic displacements have 2.2 times the unknowns of quadratic ones, their factor
-takes 2.5 times the memory and 2.2 to 3.3 times the time.
+takes 2.5 times the memory and 2.2 to 3.3 times the time. Under a rough surface, whose edges are
+parabolas whatever the degree and whose pressures have kinks, an error costs the same with both:
+1e-4 of the displacement with 17 000 quadratic unknowns or 10 000 cubic ones, 1.4e-5 with 66 000 or
+37 000.
 """
 
 from functools import cached_property
