@@ -29,7 +29,8 @@ def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarra
     cells = np.array([start, end])
     while True:
         middle = 0.5 * (cells[:-1] + cells[1:])
-        long = np.diff(cells) > 0.25 * size(middle)
+        # In other units of length a tie must not fall the other way.
+        long = np.diff(cells) > (0.25 + 1e-9) * size(middle)
         if not long.any():
             break
         cells = np.sort(np.concatenate([cells, middle[long]]))
