@@ -1,0 +1,68 @@
+"""This project's finite elements under comparison, as a scene uses them.
+
+Block, elastic body, its compliance on hats, and the contact on it with the half-plane as the model
+of the outer iteration. The first argument of the program gives the degree of the displacements and
+how many hats stand on an element edge, in two digits.
+"""
+
+import sys
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.benchmarks.fe_peers_task import Task, run_program
+
+if TYPE_CHECKING:
+    from analytic.contact import ContactSolution
+    from analytic.equilibrium import Constraints
+
+
+def contact_of(
+    task: Task, degree: int, hats: int, constraints: "Constraints"
+) -> tuple[np.ndarray, "ContactSolution", int]:
+    """Nodes (n + 2,) [m] of the hats with the outer feet, pressures on them, and unknowns.
+
+    Raises RuntimeError where the contact has not converged.
+    """
+    from analytic.defect import solve_with_model
+    from analytic.gap import HatGrid
+    from analytic.material import Material
+    from analytic.operators import HalfPlane
+    from fem.compliance import FiniteElementCompliance
+    from fem.elasticity import elastic_body
+    from fem.support import Support
+    from meshes.block import BlockMesh, BlockSpec
+
+    spec = BlockSpec(task.half_width, task.depth, task.ground[None], task.surface_size, task.growth)
+    mesh = BlockMesh(task.points, task.triangles, np.zeros_like(task.points), spec)
+    material = Material(float(task.youngs_modulus), float(task.poissons_ratio))
+    body = elastic_body(mesh, material, Support("bonded", "fixed"), degree=degree)
+    grid = HatGrid.within(*task.ground, task.surface_size / hats)
+    feet = np.arange(grid.first - 1, grid.last + 2) * grid.pitch
+    solution = solve_with_model(
+        FiniteElementCompliance(body, feet),
+        HalfPlane(grid.count, grid.pitch, material.plane_strain_modulus),
+        grid.average(task.gap),
+        grid.weights,
+        constraints,
+    )
+    if not solution.converged:
+        raise RuntimeError(f"not converged: {solution.residuals}")
+    return feet, solution, body.unknowns
+
+
+def main(settings: str, *files: str) -> None:
+    from analytic.equilibrium import Constraints
+
+    def solve(task: Task) -> tuple[np.ndarray, np.ndarray, int, int]:
+        degree, hats = map(int, settings)
+        given = Constraints(approach=float(task.approach))
+        feet, solution, unknowns = contact_of(task, degree, hats, given)
+        pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
+        return feet, pressure, unknowns, solution.iterations["steps"]
+
+    run_program(solve, *files)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
