@@ -1,0 +1,62 @@
+"""Stress and plastic strain of a pressed metal at the mesh's points.
+
+Known is either at three points of each element, which make a linear field there; a mesh point has
+the mean of what the elements around it say, by area. Patches of higher degree, as for elastic
+stresses (`fem.recovery`), would overshoot at the edge of the plastic zone, where both have kinks.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from analytic.plane_stress import PlaneStress
+from fem.plasticity import PlasticBody
+from fem.press_plastic import PlasticContact
+from fem.triangle import GAUSS, reference_nodes
+
+# Values at the six nodes of those at the three points, joined linearly.
+_EXTENDED = np.column_stack([np.ones(6), reference_nodes(2)]) @ np.linalg.inv(
+    np.column_stack([np.ones(3), GAUSS])
+)
+
+
+@dataclass(frozen=True)
+class PlasticFields:
+    """Under one load, or of what is left without one, at the mesh's n points.
+
+    stress               in the plane (n,) [Pa]
+    sy                   across the plane (n,) [Pa]; not nu (sx + sz) where the metal has flowed
+    equivalent_strain    equivalent plastic strain (n,), zero where the metal has not flowed
+    """
+
+    stress: PlaneStress
+    sy: np.ndarray
+    equivalent_strain: np.ndarray
+
+    @cached_property
+    def von_mises(self) -> np.ndarray:
+        """Equivalent stress (n,) [Pa]."""
+        s = self.stress
+        normal = (s.sx - s.sz) ** 2 + (s.sz - self.sy) ** 2 + (self.sy - s.sx) ** 2
+        return np.sqrt(0.5 * normal + 3.0 * s.txz**2)
+
+
+def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
+    """Stresses and plastic strain of a body under a contact of its history."""
+    inside, across = body.stress(contact.displacement, contact.state)
+    sampled = np.column_stack([inside, across, contact.state.equivalent])
+    sx, sz, txz, sy, strain = _at_points(body, sampled).T
+    return PlasticFields(PlaneStress(sx, sz, txz), sy, np.maximum(strain, 0.0))
+
+
+def _at_points(body: PlasticBody, sampled: np.ndarray) -> np.ndarray:
+    """Means (n, k) at the mesh points of values (3m, k) at the elements' three points."""
+    elements, areas = body.body.elements, body.areas.sum(axis=1)
+    values = _EXTENDED @ sampled.reshape(len(elements), 3, -1) * areas[:, None, None]
+    count = len(body.body.nodes)
+    total = np.bincount(elements.ravel(), np.repeat(areas, 6), minlength=count)
+    columns = [
+        np.bincount(elements.ravel(), v.ravel(), minlength=count) for v in values.T.swapaxes(1, 2)
+    ]
+    return np.column_stack(columns) / total[:, None]
