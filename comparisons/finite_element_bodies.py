@@ -17,6 +17,7 @@ from comparisons.finite_element_mesh import (
 )
 from comparisons.plan import Plan
 from comparisons.problem import Problem
+from comparisons.rank import from_first
 from comparisons.stages import Stages
 from fem.elasticity import Coating, ElasticBody, elastic_body
 from fem.support import Support
@@ -66,7 +67,7 @@ class BodyStore:
 
     def mesh(self, spec: BlockSpec) -> BlockMesh:
         """The flat mesh of a spec."""
-        return _kept(self._meshes, _key(spec), lambda: build_block(spec))
+        return _kept(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
 
     def body(
         self, shape: Hashable, make: Callable[[], ElasticBody], *properties: Hashable

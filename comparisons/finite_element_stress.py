@@ -10,6 +10,7 @@ from analytic.plane_stress import PlaneStress
 from comparisons.finite_element_contact import MutualCompliance, roller_normal
 from comparisons.level import MeshField, StressResult, Window
 from comparisons.problem import Problem
+from comparisons.rank import from_first
 from fem.elasticity import ElasticBody
 from fem.maximum import maximum
 from fem.stress import NodalStress, evaluate, nodal_stress
@@ -42,7 +43,9 @@ def pressed_linearly(
 
     def stress(friction: float) -> NodalStress:
         moved = rough.displacement(pressure, friction)
-        return nodal_stress(rough.body, moved, rough.hats, pressure, friction, direction)
+        return from_first(
+            lambda: nodal_stress(rough.body, moved, rough.hats, pressure, friction, direction)
+        )
 
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
     return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress)

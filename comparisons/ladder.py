@@ -130,7 +130,8 @@ def _solve(
     if name == "half_plane":
         from comparisons.half_plane import half_plane_level
 
-        return half_plane_level(problem, plan, pitch, window, Stages(listener))
+        stages = Stages(listener)
+        return from_first(lambda: half_plane_level(problem, plan, pitch, window, stages))
     from comparisons.finite_element import finite_element_level
     from comparisons.finite_element_bodies import BodyStore
     from comparisons.finite_element_mesh import Refinement

@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable, Container
 from contextlib import redirect_stderr, redirect_stdout, suppress
+from contextvars import ContextVar
 from typing import TypeVar
 
 Result = TypeVar("Result")
@@ -23,6 +24,9 @@ RANKS = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
 # Seconds that another process than the first keeps an error to itself: where the first has met the
 # same it says so and ends all before that.
 PATIENCE = 10.0
+
+# whether the first process is making something that the others wait for
+_alone = ContextVar("alone", default=False)
 
 
 def is_several() -> bool:
@@ -38,18 +42,22 @@ def is_first() -> bool:
 def from_first(make: Callable[[], Result]) -> Result:
     """What `make` returns in the first process, in every process; it runs in no other.
 
-    To be called by all. An exception that it raises there is raised in all.
+    To be called by all. An exception that it raises there is raised in all. What `make` calls in
+    its turn is the first's alone, too.
     """
-    if not is_several():
+    if not is_several() or _alone.get():
         return make()
     from mpi4py import MPI
 
     result = error = None
     if MPI.COMM_WORLD.rank == 0:
+        outside = _alone.set(True)
         try:
             result = make()
         except Exception as caught:
             error = caught
+        finally:
+            _alone.reset(outside)
     kept = result
     result, error = MPI.COMM_WORLD.bcast((result, error))
     if error is not None:
@@ -62,18 +70,19 @@ def as_one(work: Callable[[], int], ends: Container[int]) -> int:
 
     Only the first is heard, but for errors of another one alone. `ends` are the statuses with
     which all come to their end; with any other one a process ends the others too, which may be
-    waiting for it. mpirun stops its processes by SIGTERM: they are interrupted as by Ctrl-C.
+    waiting for it. mpirun stops its processes by SIGTERM: that interrupts the first as Ctrl-C
+    would.
     """
     if not is_several():
         return work()
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
     said = io.StringIO()
     if is_first():
+        before = signal.signal(signal.SIGTERM, signal.default_int_handler)
         status = work()
+        signal.signal(signal.SIGTERM, before)
     else:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(said):
             status = work()
-    signal.signal(signal.SIGTERM, before)
     if status not in ends:
         if not is_first():
             time.sleep(PATIENCE)

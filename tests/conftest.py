@@ -39,8 +39,9 @@ def launch() -> Callable[..., subprocess.CompletedProcess]:
         environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
         environment |= {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
         environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        environment |= {"OMPI_MCA_mpi_yield_when_idle": "1"}  # waiting leaves the core to others
         return subprocess.run(
-            command, env=environment, cwd=PROJECT, capture_output=True, text=True, timeout=120
+            command, env=environment, cwd=PROJECT, capture_output=True, text=True, timeout=300
         )
 
     return launched
