@@ -25,7 +25,7 @@ class Patches:
     beside    (s, 2) patch and edge of the surface, numbered along it, wherever they touch
     ends      (e, 2) patches at the ends of each edge
     middle    (e,) the stress node in the middle of each edge
-    shares    (e, 2) weights of the two at the middle: an end on a boundary has half a patch only,
+    shares    (e, 2) weights of the two at the middle: an end on a side has half a patch only,
               and leaves the middle to the other end if that has a whole one
     """
 
@@ -81,8 +81,8 @@ def _around(corner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _outer(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
-    """(k,) whether a stress node is on the boundary of its material."""
+    """(k,) whether a stress node is on a side of the block."""
     sides = body.sides
-    outer = np.bincount(nodes.point) > 1
+    outer = np.zeros(len(body.points), dtype=bool)
     outer[np.concatenate([sides.top, sides.bottom, sides.left, sides.right])] = True
     return outer[nodes.point]

@@ -13,8 +13,9 @@ from analytic.plane_stress import PlaneStress
 from analytic.stress import stress_at
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Coating, Support, elastic_body
-from fem.stress import at_mesh_points, evaluate, nodal_stress
+from fem.stress import at_mesh_points, evaluate, nodal_stress, within
 from fem.surface import hat_nodes
+from fem.triangle import shapes
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.roughen import roughen
@@ -175,8 +176,8 @@ def test_stresses_in_a_coating_are_the_exact_ones_up_to_its_interface(coated):
     off = np.stack(parts(found)) - np.stack(parts(exact.stress))
     size = np.sqrt(np.mean(np.stack(parts(exact.stress)) ** 2))
     first, last = (np.sqrt(np.mean(off[:, rows] ** 2)) / size for rows in (slice(3), slice(3, 7)))
-    assert 1e-4 < first < 2e-3
-    assert 1e-4 < last < 6e-3
+    assert 1e-3 < first < 2.5e-3
+    assert 1e-3 < last < 2.5e-3
 
 
 def test_poissons_ratio_is_that_of_each_side_of_an_interface(coated):
@@ -194,6 +195,20 @@ def test_poissons_ratio_is_that_of_each_side_of_an_interface(coated):
     # what must be continuous is, and what may jump does
     assert sz.max() < 0.05 and txz.max() < 0.05
     assert sx.max() > 0.5
+
+
+def test_kinks_are_not_seen_across_an_interface(structured_block):
+    """Right below a coating one element thick stresses are quadratic between the nodes."""
+    coating = Coating(Material(3.0, 0.2), 0.25)
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
+    body = elastic_body(mesh, MATERIAL, Support(), coating=coating)
+    hats, pressure = np.array([-0.25, 0.0, 0.25]), np.ones(1)
+    moved = FiniteElementCompliance(body, hats).displacement(pressure, 0.3)
+    nodal = nodal_stress(body, moved, hats, pressure, 0.3)
+    off = within(body, nodal, np.arange(len(mesh.triangles)), np.array([[0.2, 0.3]]))
+    off = off - shapes(np.array([[0.2, 0.3]])) @ nodal.values[nodal.nodes.triangles]
+    assert not off[~body.coated].any()
+    assert np.abs(off[body.coated]).max() > 0.01
 
 
 def test_stresses_at_mesh_points_are_refused_for_a_coated_body(coated):
