@@ -21,6 +21,8 @@ At the surface, under a pressure's resultant P alone, that is u_z = -2 P / (pi E
     L     datum [m]: the half-plane leaves u_z undefined up to a constant
 """
 
+from functools import cached_property
+
 import numpy as np
 from scipy.sparse import csr_matrix
 
@@ -79,9 +81,11 @@ class FarField:
         power = ((body.surface.x - self.centre) / self.reach) ** np.arange(self.terms)[:, None]
         self.moments = np.zeros((2 * self.terms, 2 * len(body.surface.x)))
         self.moments[: self.terms, 0::2] = self.moments[self.terms :, 1::2] = power
-        moved = body.solve(self._forces(self._boundary))
-        moved[:, self._outer] = self._boundary
-        self.lifted = moved[:, body.surface.point].reshape(2 * self.terms, -1).T
+
+    @cached_property
+    def lifted(self) -> np.ndarray:
+        """Of moments of traction, then of pressure."""
+        return np.hstack([self._lifted(self._boundary[: self.terms]), self._lifted_by_pressure])
 
     def displacement(self, load: np.ndarray) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under forces (n, 2) [N/m] on its surface."""
@@ -94,10 +98,24 @@ class FarField:
     def symmetric(self, force: np.ndarray) -> np.ndarray:
         """Surface displacement (2k, …) [m] that the boundary adds under forces (2k, …) [N/m].
 
-        It means something on the stretch of the tractions, where hats weight it, and there only.
+        It means something on the stretch of the tractions, where hats weight it, and there only;
+        and along x only under forces along x, which take half of the back-substitutions.
         """
-        there = self.lifted @ (self.moments @ force)
-        return 0.5 * (there + self.moments.T @ (self.lifted.T @ force))
+        if np.any(force[0::2]):
+            moments, lifted = self.moments, self.lifted
+        else:
+            moments, lifted = self.moments[self.terms :], self._lifted_by_pressure
+        return 0.5 * (lifted @ (moments @ force) + moments.T @ (lifted.T @ force))
+
+    @cached_property
+    def _lifted_by_pressure(self) -> np.ndarray:
+        return self._lifted(self._boundary[self.terms :])
+
+    def _lifted(self, boundary: np.ndarray) -> np.ndarray:
+        """Displacement (2k, m) of the surface that goes with the boundary's (m, h, 2)."""
+        moved = self.body.solve(self._forces(boundary))
+        moved[:, self._outer] = boundary
+        return moved[:, self.body.surface.point].reshape(len(boundary), -1).T
 
     def _forces(self, boundary: np.ndarray) -> np.ndarray:
         """Nodal forces (…, n, 2) that stand for displacements (…, h, 2) of the held nodes."""

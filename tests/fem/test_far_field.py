@@ -155,6 +155,8 @@ def test_compliance_is_symmetric_and_what_that_took_is_below_the_mesh_error():
         errors.append(np.abs(matrix - exact).max())
         mean = forces.T @ far.symmetric(forces)
         np.testing.assert_allclose(mean, 0.5 * (added + added.T), atol=1e-13)
+        pressed = operator.normal.T @ far.symmetric(operator.normal.toarray())
+        np.testing.assert_allclose(pressed, mean[:21, :21], atol=1e-13)
     assert skewness[0] < 0.01 * errors[0]
     assert skewness[1] < 0.01 * errors[1]
     assert 2.0 < np.log2(skewness[0] / skewness[1]) < 7.0
