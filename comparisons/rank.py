@@ -1,9 +1,21 @@
 """Several processes of one command, as mpirun starts them: one decides, speaks and writes.
 
-All carry out the same program, since it takes all of them to factorise and to solve, and nothing
-but the factor is spread over them. What could turn out otherwise on each (files, clocks, free
-memory) is found by the first and handed to the others: processes that go different ways wait for
-each other for ever.
+All carry out the same program, since it takes all of them to factorise and to solve. What could
+turn out otherwise on each (files, clocks, free memory) is found by the first and handed to the
+others: processes that go different ways wait for each other for ever. What each computes for
+itself comes out alike where they are the same program on the same kind of processor.
+
+Matrix and factor are spread. gmsh, MUMPS' ordering, the half-plane, the recovery of stresses and
+all files are the first's; mesh, pressures and displacements lie whole in each. Largest resident
+memory [MB] at 375 000 unknowns, factor 1.25 kB an unknown:
+
+    processes      factor in each   first   others
+    1              468              986
+    2              243 to 285       719     511
+    4              139 to 154       598     372
+
+Beside its part of the factor the first keeps 1 kB an unknown: right to some ten million of them,
+in plane strain far beyond what a rough contact takes.
 """
 
 import io
