@@ -92,8 +92,18 @@ class ContactProblem:
 
     def gap(self, point: ContactPoint) -> np.ndarray:
         """g (count,) [m^2]."""
-        parts = sum(terms.gap for terms in point.terms)
-        return self.constant + parts - point.state.approach * self.weights
+        return self._gap(point.terms, point.state.approach)
+
+    def opening(self, state: ContactState) -> np.ndarray:
+        """Mean opening (count,) [m] under each hat, without asking the bodies for their forces."""
+        terms = [
+            contact.at(u, state.pressure)
+            for (_, contact), u in zip(self.bodies, state.displacements, strict=True)
+        ]
+        return self._gap(terms, state.approach) / self.weights
+
+    def _gap(self, terms: Sequence[ContactTerms], approach: float) -> np.ndarray:
+        return self.constant + sum(each.gap for each in terms) - approach * self.weights
 
     def residual(self, point: ContactPoint, load: float | None) -> float:
         """The largest of the three parts (see RESIDUAL)."""

@@ -101,9 +101,7 @@ def solve_nonlinear_contact(
         # the last increment ends on the goal itself, not on a sum of parts
         part = 1.0 if done + step > 1.0 - LEAST_INCREMENT else done + step
         target = goal if part == 1.0 else first + part * (goal - first)
-        guess = state
-        if at_rest and not parts and load is not None:
-            guess = _scaled(start, part)
+        guess = _scaled(start, part) if at_rest and not parts else state
         try:
             found, history = newton(
                 problem,
@@ -124,11 +122,10 @@ def solve_nonlinear_contact(
         histories.append(tuple(history))
         state, done = found, part
         step = min(longest, LONGER * step)
-    opening = problem.gap(problem.at(state)) / weights
-    return NonlinearSolution(state, opening, tuple(histories), tuple(parts), cuts)
+    return NonlinearSolution(state, problem.opening(state), tuple(histories), tuple(parts), cuts)
 
 
 def _scaled(start: ContactState, part: float) -> ContactState:
-    """A guessed state at a part of the load for which it was guessed."""
+    """A guessed state at a part of the load, or of the approach, for which it was guessed."""
     moved = tuple(part * displacement for displacement in start.displacements)
     return replace(start, displacements=moved, pressure=part * start.pressure)
