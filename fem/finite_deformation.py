@@ -21,7 +21,8 @@ from fem.elasticity import ElasticBody
 from fem.hyperelastic import NeoHookeanBody, along_surface, nodal_cauchy_stress
 from fem.nonlinear_contact import ContactState, NonlinearSolution, solve_nonlinear_contact
 from fem.rigid_roller import CurrentContact, Roller
-from fem.stress import NodalStress, nodal_stress
+from fem.stress import NodalStress
+from fem.surface_load import SurfaceLoad
 
 
 @dataclass(frozen=True)
@@ -79,13 +80,11 @@ class FiniteDeformation:
         def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return self.roller(x)[1], np.ones_like(x)
 
-        linear = nodal_stress(
-            self.body, self.displacement, self.hats, self.pressure, self.friction, direction
-        )
-        hats = np.concatenate([[0.0], self.pressure, [0.0]])
+        load = SurfaceLoad(self.body, self.hats, self.pressure, self.friction, direction)
+        nodal = np.concatenate([[0.0], self.pressure, [0.0]])
         x = self.body.top.x
-        pressure = self._on_deformed(x, np.interp(x, self.hats, hats))
-        return nodal_cauchy_stress(self.body, self.displacement, linear, pressure, self.friction)
+        pressure = self._on_deformed(x, np.interp(x, self.hats, nodal))
+        return nodal_cauchy_stress(self.body, self.displacement, load, pressure)
 
     @cached_property
     def deformed_points(self) -> np.ndarray:
@@ -149,7 +148,6 @@ def press(
     """
     weights = 0.5 * (hats[2:] - hats[:-2])
     moved = FiniteElementCompliance(body, hats).displacement(start, friction)
-    deepest = 0.0 if approach is None else approach
-    state = ContactState((np.where(body.held, 0.0, moved),), start, deepest)
+    state = ContactState((np.where(body.held, 0.0, moved),), start, approach=0.0)
     gap = np.zeros_like(weights) if gap is None else gap
     return solve_nonlinear_contact(bodies, gap, weights, state, load, approach, hardness)

@@ -13,18 +13,19 @@ Nomenclature: u displacement [m], F = I + grad u, J = det F, W energy [J/m^3], m
 constants [Pa], sigma Cauchy's stress [Pa].
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from analytic.plane_stress import PlaneStress
 from fem import compat
 from fem.elasticity import ElasticBody, quadrature_degree
 from fem.just_in_time import compiled
 from fem.mumps import FemError
-from fem.recovery import element_stress
-from fem.stress import NodalStress
-from fem.stress_nodes import MaterialStress
+from fem.recovery import element_stress, recovered_stress
+from fem.stress import NodalStress, at_mesh_points
+from fem.surface_load import SurfaceLoad, to_surface
 from fem.triangle import gradients, reference_nodes
 
 
@@ -111,26 +112,51 @@ def cauchy_stress(gradient: np.ndarray, mu: np.ndarray, lame: np.ndarray) -> np.
 def nodal_cauchy_stress(
     body: ElasticBody,
     displacement: np.ndarray,
-    linear: NodalStress,
+    load: SurfaceLoad,
     pressure: np.ndarray,
-    friction: float,
 ) -> NodalStress:
     """Cauchy's stresses [Pa] at the mesh points of a body without a coating.
 
-    They belong to where the points are now, points + displacement. `linear` is the linear stress
-    of the same displacement; what Cauchy's differs from it by, small of second order, is averaged
-    over the elements around a point. `pressure` (t,) [Pa] is what presses on the deformed surface
-    at the points of `body.top` and `friction` times it the sliding traction, which make the
-    stresses there but for that along the surface. Raises FemError for a coated body.
+    They belong to where the points are now, points + displacement. To the recovered linear stress
+    of the same displacement is added what Cauchy's differs from it by, small of second order and
+    averaged over the elements around a point. `load` is the linear theory's; `pressure` (t,) [Pa]
+    is what presses on the deformed surface at the points of `body.top`, the load's friction times
+    it the sliding traction. They make the stresses there but for that along the surface.
+    Raises FemError for a coated body.
     """
     if body.coated.any():
         raise FemError("stresses at finite deformations are not computed for a coated body")
-    stress = linear.values + _averaged(body, _beyond_linear(body, displacement))
+    beyond = _averaged(body, _beyond_linear(body, displacement))
     top = body.top.point
     place = body.points[top] + body.at_points(displacement)[top]
     along = along_surface(body.top.x, place)
-    stress[top] = _surface_stress(stress[top], along, pressure, friction)
-    return replace(linear, stress=MaterialStress(*stress.T, linear.stress.poissons_ratio))
+
+    def on_surface(stress: np.ndarray) -> np.ndarray:
+        return _surface_stress(stress[top], along, pressure, load.friction)
+
+    unaware = recovered_stress(body, displacement) + beyond
+    linear = on_surface(unaware) - beyond[top]
+    matched = _MatchedLoad(
+        load.body, load.hats, load.pressure, load.friction, load.direction, linear
+    )
+    stress = recovered_stress(body, displacement, matched) + beyond
+    stress[top] = on_surface(stress)
+    nodal = at_mesh_points(body, PlaneStress(*stress.T))
+    return replace(nodal, kinks=matched.kinks)
+
+
+@dataclass(frozen=True)
+class _MatchedLoad(SurfaceLoad):
+    """A load as the linear stress of a finite displacement has it, whose tractions on the
+    undeformed surface are not those that act: `known` (t, 3) sx, sz, txz at the top's points."""
+
+    known: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+
+    def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
+        stress = np.column_stack([np.interp(x, self.body.top.x, s) for s in self.known.T])
+        _, s_nn, s_nt = to_surface(self.tangent(x), stress)
+        return s_nn, s_nt
 
 
 def _lame(body: ElasticBody) -> tuple[np.ndarray, np.ndarray]:

@@ -14,6 +14,7 @@ from comparisons.plan import make_plan
 from comparisons.problem import Problem, problem_of
 from comparisons.resolve import resolve_tables
 from comparisons.stages import Stages
+from comparisons.window import window_of
 
 STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
 RADIUS, HALF_WIDTH = 10e-3, 200e-6  # a/R = 0.02 under a rigid roller
@@ -141,3 +142,21 @@ def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisatio
     finite_element_level(problem, plan, held, None, third, store=store)
     assert "factorisation" in third.seconds  # another support, the same mesh
     assert third.seconds["mesh"] < 0.1 * first.seconds["mesh"]
+
+
+def test_finite_rotations_leave_the_surface_at_the_edge_of_contact_without_shear():
+    """At a/R = 0.18 a stress that takes rotations for strains is 1.2 times the largest there."""
+    load = {"per_length": 85.0 * RIGID["load"]["per_length"]}
+    tables = {**RIGID, "load": load, "stress": {"points": [41, 11]}}
+    problem = problem_with(tables, {"deformation": "finite", "roller_shape": "circle"})
+    plan, window = make_plan(problem, ("finite_element",)), window_of(problem)
+    refinement = Refinement(problem.pitches[0])
+    level = finite_element_level(problem, plan, refinement, window, Stages())
+    hertz = problem.hertz
+    assert hertz.half_width / RADIUS == pytest.approx(0.184, abs=1e-3)
+    [stress] = level.stresses
+    largest = stress.extremes["tau1"]
+    assert largest.value / hertz.tau1_max == pytest.approx(1.023, abs=0.01)
+    assert largest.z / hertz.half_width == pytest.approx(0.767, abs=0.02)
+    at_edge = np.abs(np.abs(window.x) - hertz.half_width) < 0.1 * hertz.half_width
+    assert stress.field.tau1[0, at_edge].max() < 0.15 * largest.value
