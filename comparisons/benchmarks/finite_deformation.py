@@ -3,11 +3,10 @@
     python -m comparisons.benchmarks.finite_deformation
 
 A rigid roller presses a smooth body, then rough ones (self-affine, Hurst exponent 0.8, waves from
-a quarter to one half-width; seeds 1 to 3 unless others are given). Each case
-is solved five times, by models of which each leaves out one thing less
-(`finite_deformation_models.Chain`); columns show what each step changes in the peak pressure, in
-per cent, and what all of them change in the peak pressure, the contact length and the largest
-principal shear. A minute of processor time.
+a quarter to one half-width; seeds 1 to 3 unless others are given). Each case is solved five times,
+by models of which each leaves out one thing less (`finite_deformation_models.Chain`); columns show
+what each step changes in the peak pressure, in per cent, and what all of them change in the peak
+pressure, the contact length and the largest principal shear. A minute of processor time.
 
 Measured with 80 edges to a half-width, the peak pressure on the deformed surface is higher than
 the linear theory's by
