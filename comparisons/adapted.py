@@ -6,8 +6,8 @@ where the ends are, how far its hats are from a smooth pressure on each patch
 (`analytic.smooth_pressure`) and which elements err (`fem.error_indicator`), and the next round
 takes hats and elements by that. Inside, the half-plane of the same hats leads the iteration.
 
-A smooth contact to 1 % of the pressure takes 1500 unknowns and 25 hats, to 0.1 % 3700 and 70: a
-sixth and a fifteenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
+Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
+quarter and a tenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
 """
 
 from collections.abc import Callable

@@ -6,14 +6,15 @@ import pytest
 from analytic.material import Material
 from fem.elasticity import Support, elastic_body
 from fem.error_indicator import energy_errors
-from fem.recovery import element_stress
+from fem.far_field import collapsed_gauss
+from fem.recovery import element_stress, recovered_stress
 from fem.triangle import jacobians, shapes
 
 BODY = Material(3.0, 0.3)
 
 
 def true_errors(body, moved, stress):
-    """Energy norm (m,) of the stress' error, by a rule of degree 8 on each element."""
+    """Energy norm (m,) of the distance to a stress at x, z, by a rule of degree 8 on elements."""
     line, weight = np.polynomial.legendre.leggauss(5)
     line, weight = 0.5 * (line + 1.0), 0.5 * weight
     at = np.array([[r, s * (1 - r)] for r in line for s in line])
@@ -21,6 +22,12 @@ def true_errors(body, moved, stress):
     nodes = body.points[body.mesh.triangles]
     place = np.einsum("mac,qa->mqc", nodes, shapes(at))
     exact = np.stack(np.broadcast_arrays(*stress(*np.moveaxis(place, -1, 0))), axis=-1)
+    return energy_norms(body, moved, exact, at, weight)
+
+
+def energy_norms(body, moved, exact, at, weight):
+    """The same from stresses (m, q, 3) at the points of a rule."""
+    nodes = body.points[body.mesh.triangles]
     sx, sz, txz = np.moveaxis(element_stress(body, moved, at) - exact, -1, 0)
     nu, modulus = body.material.poissons_ratio, body.material.youngs_modulus
     # Strains of plane strain, written out: e_x = (1 - nu^2)/E s_x - nu (1 + nu)/E s_z.
@@ -50,6 +57,15 @@ def test_each_element_error_is_indicated(structured_block, exact_forces, manufac
     found, true = energy_errors(body, moved), true_errors(body, moved, exact.stress)
     assert 0.8 < np.quantile(found / true, 0.05) < np.quantile(found / true, 0.95) < 1.3
     assert np.corrcoef(np.log(found), np.log(true))[0, 1] > 0.98
+
+
+def test_distance_is_that_to_the_recovered_stress(structured_block, exact_forces, manufactured):
+    body, moved, _ = solved(structured_block, exact_forces, manufactured, 8)
+    at, weight = collapsed_gauss(5)
+    nodal = recovered_stress(body, moved)[body.mesh.triangles]
+    smooth = np.einsum("mac,qa->mqc", nodal, shapes(at))
+    exact = energy_norms(body, moved, smooth, at, weight)
+    assert energy_errors(body, moved) == pytest.approx(exact, rel=1e-10)
 
 
 def test_error_falls_with_the_order_of_stresses(structured_block, exact_forces, manufactured):

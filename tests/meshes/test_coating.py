@@ -100,6 +100,7 @@ def test_layers_beside_the_core_are_stretched_but_not_without_bound(mesh):
         corner = corners(mesh)[beside]
         assert np.ptp(corner[..., 1], axis=1) == pytest.approx(t / LAYERS, rel=1e-9)
         width = np.ptp(corner[..., 0], axis=1)
+        assert width.max() < 55.0 * t / LAYERS
         longest = min(LONGEST * t / LAYERS, 1.1 * largest_size(mesh.spec))
         assert width.max() < 1.1 * longest
         assert width.max() > 0.6 * min(longest, 0.2 * mesh.spec.growth * mesh.spec.half_width)
@@ -125,6 +126,13 @@ def test_fit_to_solve_on(mesh):
 def test_number_of_unknowns_is_foretold(mesh):
     built = mesh.quality["unknowns"]
     assert estimate_unknowns(mesh.spec) == pytest.approx(built, rel=0.25)
+
+
+def test_number_of_unknowns_in_layers_is_foretold():
+    """Half of them in the layers of a wide block with little contact."""
+    mesh = build_block(BlockSpec(100.0, 200.0, np.array([[0.0, 0.05]]), 0.05, interface=0.15))
+    assert stretched(mesh).sum() > 0.2 * len(mesh.triangles)
+    assert estimate_unknowns(mesh.spec) == pytest.approx(mesh.quality["unknowns"], rel=0.12)
 
 
 def test_a_thin_coating_costs_less_than_its_length_in_layers(meshes):
