@@ -43,7 +43,7 @@ def _gap(settings: FiniteElementSettings) -> str:
     if settings.deformation == "finite":
         return (
             "half-plane: the gap is taken at the undeformed place; finite elements: at the "
-            "current one, and the pressure acts along the current normal"
+            "current one, and the pressure acts along the current normal, by deformed area"
         )
     if settings.gap == "displaced":
         return (

@@ -17,7 +17,7 @@ from comparisons.finite_element_bodies import BodyStore, bodies_of
 from comparisons.finite_element_contact import mutual_compliance, solve_mutual
 from comparisons.finite_element_cost import expected, refuse_too_large
 from comparisons.finite_element_mesh import Refinement
-from comparisons.finite_element_nonlinear import pressed_finitely
+from comparisons.finite_element_nonlinear import pressed_finitely, pressed_plastically
 from comparisons.finite_element_stress import pressed_linearly, stresses_of
 from comparisons.level import Level, Window
 from comparisons.nearest_operator import nearest_operator
@@ -53,6 +53,8 @@ def finite_element_level(
     model = nearest_operator(scene, grid, friction)
     average = grid.average(problem.finite_element_gap, problem.knots)
     constraints = problem.constraints()
+    if scene.finite_element.plastic:  # the body's own flow limits the pressure
+        constraints = replace(constraints, hardness=np.inf)
     with stages.stage("contact", "finite elements: predicting the contact"):
         solve = solve_coupled if friction else solve_contact
         guess = solve(model, average, grid.weights, constraints)
@@ -77,12 +79,15 @@ def finite_element_level(
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
             pressed = pressed_finitely(problem, operator, solution, constraints)
+    if scene.finite_element.plastic:
+        with stages.stage("plastic flow", "finite elements: plastic flow"):
+            pressed = pressed_plastically(problem, operator, solution, average, constraints)
     solution = pressed.solution
     level = Level(
         grid=grid,
         solution=solution,
         displacement=pressed.displacement / grid.weights,
-        patches=contact_patches(grid.x, solution.pressure, solution.gap),
+        patches=pressed.patches,
         seconds=stages.seconds,
         unknowns=sum(each.unknowns for each in bodies.all),
         factor_memory=bodies.factor_memory,

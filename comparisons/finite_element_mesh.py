@@ -4,11 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from meshes.disc import bent
 
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from meshes.block import BlockMesh, BlockSpec
+from meshes.disc import bent
 from meshes.estimate import estimate_unknowns
 from meshes.grading import refined_intervals
 from meshes.roughen import roughen

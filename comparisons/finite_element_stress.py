@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from analytic.contact import ContactSolution
-from analytic.plane_stress import PlaneStress
+from analytic.patches import contact_patches
+from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.finite_element_contact import MutualCompliance, roller_normal
 from comparisons.level import MeshField, StressResult, Window
 from comparisons.problem import Problem
@@ -23,6 +24,7 @@ class Pressed:
 
     displacement  (count,) [m^2] of its surface into the body, weighted by each hat
     stress        by friction coefficient
+    patches       (k, 2) [m] contact patches
     others        further fields at the mesh's points (n,), by name with their unit
     """
 
@@ -30,6 +32,7 @@ class Pressed:
     solution: ContactSolution
     displacement: np.ndarray
     stress: Callable[[float], NodalStress]
+    patches: np.ndarray
     others: dict[str, np.ndarray] = field(default_factory=dict)
 
 
@@ -48,7 +51,8 @@ def pressed_linearly(
         )
 
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
-    return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress)
+    patches = contact_patches(rough.hats[1:-1], pressure, solution.gap)
+    return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress, patches)
 
 
 def stresses_of(
@@ -58,7 +62,7 @@ def stresses_of(
     body, results, on_mesh = pressed.body, [], {}
     for friction in frictions:
         nodal = pressed.stress(friction)
-        results.append(_on_window(body, nodal, friction, window))
+        results.append(_on_window(body, nodal, friction, window, pressed.others.get("von_mises")))
         stress, nodes = nodal.stress, nodal.nodes
         on_mesh[friction] = PlaneStress(stress.sx, stress.sz, stress.txz)
     mesh_field = MeshField(
@@ -68,8 +72,13 @@ def stresses_of(
 
 
 def _on_window(
-    body: ElasticBody, nodal: NodalStress, friction: float, window: Window
+    body: ElasticBody,
+    nodal: NodalStress,
+    friction: float,
+    window: Window,
+    von_mises: np.ndarray | None,
 ) -> StressResult:
+    """`von_mises` (n,) [Pa] at the mesh's points where it does not follow from the stresses."""
     bounds = (-window.reach, window.reach, window.z[-1])
     quantities = {
         "tau1": lambda stress: stress.tau1,
@@ -79,5 +88,10 @@ def _on_window(
     extremes = {
         name: maximum(body, nodal, quantity, bounds) for name, quantity in quantities.items()
     }
+    if von_mises is not None:
+        x, z = body.points.T
+        inside = (np.abs(x) <= window.reach) & (z <= window.z[-1])
+        top = np.argmax(np.where(inside, von_mises, -np.inf))
+        extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
     x, z = np.meshgrid(window.x, window.z)
     return StressResult(friction, extremes, evaluate(body, nodal, x, z))

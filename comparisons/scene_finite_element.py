@@ -109,6 +109,11 @@ class FiniteElementTable(Table):
                 "allowed is true",
             ),
             (
+                self.plastic and load.kind == "approach",
+                "plastic",
+                "is true with load.approach; allowed with per_length or hertz_peak_pressure",
+            ),
+            (
                 self.plastic and max(load.friction) > 0.0 and not coupled,
                 "coupled",
                 "is false for a body that yields, in which stresses of pressure and sliding "
