@@ -15,10 +15,11 @@ import numpy as np
 
 from meshes.block import BlockMesh, BlockSpec
 
-# Quadratic elements across the coating under the contact: shear and bending in it are resolved.
+# Quadratic elements across the coating under the contact. Against six they change displacements by
+# at most 5e-5 of their range, for moduli 0.1 to 100 times the body's; two by 2e-4.
 LAYERS = 3
-# Longest element of the stretched layers over their thickness. Recovered stresses need patches
-# that are not too flat.
+# Longest element of the stretched layers over their thickness. 400 in its place moves the whole
+# surface by up to 4e-4 of that range, and leaves patches too flat to recover stresses from.
 LONGEST = 50.0
 
 
