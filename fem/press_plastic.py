@@ -90,7 +90,10 @@ def press_plastically(
         target = load or min(LAST_TOUCH * max(loads), state.load)
         iterations = 0
         for stage in np.linspace(state.load, target, increments + 1)[1:]:
-            state, residuals = newton_by_contacts(bodies, gap, weights, state, float(stage))
+            try:
+                state, residuals = newton_by_contacts(bodies, gap, weights, state, float(stage))
+            except FemError as error:
+                raise FemError(f"the load of {stage:g} N/m was not reached: {error}") from error
             body.accept(state.displacements[0])
             iterations += len(residuals)
         pressure = state.pressure

@@ -8,6 +8,7 @@ from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
+from fem.mumps import FemError
 from fem.plastic_fields import plastic_fields
 from fem.plasticity import PlasticBody
 from fem.press_plastic import PlasticContact, press_plastically
@@ -108,8 +109,8 @@ def test_first_flow(large, friction):
         body, (contact,) = scene.press([1.0], friction, increments=1)
         plastic = contact.state.equivalent
         assert plastic.any() == flows
-        even = scene.hertz.pressure(scene.x)
-        np.testing.assert_allclose(contact.pressure, even, atol=0.05 * even.max())
+        mirrored = contact.pressure[::-1]
+        np.testing.assert_allclose(contact.pressure, mirrored, atol=0.01 * mirrored.max())
         if flows:
             middle = np.average(body.points, axis=0, weights=plastic)
             np.testing.assert_allclose(middle, [x, z], atol=0.06)
@@ -228,3 +229,10 @@ def test_fields_of_a_linear_stress_are_exact(structured_block):
 def test_loads_without_sense_are_refused(small, loads):
     with pytest.raises(ValueError, match="load"):
         Scene(small, 1.0, 6).press(loads)
+
+
+def test_load_beyond_the_limit_is_said(small):
+    """All hats together bear 2.97 Y, or 12 % more on so coarse a mesh; 3.5 Y is asked for."""
+    scene = Scene(small, 7.2, 6, reach=1.5)
+    with pytest.raises(FemError, match=r"load of .* N/m was not reached"):
+        scene.press([1.0])
