@@ -11,8 +11,9 @@ from comparisons.benchmarks.fe_peers_process import Code, by_program, runs
 
 OURS = "crosscheck"
 SETTINGS = {
-    "22": "quadratic, two hats an edge",
     "21": "quadratic, a hat an edge",
+    "21s": "the same, smooth curves",
+    "22": "quadratic, two hats an edge",
     "32": "cubic, two hats an edge",
 }
 

@@ -2,7 +2,8 @@
 
 Block, elastic body, its compliance on hats, and the contact on it with the half-plane as the model
 of the outer iteration. The first argument of the program gives the degree of the displacements and
-how many hats stand on an element edge, in two digits.
+how many hats stand on an element edge, in two digits; an s after them asks for the smooth curves
+behind the hats (`analytic.smooth_pressure`) in place of the hats.
 """
 
 import sys
@@ -11,6 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.benchmarks.fe_peers_task import Task, run_program
+
+SAMPLES = 200  # of the smooth curve of a patch
 
 if TYPE_CHECKING:
     from analytic.contact import ContactSolution
@@ -51,15 +54,32 @@ def contact_of(
     return feet, solution, body.unknowns
 
 
+def smooth_curves(feet: np.ndarray, solution: "ContactSolution") -> tuple[np.ndarray, np.ndarray]:
+    """Places [m], dense towards the ends of each patch, and the smooth pressure [Pa] there."""
+    from analytic.smooth_pressure import smooth_pressure
+
+    share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, SAMPLES)))
+    places, pressure = [], []
+    for patch in smooth_pressure(feet, solution.pressure, solution.gap):
+        start, stop = patch.ends
+        x = start + (stop - start) * share
+        places.append(x)
+        pressure.append(np.concatenate([[0.0], patch.curve(x[1:-1]), [0.0]]))
+    return np.concatenate(places), np.concatenate(pressure)
+
+
 def main(settings: str, *files: str) -> None:
+    """Solve the task in the first file into the second."""
     from analytic.equilibrium import Constraints
 
     def solve(task: Task) -> tuple[np.ndarray, np.ndarray, int, int]:
-        degree, hats = map(int, settings)
+        degree, hats = map(int, settings[:2])
         given = Constraints(approach=float(task.approach))
         feet, solution, unknowns = contact_of(task, degree, hats, given)
-        pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
-        return feet, pressure, unknowns, solution.iterations["steps"]
+        steps = solution.iterations["steps"]
+        if settings.endswith("s"):
+            return *smooth_curves(feet, solution), unknowns, steps
+        return feet, np.concatenate([[0.0], solution.pressure, [0.0]]), unknowns, steps
 
     run_program(solve, *files)
 

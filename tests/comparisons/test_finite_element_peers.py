@@ -104,12 +104,15 @@ def test_programs_solve_as_often_as_asked_and_sort(task, tmp_path):
 def test_ours_falls_with_the_mesh(cylinder, settings, tmp_path):
     files = str(tmp_path / "task.npz"), str(tmp_path / "answer.npz")
     error = []
-    for edges in cylinder.ladder:
+    for edges in (10, 20):
         cylinder.task(edges, 0.2, 0).save(files[0])
         fe_peers_crosscheck.main(settings, *files)
-        error.append(cylinder.errors(Answer.load(files[1]))["pressure"])
-    assert error[1] < (0.035 if settings.endswith("1") else 0.02)
-    assert np.log2(error[0] / error[1]) == pytest.approx(1.0, abs=0.2)
+        answer = Answer.load(files[1])
+        assert np.all(np.diff(answer.x) >= 0.0)
+        error.append(cylinder.errors(answer)["pressure"])
+    assert error[1] < (0.017 if settings == "21" else 0.01)
+    if not settings.endswith("s"):  # few hats hold no smooth curve, more of them a far better one
+        assert np.log2(error[0] / error[1]) == pytest.approx(1.0, abs=0.2)
 
 
 def test_freefem_mesh_is_ours(task):
