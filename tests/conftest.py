@@ -35,7 +35,7 @@ def launch() -> Callable[..., subprocess.CompletedProcess]:
         if processes > 1:
             if shutil.which("mpirun") is None:
                 pytest.skip("mpirun is not installed")
-            command = ["mpirun", "-q", "--oversubscribe", "-n", str(processes), *command]
+            command = ["mpirun", "--oversubscribe", "-n", str(processes), *command]
         environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
         environment |= {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
         environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}

@@ -91,13 +91,18 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys):
             assert two[name] == value, name
 
 
+def own_words(said: str) -> list[str]:
+    """Lines of crosscheck among what mpirun says when a process ends early."""
+    return [line for line in said.splitlines() if line.startswith("crosscheck")]
+
+
 def test_wrong_input_ends_all_with_one_line(tmp_path, launch):
     """Found by all, once MPI is at work."""
     scene = tmp_path / "wrong.toml"
     scene.write_text(SCENE.replace('time = "1 us"', 'memory = "1 kB"'))
     end = launch(2, *COMMAND, scene, "--out", tmp_path / "out")
     assert (end.returncode, end.stdout) == (2, "")
-    (line,) = end.stderr.splitlines()
+    (line,) = own_words(end.stderr)
     assert line.startswith(f"crosscheck: {scene}: budget.memory:")
     assert list(tmp_path.iterdir()) == [scene]
 
@@ -125,4 +130,4 @@ sys.exit(cli.main(["run", "smooth"]))
 def test_an_error_of_one_process_is_heard_and_ends_the_others(launch, process):
     end = launch(2, "-c", ALONE, process)
     assert (end.returncode, end.stdout) == (2, "")
-    assert end.stderr == "crosscheck: one line\n"
+    assert own_words(end.stderr) == ["crosscheck: one line"]

@@ -8,10 +8,9 @@ from analytic.patches import contact_patches
 
 def half_width(case):
     """Mean reach of the contact patch to both sides."""
-    weights = np.full(len(case.x), case.compliance.pitch)
-    moved = case.compliance.apply(case.pressure)
-    gap = case.compliance.pitch * (case.x**2 + case.compliance.pitch**2 / 6.0)
-    opening = (gap + moved) / weights - case.approach
+    pitch = case.x[1] - case.x[0]
+    gap = case.x**2 + pitch**2 / 6.0  # averaged over each hat
+    opening = gap + case.compliance.apply(case.pressure) / pitch - case.approach
     (patch,) = contact_patches(case.x, case.pressure, opening)
     return 0.5 * np.ptp(patch)
 
