@@ -176,6 +176,15 @@ def test_reload_is_elastic_up_to_the_former_load(loaded):
     assert again.approach == pytest.approx(pressed.approach, rel=1e-8)
 
 
+def test_flow_on_release_is_remembered(small, monkeypatch):
+    """At 0.7 of the load the roller is let go at once, and the body flows back a little."""
+    monkeypatch.setattr("fem.press_plastic.LAST_TOUCH", 0.7)
+    body, (pressed, released) = Scene(small, 4.0, 6, reach=1.8).press([1.0, 0.0])
+    assert (released.state.equivalent - pressed.state.equivalent).max() > 1e-4
+    stress, _ = body.stress(released.displacement, released.state)
+    assert np.abs(body.force_of(stress)[~body.held]).max() < 1e-9
+
+
 def test_stress_nowhere_exceeds_the_yield_stress(small):
     """Hardening included, at the points where the metal's state is known."""
     scene = Scene(small, 2.4, 6, hardening=20.0)
