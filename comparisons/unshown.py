@@ -47,10 +47,10 @@ def unshown_effects(
     tilt = TILT_PER_A_OVER_RADIUS * problem.hertz.half_width / scene.roller_radius
     strain = STRAIN_PER_PRESSURE_OVER_MODULUS * peak / scene.body.youngs_modulus
     effects = []
+    if linear and settings.gap == "reference":
+        effects.append(("finite rotation", tilt, (*CONTACT, *STRESS)))
     if linear:
         effects.append(("finite strain", strain, (*CONTACT, *STRESS)))
-        if settings.gap == "reference":
-            effects.append(("finite rotation", tilt, (*CONTACT, *STRESS)))
     if settings.geometry == "rough":
         if linear:
             unflattened = UNFLATTENED_PER_SLOPE * slope

@@ -143,8 +143,29 @@ def test_other_scenes_agree(name, tmp_path):
     assert (tmp_path / "out" / "report.html").stat().st_size > 100_000
 
 
+@pytest.mark.parametrize(
+    ("name", "verdict", "peak", "length"),
+    [
+        # what a thin incompressible layer, and a coating, do is none of the half-plane's
+        ("layer", "fails", -0.58, 1.08),
+        ("coated", "fails", -5.3e-3, 1.4e-2),
+        ("finite-strain", "holds", -5.2e-3, 5.5e-3),
+    ],
+)
+def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length, tmp_path):
+    outcome = run(load_scene(name), tmp_path / "out", MODELS)
+    assert outcome.result["half_space"]["verdict"] == verdict
+    found = {row.quantity: row.difference for row in outcome.comparisons}
+    assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)
+    assert found["contact_length"] == pytest.approx(length, rel=0.1)
+
+
 def test_every_scene_is_named_here():
     assert set(scene_names()) == {
+        "coated",
+        "finite-strain",
+        "layer",
+        "yielding",
         "ground-polished",
         "ground-run-in",
         "ground-running-in",
