@@ -19,9 +19,9 @@ from fem.plastic_newton import newton_by_contacts
 from fem.plasticity import PlasticBody
 from fem.return_mapping import ElasticPlastic, PlasticState
 
-# Equal parts of the way from one load to the next. A smooth roller that is pressed to twice the
-# load of the first flow and beyond: peak pressure 1.6 % high with 8, 0.8 % with 16, 0.4 % with 32,
-# approach 0.1 % with 16.
+# Equal parts of the way from one load to the next. A smooth roller pressed to five times the load
+# of first flow: peak pressure 1.6 % high with 8, 0.8 % with 16, 0.4 % with 32; approach 0.1 % with
+# 16.
 INCREMENTS = 16
 
 # Part of the largest load at which the roller is let go: contact is followed down to there, and
