@@ -4,8 +4,8 @@ A rigid parabola, smooth or with waves on it, on a block of plane strain that is
 and sides. It is so flat that to first order in its slope there is but one problem, however a code
 measures gaps and turns its tractions. Without waves the load gives Hertz's a and p0.
 
-The approach is prescribed: it is all that every code offers. It is the one that goes with the load
-in the reference, this project's solution by cubic elements on a mesh finer than all that race. That
+The approach is prescribed, which every code offers as it comes. It goes with the load in the
+reference, this project's solution by cubic elements on a mesh finer than all that race. That
 the peers' errors fall with their meshes as far as this project's says that it is theirs, too.
 
     a   half-width, 1 m     R   radius [m]     E, nu   1 Pa and 0.3

@@ -2,7 +2,7 @@
 
 The method of its example VI-adap.edp: nodes in contact are held by a large number on the diagonal,
 the matrix is factored anew, the residual is the contact's force. CHOLMOD is the fastest of the
-solvers that come along (UMFPACK and MUMPS take a third more). Its interior-point optimiser IPOPT,
+solvers that come along (UMFPACK and MUMPS take a quarter more). Its interior-point optimiser IPOPT,
 by which its module on Signorini's problem goes, takes twice the time to the same pressures.
 
 Times are FreeFEM's own clock(), processor time from the mesh in memory to the pressures, which are

@@ -2,7 +2,7 @@
 
 The program runs in whatever interpreter has getfem: Debian's. Settings, each the best of those
 tried on a cylinder: the augmented Lagrangian by Alart and Curnier (option 1) with a linear
-multiplier on the ground (quadratic ones take twice the time to the same error), r = 10 E (1 is less
+multiplier on the ground (quadratic ones take longer to the same error), r = 10 E (1 is less
 accurate, 100 takes twice the steps), four Gauss points an edge; the obstacle by its signed distance
 at the quadratic nodes. Generalised Newton with MUMPS; the line search that getfem's contact
 examples use.

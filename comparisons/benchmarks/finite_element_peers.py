@@ -20,7 +20,7 @@ import sys
 from comparisons.benchmarks.fe_peers_process import ONE_THREAD
 
 CASES = ("cylinder", "waves", "rough")
-GROWTHS = (0.4,)  # with 0.2 every code takes longer to the errors that are asked for
+GROWTHS = (0.4,)  # with 0.2 codes take longer to the errors that are asked for
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -39,7 +39,7 @@ def task(cylinder):
 
 
 def test_reference_is_hertz_contact_but_for_the_block(cylinder):
-    """A block 40 a deep and wide presses back: 2.1e-4 more at the peak, half as much less wide."""
+    """A block 40 a deep and wide presses back: 2.1e-4 more at the peak, as much less wide."""
     found, exact = cylinder.reference, fe_peers_cases.hertz()
     assert found.pressure.max() == pytest.approx(1.00021 * exact.peak_pressure, rel=5e-5)
     wide = replace(exact, half_width=exact.half_width / 1.00021)
