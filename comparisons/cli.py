@@ -62,6 +62,16 @@ def run(
 
 
 @app.command()
+def stability(
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the rows.", show_default="results/stability")
+    ] = None,
+) -> Job:
+    """Solve the stiff and extreme cases; end with 0 only if every one holds."""
+    return partial(_stability, out)
+
+
+@app.command()
 def scenes() -> Job:
     """List the scenes that come with crosscheck."""
     return _scenes
@@ -128,6 +138,16 @@ def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
 
         _show(summary(outcome))
     return outcome.exit_status
+
+
+def _stability(out: Path | None) -> int:
+    from comparisons.stability.run import run_stability
+    from comparisons.stability.table import stability_table
+
+    with _progress() as progress:
+        result = run_stability(out or RESULTS / "stability", progress)
+    _show(stability_table(result))
+    return result.exit_status
 
 
 def _scenes() -> int:
