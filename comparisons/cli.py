@@ -62,6 +62,15 @@ def run(
 
 
 @app.command()
+def rerun(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that a run has left.")],
+    out: Annotated[Path | None, typer.Option(help="Folder that keeps the repetition.")] = None,
+) -> Job:
+    """Repeat a recorded run from its own record; report every figure that moved."""
+    return partial(_rerun, folder, out)
+
+
+@app.command()
 def stability(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the rows.", show_default="results/stability")
@@ -138,6 +147,16 @@ def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
 
         _show(summary(outcome))
     return outcome.exit_status
+
+
+def _rerun(folder: Path, out: Path | None) -> int:
+    from comparisons.rerun import rerun as repeat
+    from comparisons.rerun_table import rerun_summary
+
+    with _progress() as progress:
+        repetition = repeat(folder, out, progress)
+    _show(rerun_summary(repetition))
+    return repetition.exit_status
 
 
 def _stability(out: Path | None) -> int:

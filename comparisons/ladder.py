@@ -12,7 +12,6 @@ from comparisons.rank import from_first
 from comparisons.stages import Listener, Stages, machine_memory, silent
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
-MOST_LEVELS = 8
 GROWTH_OF_TIME = 3.5  # of a level over the one before, at most
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 HALVED = "finite_element-halved"
@@ -67,8 +66,8 @@ def refined(
         why = _spent(problem, plan, runs)
         if why is None and open_questions and _stuck(before, open_questions):
             why = "refinement no longer lowers their uncertainty"
-        if why is None and number == MOST_LEVELS:
-            why = f"{MOST_LEVELS} levels are the most"
+        if why is None and number == problem.scene.resolution.most:
+            why = f"{number} levels are the most"
         if why is not None:
             names = ", ".join(open_questions) or "judged quantities"
             return runs, f"{names} not resolved to a third of the tolerance: {why}"

@@ -9,8 +9,10 @@ from importlib import metadata
 
 import numpy as np
 
-from comparisons.scene import ResolvedScene
+from comparisons.level import ModelRun
+from comparisons.scene import ProfileInfo, ResolvedScene
 
+SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of levels
 PACKAGES = (
     "crosscheck",
     "numpy",
@@ -68,14 +70,15 @@ def digest(*arrays: np.ndarray) -> str:
     return total.hexdigest()
 
 
-def record_of(scene: ResolvedScene, models: tuple[str, ...], hashes: dict[str, str]) -> dict:
+def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
     """record.json: everything that a repetition needs, the profile's samples included.
 
-    They are those before any running-in, which a repetition repeats.
+    Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
+    A repetition starts from the trace and takes off form and waves, and runs in, itself.
     """
     profile = scene.unworn
     return {
-        "schema": 1,
+        "schema": SCHEMA,
         "name": scene.name,
         "scene": scene.tables,
         "profile": None
@@ -85,13 +88,28 @@ def record_of(scene: ResolvedScene, models: tuple[str, ...], hashes: dict[str, s
             "height": profile.height.tolist(),
             "sha256": digest(profile.x, profile.height),
             "file_sha256": scene.profile_info.sha256,
+            "trace": _trace(scene.profile_info),
         },
-        "models": list(models),
+        "models": list(runs),
+        "levels": max(len(run.levels) for run in runs.values()),
         "versions": versions(),
         "machine": machine(),
         "seed": (scene.tables.get("profile") or {}).get("seed"),
         "hashes": hashes,
         "command": " ".join(sys.argv[1:]) or None,
+    }
+
+
+def _trace(info: ProfileInfo) -> dict:
+    """The trace as read or made, and how it was read."""
+    return {
+        "x": info.trace.x.tolist(),
+        "height": info.trace.height.tolist(),
+        "sha256": digest(info.trace.x, info.trace.height),
+        "format": info.format,
+        "place": info.place,
+        "bridged": info.bridged,
+        "trimmed": info.trimmed,
     }
 
 

@@ -20,7 +20,7 @@ from comparisons.scene import (
 from comparisons.scene_errors import scene_error
 from comparisons.scene_file import find_scene, read_toml
 from comparisons.scene_finite_element import settings_of
-from comparisons.scene_profile import profile_of, sinusoid_length
+from comparisons.scene_profile import KeptTrace, profile_of, sinusoid_length
 from comparisons.scene_running_in import running_in_of
 from comparisons.scene_schema import (
     BodyTable,
@@ -45,11 +45,14 @@ def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
     return resolve_tables(read_toml(path), name=name, folder=path.parent, source=source)
 
 
-def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> ResolvedScene:
+def resolve_tables(
+    tables: Mapping, *, name: str, folder: Path, source: str, kept: KeptTrace | None = None
+) -> ResolvedScene:
     """The scene that `tables`, as TOML has them, describe.
 
     folder  that the profile's path starts from
     source  what messages call the scene
+    kept    the trace to take in place of the profile's file
     Raises SceneError as `load_scene` does.
     """
     try:
@@ -75,7 +78,7 @@ def resolve_tables(tables: Mapping, *, name: str, folder: Path, source: str) -> 
                 length += scene.running_in.travel(position)
             plain["profile"].setdefault("length", length)
         profile, info, position = profile_of(
-            plain["profile"], scene.load.position, folder=folder, source=source
+            plain["profile"], scene.load.position, folder=folder, source=source, kept=kept
         )
         if info.cutoff is not None:
             plain["profile"]["cutoff"] = info.cutoff  # of "auto", what it came to

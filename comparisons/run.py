@@ -97,7 +97,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         runs=runs,
         comparisons=comparisons,
         result=result,
-        record=record_of(problem.scene, plan.models, hashes),
+        record=record_of(problem.scene, runs, hashes),
         directory=out,
         couplings=moved,
     )

@@ -6,7 +6,7 @@ with their zero on the mean line. `comparisons.resolve` makes it from a file.
 
 import copy
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from analytic.form import RemovedForm
@@ -74,6 +74,7 @@ class ProfileInfo:
     format     of the file, in words; None for a made profile
     place      the line of a map that it is, in words
     path       the file that was read, None for a made profile
+    trace      as read or made: with its form, unfiltered, at its own place
     sha256     of the file's bytes, None for a made profile
     bridged    lost samples of the file that were put on a line between their neighbours
     trimmed    lost samples at the ends of the file that were left out
@@ -86,6 +87,7 @@ class ProfileInfo:
     form: RemovedForm
     roughness: Roughness
     path: Path | None = field(default=None, compare=False)
+    trace: Profile | None = field(default=None, compare=False, repr=False)
     sha256: str | None = None
     bridged: int = 0
     trimmed: int = 0
@@ -97,8 +99,9 @@ class ProfileInfo:
     standard_why: str | None = None
 
     def as_dict(self) -> dict:
-        """The same for JSON, without `path`, which another machine does not have."""
-        figures = {name: value for name, value in asdict(self).items() if name != "path"}
+        """The same for JSON, without `path`, which another machine does not have, and `trace`."""
+        plain = asdict(replace(self, path=None, trace=None))
+        figures = {name: value for name, value in plain.items() if name not in ("path", "trace")}
         nested = ("form", "roughness", "standard")
         return figures | {name: _finite(figures[name]) for name in nested if figures[name]}
 
@@ -169,10 +172,12 @@ class FiniteElementSettings:
 
 @dataclass(frozen=True)
 class Resolution:
-    """`pitch` [m] of the coarsest pressure elements (None: automatic); number of `levels`."""
+    """`pitch` [m] of the coarsest pressure elements (None: automatic); number of `levels`, and the
+    `most` that there may be where questions stay open."""
 
     pitch: float | None
     levels: int
+    most: int = 8
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import hypot, sqrt
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from analytic.filters import check_cutoff, filtered
 from analytic.form import RemovedForm, remove_form
 from analytic.material import Material, combined_modulus
 from analytic.profile import Profile
-from analytic.profile_files import MissingUnitError, read_measured
+from analytic.profile_files import MeasuredProfile, MissingUnitError, read_measured
 from analytic.roughness import roughness
 from analytic.roughness_standard import (
     standard_cutoff,
@@ -45,8 +45,21 @@ _ALLOWED = {
 }
 
 
+@dataclass(frozen=True)
+class KeptTrace:
+    """A trace that was read or made before, and the SHA-256 of its file, None for a made one."""
+
+    read: MeasuredProfile
+    sha256: str | None
+
+
 def profile_of(
-    table: Mapping, position: float | None, *, folder: Path, source: str
+    table: Mapping,
+    position: float | None,
+    *,
+    folder: Path,
+    source: str,
+    kept: KeptTrace | None = None,
 ) -> tuple[Profile, ProfileInfo, float]:
     """The profile with x = 0 under the roller's centre and height 0 on the mean line.
 
@@ -54,12 +67,13 @@ def profile_of(
     position  [m] of the roller's centre on the trace; None is the middle
     folder    that the path of a measured profile starts from
     source    what messages call the scene
+    kept      what to take instead of reading the file, or of making the profile again
     Returns the account of the whole trace and the position as well. Raises SceneError.
     """
     if "file" in table:
-        trace, origin = _measured(table, folder / table["file"], source)
+        trace, origin = _measured(table, folder / table["file"], source, kept)
     else:
-        trace, origin = _made(table, source)
+        trace, origin = _made(table, source, kept)
     position = _position(position, trace, source)
     pressed, filtering = _filtered(trace, table, source)
     account = ProfileInfo(
@@ -90,18 +104,12 @@ def sinusoid_length(
     return max(SINUSOID_REACH * widest, SINUSOID_WAVES * table.wavelength)
 
 
-def _measured(table: Mapping, path: Path, source: str) -> tuple[Profile, dict]:
+def _measured(
+    table: Mapping, path: Path, source: str, kept: KeptTrace | None
+) -> tuple[Profile, dict]:
     """The profile in a file without its form, and where it comes from."""
     try:
-        read = read_measured(
-            path,
-            x_scale=_scale(table, "x_unit"),
-            height_scale=_scale(table, "z_unit"),
-            spacing=table.get("spacing"),
-            dropouts=table["dropouts"],
-            chosen=_chosen(table),
-        )
-        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        kept = kept or _read(table, path)
     except MissingUnitError as error:
         raise SceneError(
             f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
@@ -110,19 +118,32 @@ def _measured(table: Mapping, path: Path, source: str) -> tuple[Profile, dict]:
     except (ValueError, OSError) as error:
         raise SceneError(f"{source}: profile.file: {error}") from error
     try:
-        trace, form = _without_form(read.profile, table["form"])
+        trace, form = _without_form(kept.read.profile, table["form"])
     except ValueError as error:
         raise SceneError(f"{source}: profile.form: {error}") from error
     return trace, {
         "source": table["file"],
         "path": path,
-        "sha256": digest,
+        "trace": kept.read.profile,
+        "sha256": kept.sha256,
         "form": form,
-        "bridged": read.bridged,
-        "trimmed": read.trimmed,
-        "format": read.format,
-        "place": read.place,
+        "bridged": kept.read.bridged,
+        "trimmed": kept.read.trimmed,
+        "format": kept.read.format,
+        "place": kept.read.place,
     }
+
+
+def _read(table: Mapping, path: Path) -> KeptTrace:
+    read = read_measured(
+        path,
+        x_scale=_scale(table, "x_unit"),
+        height_scale=_scale(table, "z_unit"),
+        spacing=table.get("spacing"),
+        dropouts=table["dropouts"],
+        chosen=_chosen(table),
+    )
+    return KeptTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 def _scale(table: Mapping, field: str) -> float | None:
@@ -134,14 +155,14 @@ def _chosen(table: Mapping) -> MapLine | None:
     return MapLine(**given) if given else None
 
 
-def _made(table: Mapping, source: str) -> tuple[Profile, dict]:
+def _made(table: Mapping, source: str, kept: KeptTrace | None) -> tuple[Profile, dict]:
     """The profile that `analytic.synthetic` makes, about its mean line, and where it comes from."""
     parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
     try:
-        trace = _MAKERS[table["kind"]](**parameters)
+        trace = kept.read.profile if kept else _MAKERS[table["kind"]](**parameters)
     except ValueError as error:
         raise SceneError(f"{source}: profile: {error}") from error
-    return trace, {"source": table["kind"], "form": RemovedForm("none")}
+    return trace, {"source": table["kind"], "form": RemovedForm("none"), "trace": trace}
 
 
 def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dict]:

@@ -147,7 +147,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         runs=runs,
         comparisons=comparisons,
         result=result_of(problem, plan, runs, comparisons, "every judged quantity is resolved"),
-        record=record_of(scene, models, hashes),
+        record=record_of(scene, runs, hashes),
         directory=Path("results/made"),
     )
 
