@@ -20,7 +20,7 @@ class Quantity:
     unit          of the figure in SI; "" for ratios
     scale         of the smooth contact: what a figure that vanishes is measured by
     formal_order  of convergence under refinement: 2 for the quadratic elements' smooth figures,
-                  1 where the square-root edge of a contact governs
+                  1 where the square-root edge of a contact governs, or how well it is found
     of_pair       a norm of a difference, no figure of one model
     needs_stress  only with a [stress] table
     """
@@ -47,8 +47,8 @@ def _one(hertz: HertzContact) -> float:
 
 QUANTITIES: dict[str, Quantity] = {
     "peak_pressure": Quantity("peak pressure", "Pa", _pressure, 2.0),
-    "contact_length": Quantity("contact length", "m", _half_width, 2.0),
-    "contact_ratio": Quantity("contact length over Hertz 2a", "", _one, 2.0),
+    "contact_length": Quantity("contact length", "m", _half_width, 1.0),
+    "contact_ratio": Quantity("contact length over Hertz 2a", "", _one, 1.0),
     "pressure_l2": Quantity("pressures, relative L2 difference", "", _one, 1.0, of_pair=True),
     "tau1_max": Quantity("largest principal shear stress", "Pa", _pressure, 2.0, needs_stress=True),
     "tau1_max_depth": Quantity(

@@ -4,12 +4,22 @@ Each level halves the element size of the one before. From the last three values
 (finest last) follow the observed order p and the grid convergence index (Roache 1998, chapter 5;
 order limited as in Eça and Hoekstra 2014):
 
-    d21 = f1 - f2, d32 = f2 - f3     p = log2(d32 / d21)     U = F |d| / (2^p - 1)
+    d21 = f1 - f2, d32 = f2 - f3     p = log2(d32 / d21)     U = F d / (2^p - 1),  F = 1.25
 
 with p limited to [LOWEST_ORDER, formal order] and d the larger of |d21| and |d32| / 2^formal, so
-that two values which happen to agree do not pass for convergence. F is 1.25 for a monotone
-sequence of an order in that range, 3 otherwise. An oscillating sequence gets its range, and a
-sequence that has settled to round-off gets what is left of its differences.
+that two values which happen to agree do not pass for convergence. Where p means nothing U is a
+multiple of d itself: the error of a contact depends on where its edge falls between two nodes,
+which is another place on each level, so that most sequences are a power of the element size times
+a factor of either sign. On contacts with exact solutions (`crosscheck verify`) d covers 97 % of
+the errors of sequences that fall faster than their formal order, 1.25 d as many of those that
+oscillate; what Roache gives for two grids, 3 d / (2^formal - 1), is d for a formal order of 2.
+
+A far boundary, too, is judged by its effect: what halving its distance changes is as many times
+smaller than what is left of it as a step of refinement would be at LOWEST_ORDER. Stresses below a
+held block's contact were seen to go with order 0.5 to 1 of its size.
+
+A sequence that has settled to round-off gets what is left of its differences, and no figure an
+uncertainty below the `resolution` that it is read with: three grids may share a wrong digit.
 """
 
 from collections.abc import Sequence
@@ -19,6 +29,9 @@ from typing import Literal
 import numpy as np
 
 LOWEST_ORDER = 0.5
+FACTOR = 1.25  # of safety, on three grids
+OSCILLATING, IRREGULAR = 1.25, 1.0  # of the larger change: see above
+DOMAIN = 1.0 / (2.0**LOWEST_ORDER - 1.0)  # of the change that half the distance makes
 SETTLED = 1e-12  # relative differences below this are round-off
 ORDER_MARGIN = 0.25  # an order this little above the formal one is still regular
 
@@ -45,8 +58,13 @@ class Convergence:
     behaviour: Behaviour
 
 
-def grid_convergence(values: Sequence[float], formal_order: float) -> Convergence:
-    """Convergence of `values` (coarse to fine, each level of half the size)."""
+def grid_convergence(
+    values: Sequence[float], formal_order: float, resolution: float = 0.0
+) -> Convergence:
+    """Convergence of `values` (coarse to fine, each level of half the size).
+
+    resolution  how finely the figure can be told on the finest grid, in its own unit
+    """
     value = float(values[-1])
     if len(values) < 3:
         return Convergence(value, value, np.inf, None, "too few levels")
@@ -54,28 +72,26 @@ def grid_convergence(values: Sequence[float], formal_order: float) -> Convergenc
     last, before = fine - middle, middle - coarse
     scale = max(abs(coarse), abs(middle), abs(fine))
     if max(abs(last), abs(before)) <= SETTLED * scale:
-        return Convergence(value, value, max(abs(last), abs(before)), None, "settled")
-    if last * before < 0.0:
-        spread = max(abs(last), abs(before))
-        return Convergence(value, value, spread, None, "oscillating")
+        left = max(abs(last), abs(before), resolution)
+        return Convergence(value, value, left, None, "settled")
     change = max(abs(last), abs(before) / 2.0**formal_order)
-    observed = np.log2(abs(before) / abs(last)) if last != 0.0 and before != 0.0 else None
-    if observed is None:
-        order, behaviour = LOWEST_ORDER if before == 0.0 else formal_order, "irregular"
-    else:
-        order = float(np.clip(observed, LOWEST_ORDER, formal_order))
-        if observed <= 0.0:
-            behaviour = "diverging"
-        elif LOWEST_ORDER <= observed <= formal_order + ORDER_MARGIN:
-            behaviour = "monotone"
-        else:
+    if last * before < 0.0:
+        spread = max(OSCILLATING * change, resolution)
+        return Convergence(value, value, spread, None, "oscillating")
+    observed = None
+    if last != 0.0 and before != 0.0:
+        observed = float(np.log2(abs(before) / abs(last)))
+    limit = fine
+    if before == 0.0 or (observed is not None and observed <= formal_order + ORDER_MARGIN):
+        order = LOWEST_ORDER if observed is None else observed
+        order = float(np.clip(order, LOWEST_ORDER, formal_order))
+        uncertainty = FACTOR * change / (2.0**order - 1.0)
+        if observed is None or 0.0 < observed < LOWEST_ORDER:
             behaviour = "irregular"
-    factor = 1.25 if behaviour == "monotone" else 3.0
-    limit = fine + last / (2.0**order - 1.0) if behaviour == "monotone" else fine
-    return Convergence(
-        value,
-        float(limit),
-        float(factor * change / (2.0**order - 1.0)),
-        None if observed is None else float(observed),
-        behaviour,
-    )
+        elif observed <= 0.0:
+            behaviour = "diverging"
+        else:
+            behaviour, limit = "monotone", fine + last / (2.0**order - 1.0)
+    else:
+        behaviour, uncertainty = "irregular", IRREGULAR * change
+    return Convergence(value, float(limit), max(uncertainty, resolution), observed, behaviour)

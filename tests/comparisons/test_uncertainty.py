@@ -40,24 +40,36 @@ def test_an_accidental_agreement_is_not_convergence():
     """The last step is nearly nothing: the step before it, at the formal order, still counts."""
     found = grid_convergence([1.0, 1.2, 1.2001], 2.0)
     assert found.behaviour == "irregular"
-    assert found.uncertainty == pytest.approx(3.0 * 0.2 / 4.0 / 3.0)
+    assert found.uncertainty == pytest.approx(0.2 / 4.0)
 
 
 @pytest.mark.parametrize(
     ("values", "behaviour", "uncertainty"),
     [
-        ([1.0, 1.2, 1.1], "oscillating", 0.2),
-        ([1.0, 1.1, 1.3], "diverging", 3.0 * 0.2 / (2.0**0.5 - 1.0)),
+        ([1.0, 1.2, 1.1], "oscillating", 1.25 * 0.1),
+        ([1.0, 1.1, 1.3], "diverging", 1.25 * 0.2 / (2.0**0.5 - 1.0)),
+        ([1.0, 1.4, 1.35], "oscillating", 1.25 * 0.1),
+        ([1.0, 1.8, 1.9], "irregular", 0.2),
+        ([1.0, 1.4, 1.7], "irregular", 1.25 * 0.3 / (2.0**0.5 - 1.0)),
         ([5.0, 5.0, 5.0], "settled", 0.0),
         ([0.0, 0.0, 0.0], "settled", 0.0),
-        ([5.0, 5.0, 5.1], "irregular", 3.0 * 0.1 / (2.0**0.5 - 1.0)),
-        ([5.0, 5.1, 5.1], "irregular", 3.0 * 0.025 / 3.0),
+        ([5.0, 5.0, 5.1], "irregular", 1.25 * 0.1 / (2.0**0.5 - 1.0)),
+        ([5.0, 5.1, 5.1], "irregular", 0.025),
     ],
 )
 def test_irregular_sequences(values, behaviour, uncertainty):
     found = grid_convergence(values, 2.0)
     assert found.behaviour == behaviour
     assert found.uncertainty == pytest.approx(uncertainty, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "values", [[5.0, 5.0, 5.0], [1.0, 1.2, 1.1], [1.0, 1.1, 1.3], [1.0, 1.8, 1.9], [1.0, 1.2, 1.25]]
+)
+def test_no_figure_is_known_better_than_it_is_read(values):
+    plain = grid_convergence(values, 2.0)
+    assert grid_convergence(values, 2.0, resolution=9.0).uncertainty == 9.0
+    assert grid_convergence(values, 2.0, resolution=1e-9 * plain.uncertainty) == plain
 
 
 def test_uncertainty_scales_with_the_figure():
