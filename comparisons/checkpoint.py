@@ -96,12 +96,17 @@ class Checkpoint:
 
 def _key(scene: ResolvedScene, plan: Plan) -> str:
     profile = "" if scene.profile is None else digest(scene.profile.x, scene.profile.height)
+    parts = [scene.tables, profile, repr(plan), versions(), program_text()]
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+
+def program_text() -> str:
+    """Hash of the program itself: another one may give other figures."""
     text = hashlib.sha256()
     for package in PACKAGES:
         for path in sorted((SOURCES / package).rglob("*.py")):
             text.update(path.read_bytes())
-    parts = [scene.tables, profile, repr(plan), versions(), text.hexdigest()]
-    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+    return text.hexdigest()
 
 
 def _encoded(value: object, arrays: dict[str, np.ndarray]) -> object:

@@ -25,8 +25,9 @@ import sys
 import time
 from collections.abc import Callable, Container
 from contextlib import redirect_stderr, redirect_stdout, suppress
-from contextvars import ContextVar
 from typing import TypeVar
+
+from fem.communicator import each_alone, is_alone
 
 Result = TypeVar("Result")
 
@@ -36,9 +37,6 @@ RANKS = ("OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK")
 # Seconds that another process than the first keeps an error to itself: where the first has met the
 # same it says so and ends all before that.
 PATIENCE = 10.0
-
-# whether the first process is making something that the others wait for
-_alone = ContextVar("alone", default=False)
 
 
 def is_several() -> bool:
@@ -57,19 +55,17 @@ def from_first(make: Callable[[], Result]) -> Result:
     To be called by all. An exception that it raises there is raised in all. What `make` calls in
     its turn is the first's alone, too.
     """
-    if not is_several() or _alone.get():
+    if not is_several() or is_alone():
         return make()
     from mpi4py import MPI
 
     result = error = None
     if MPI.COMM_WORLD.rank == 0:
-        outside = _alone.set(True)
         try:
-            result = make()
+            with each_alone():
+                result = make()
         except Exception as caught:
             error = caught
-        finally:
-            _alone.reset(outside)
     kept = result
     result, error = MPI.COMM_WORLD.bcast((result, error))
     if error is not None:

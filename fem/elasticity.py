@@ -43,6 +43,7 @@ from scipy.sparse import csr_matrix
 from analytic.material import Material
 from fem import compat
 from fem.coating import Coating, coated_triangles, relative_constants
+from fem.communicator import communicator
 from fem.just_in_time import compiled, load_dolfinx
 from fem.locate import Locator
 from fem.mumps import FemError, SymmetricFactor
@@ -218,7 +219,6 @@ def elastic_body(
     """
     load_dolfinx()
     import ufl
-    from mpi4py import MPI
 
     start = perf_counter()
     numbering = nodes_of(mesh, degree)
@@ -228,7 +228,7 @@ def elastic_body(
         raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
     coated = coated_triangles(mesh, coating)
     curved = bool(np.any(mesh.shift))
-    domain, number = domain_of(MPI.COMM_WORLD, mesh, 2 if curved else 1)
+    domain, number = domain_of(communicator(), mesh, 2 if curved else 1)
     space = compiled(lambda: compat.displacement_space(domain, degree))
     cell, node = own_numbers(mesh, domain, number, space, numbering)
 

@@ -94,10 +94,16 @@ def figure(width: float, height: float) -> "Figure":
     return Figure(figsize=(width, height))
 
 
-def data_uri(drawn: "Figure") -> str:
-    """The figure as an SVG image; equal figures give equal text."""
+def svg(drawn: "Figure") -> str:
+    """The figure as SVG; equal figures give equal text."""
     buffer = io.BytesIO()
     drawn.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     # a hundredth of a point is enough for outlines, and half the size
     short = _OUTLINE.sub(lambda outline: _DECIMALS.sub(rb"\1", outline[0]), buffer.getvalue())
-    return "data:image/svg+xml;base64," + base64.b64encode(short).decode("ascii")
+    return short.decode("utf-8")
+
+
+def data_uri(drawn: "Figure") -> str:
+    """The figure as an SVG image."""
+    text = base64.b64encode(svg(drawn).encode()).decode("ascii")
+    return "data:image/svg+xml;base64," + text
