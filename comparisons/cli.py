@@ -80,6 +80,32 @@ def stability(
     return partial(_stability, out)
 
 
+@app.command("map")
+def map_of(
+    scene: Annotated[str, typer.Argument(help="As for `run`, or the name of a finished map.")],
+    points: Annotated[str, typer.Option(help="Values along x and y, as NxM.")] = "8x8",
+    x: Annotated[
+        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
+    ] = None,
+    y: Annotated[
+        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
+    ] = None,
+    quantity: Annotated[str, typer.Option(help="The quantity to show.")] = "peak_pressure",
+    workers: Annotated[
+        str | None,
+        typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the map.", show_default="results/<name>")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print map.json instead of the table.")
+    ] = False,
+) -> Job:
+    """Map where the half-plane holds, over two dimensionless groups."""
+    return partial(_map, (scene, points, x, y, quantity), workers, out, as_json)
+
+
 @app.command()
 def scenes() -> Job:
     """List the scenes that come with crosscheck."""
@@ -167,6 +193,28 @@ def _stability(out: Path | None) -> int:
         result = run_stability(out or RESULTS / "stability", progress)
     _show(stability_table(result))
     return result.exit_status
+
+
+def _map(
+    asked: tuple[str | None, ...], workers: str | None, out: Path | None, as_json: bool
+) -> int:
+    from comparisons.maps.request import request_of
+
+    request = from_first(lambda: request_of(*asked))
+    directory = out or RESULTS / request.name
+    from comparisons.maps.command import exit_status, mapped
+
+    with _progress() as progress:
+        content = mapped(request, directory, workers, progress)
+    if content is None:  # it worked for the first process
+        return ExitStatus.DONE
+    if as_json:
+        print(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        from comparisons.maps.table import map_table
+
+        _show(map_table(content, directory))
+    return exit_status(content)
 
 
 def _scenes() -> int:
