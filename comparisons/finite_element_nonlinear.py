@@ -16,13 +16,16 @@ from comparisons.problem import Problem
 from fem.compliance import FiniteElementCompliance
 from fem.finite_deformation import press_finitely
 from fem.plastic_fields import plastic_fields
-from fem.press_plastic import press_plastically
+from fem.press_plastic import INCREMENTS, press_plastically
 from fem.return_mapping import ElasticPlastic
 from fem.rigid_roller import circle, parabola
 from fem.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
+# Steps of the load on the coarsest levels; their number doubles from level to level, so that what
+# they leave out belongs to the uncertainty of the discretisation.
+FEWEST_INCREMENTS = 4
 
 
 def pressed_finitely(
@@ -90,8 +93,17 @@ def pressed_plastically(
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
+    increments = max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(weights.mean())))
     body, (loaded, released) = press_plastically(
-        rough, metal, gap, weights, (constraints.load, 0.0), linear.pressure, friction, roller
+        rough,
+        metal,
+        gap,
+        weights,
+        (constraints.load, 0.0),
+        linear.pressure,
+        friction,
+        roller,
+        increments,
     )
     own = rough.weighted(loaded.displacement)
     both = own if roller is None else own + roller.apply(loaded.pressure, -friction)

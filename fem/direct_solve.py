@@ -67,6 +67,7 @@ def _attempt(system, load, found, symmetric: bool, spare: int) -> int:
         info = factor.getMumpsInfog(1)
         if info >= 0:
             raise FemError("PETSc could not set up the factorisation") from error
-    finally:
-        ksp.destroy()
+    finally:  # PETSc keeps what Python lets go of, from 3.18 on, until it is told
+        for used in (factor, pc, ksp):
+            used.destroy()
     return info

@@ -46,7 +46,7 @@ from fem.coating import Coating, coated_triangles, relative_constants
 from fem.communicator import communicator
 from fem.just_in_time import compiled, load_dolfinx
 from fem.locate import Locator
-from fem.mumps import FemError, SymmetricFactor
+from fem.mumps import FemError, SymmetricFactor, release_with
 from fem.nodes import Nodes, at_points, nodes_of
 from fem.support import Support, held_components
 from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
@@ -100,6 +100,7 @@ class ElasticBody:
         self._numbering, self.degree = numbering, numbering.degree
         self.nodes, self.elements = numbering.real, numbering.elements
         self.matrix, self.owned = matrix, owned
+        release_with(self, matrix)
         # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
         # survive it.
         self.space = space

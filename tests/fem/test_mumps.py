@@ -1,9 +1,15 @@
 """The symmetric factorisation: right answers, clear failures, more room where it is needed."""
 
+import gc
+import resource
+from pathlib import Path
+
 import numpy as np
 import pytest
+from scipy.sparse import diags, kronsum
 
 from fem import mumps
+from fem.direct_solve import solve_once
 from fem.mumps import FemError, SymmetricFactor
 
 
@@ -54,3 +60,33 @@ def test_never_enough_room_ends_in_an_error(positive, monkeypatch):
     monkeypatch.setattr(mumps, "_factorised", lambda m, spare: (*factorise(m, spare)[:2], -9))
     with pytest.raises(FemError, match=r"INFOG\(1\) = -9"):
         SymmetricFactor(petsc(positive))
+
+
+def test_what_petsc_holds_goes_with_its_owner(positive):
+    matrix = petsc(positive)
+    factor = SymmetricFactor(matrix)
+    mumps.release_with(factor, matrix)
+    held = [factor._factor, factor._ksp, factor._right, matrix]
+    assert all(held)
+    del factor
+    gc.collect()
+    assert not any(held)  # PETSc's objects are false once they are destroyed
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is told by Linux's /proc")
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_systems_that_are_solved_once_leave_nothing_behind(symmetric):
+    """Each holds 4 to 7 MB while it is solved."""
+    line = diags([-1.0, 2.1, -1.0], [-1, 0, 1], (100, 100))
+    matrix = kronsum(line, line).tocsr()
+
+    def resident() -> float:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        return pages * resource.getpagesize()
+
+    for _ in range(2):
+        solve_once(matrix, np.ones(matrix.shape[0]), symmetric)
+    before = resident()
+    for _ in range(10):
+        solve_once(matrix, np.ones(matrix.shape[0]), symmetric)
+    assert resident() - before < 10e6
