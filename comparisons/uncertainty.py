@@ -7,16 +7,20 @@ order limited as in Eça and Hoekstra 2014):
     d21 = f1 - f2, d32 = f2 - f3     p = log2(d32 / d21)     U = F d / (2^p - 1),  F = 1.25
 
 with p limited to [LOWEST_ORDER, formal order] and d the larger of |d21| and |d32| / 2^formal, so
-that two values which happen to agree do not pass for convergence. Where p means nothing U is a
-multiple of d itself: the error of a contact depends on where its edge falls between two nodes,
-which is another place on each level, so that most sequences are a power of the element size times
-a factor of either sign. On contacts with exact solutions (`crosscheck verify`) d covers 97 % of
-the errors of sequences that fall faster than their formal order, 1.25 d as many of those that
-oscillate; what Roache gives for two grids, 3 d / (2^formal - 1), is d for a formal order of 2.
+that two values which happen to agree do not pass for convergence.
+
+Most sequences show no order: the error of a contact depends on where its edge falls between two
+nodes, another place on each level, so that it is a power of the element size times a factor of
+either sign. The power is at least 1, which the square root at the edge leaves to the worst of
+figures. Where a sequence oscillates, or falls faster than its formal order, U is d itself; Roache's
+3 d / (2^formal - 1), for two grids, is the same for a formal order of 2. Measured on 1170 figures
+of 280 contacts with exact answers (unlike those of `verify`): 96 % of the errors covered, half of
+the uncertainties less than 4.0 times the error. A lowest order of 1/2, a range for what oscillates
+and F = 3 for all that is irregular covered no more of them and were 7 times the error.
 
 A far boundary, too, is judged by its effect: what halving its distance changes is as many times
-smaller than what is left of it as a step of refinement would be at LOWEST_ORDER. Stresses below a
-held block's contact were seen to go with order 0.5 to 1 of its size.
+smaller than what is left of it as a step of refinement of order 1/2 would be. Stresses below a held
+block's contact were seen to go with order 0.5 to 1 of its size.
 
 A sequence that has settled to round-off gets what is left of its differences, and no figure an
 uncertainty below the `resolution` that it is read with: three grids may share a wrong digit.
@@ -28,12 +32,11 @@ from typing import Literal
 
 import numpy as np
 
-LOWEST_ORDER = 0.5
+LOWEST_ORDER = 1.0
 FACTOR = 1.25  # of safety, on three grids
-OSCILLATING, IRREGULAR = 1.25, 1.0  # of the larger change: see above
-DOMAIN = 1.0 / (2.0**LOWEST_ORDER - 1.0)  # of the change that half the distance makes
+DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
 SETTLED = 1e-12  # relative differences below this are round-off
-ORDER_MARGIN = 0.25  # an order this little above the formal one is still regular
+ORDER_MARGIN = 0.25  # an order this little beyond its limits is still regular
 
 Behaviour = Literal[
     "settled", "monotone", "irregular", "oscillating", "diverging", "too few levels"
@@ -76,22 +79,15 @@ def grid_convergence(
         return Convergence(value, value, left, None, "settled")
     change = max(abs(last), abs(before) / 2.0**formal_order)
     if last * before < 0.0:
-        spread = max(OSCILLATING * change, resolution)
-        return Convergence(value, value, spread, None, "oscillating")
-    observed = None
-    if last != 0.0 and before != 0.0:
-        observed = float(np.log2(abs(before) / abs(last)))
-    limit = fine
-    if before == 0.0 or (observed is not None and observed <= formal_order + ORDER_MARGIN):
-        order = LOWEST_ORDER if observed is None else observed
-        order = float(np.clip(order, LOWEST_ORDER, formal_order))
-        uncertainty = FACTOR * change / (2.0**order - 1.0)
-        if observed is None or 0.0 < observed < LOWEST_ORDER:
-            behaviour = "irregular"
-        elif observed <= 0.0:
-            behaviour = "diverging"
-        else:
-            behaviour, limit = "monotone", fine + last / (2.0**order - 1.0)
-    else:
-        behaviour, uncertainty = "irregular", IRREGULAR * change
-    return Convergence(value, float(limit), max(uncertainty, resolution), observed, behaviour)
+        return Convergence(value, value, max(change, resolution), None, "oscillating")
+    observed = float(np.log2(abs(before) / abs(last))) if last != 0.0 != before else None
+    if last == 0.0 or (observed is not None and observed > formal_order + ORDER_MARGIN):
+        return Convergence(value, value, max(change, resolution), observed, "irregular")
+    order = float(np.clip(observed or LOWEST_ORDER, LOWEST_ORDER, formal_order))
+    uncertainty = max(FACTOR * change / (2.0**order - 1.0), resolution)
+    if observed is None or 0.0 < observed < LOWEST_ORDER - ORDER_MARGIN:
+        return Convergence(value, value, uncertainty, observed, "irregular")
+    if observed <= 0.0:
+        return Convergence(value, value, uncertainty, observed, "diverging")
+    limit = fine + last / (2.0**order - 1.0)
+    return Convergence(value, limit, uncertainty, observed, "monotone")

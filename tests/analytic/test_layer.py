@@ -1,7 +1,6 @@
 """Layered surfaces under hats: coefficients, contact of a cylinder, thin and thick limits."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +8,7 @@ from scipy.linalg import circulant, toeplitz
 
 from analytic.contact import solve_contact
 from analytic.equilibrium import Constraints
+from analytic.exact.layer_references import TABLE
 from analytic.gap import HatGrid, roller_gap
 from analytic.layer import (
     LayeredSurface,
@@ -22,9 +22,7 @@ from analytic.material import Material
 from analytic.operators import HalfPlane
 from analytic.periodic import PeriodicHalfPlane
 
-CASES = json.loads((Path(__file__).parents[1] / "data" / "e_layer_contact.json").read_text())[
-    "cases"
-]
+CASES = json.loads(TABLE.read_text())["cases"]
 LAYER = Material(210e9, 0.3)
 RIGID = ["bonded", "frictionless"]
 SUBSTRATES = [Material(1e15, 0.2), Material(1e12, 0.45), Material(3e9, 0.0), Material(1e6, 0.4)]

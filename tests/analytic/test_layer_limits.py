@@ -2,7 +2,6 @@
 
 import json
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,9 +15,10 @@ from analytic.exact.layer_limits import (
     thin_incompressible_layer,
     thin_modulus,
 )
+from analytic.exact.layer_references import TABLE
 from analytic.material import Material
 
-CASES = json.loads((Path(__file__).parents[1] / "data/e_layer_contact.json").read_text())["cases"]
+CASES = json.loads(TABLE.read_text())["cases"]
 GAUSS, WEIGHT = np.polynomial.legendre.leggauss(300)
 HARDLY_COMPRESSIBLE = 0.5 - 1e-9
 BASES = [("frictionless", 0.3), ("bonded", 0.0), ("bonded", 0.3), ("bonded", 0.4999)]

@@ -1,6 +1,6 @@
 """Finite elements on layers against the exact contact of a parabola on a layer.
 
-tests/data/e_layer_contact.json: ten digits, two independent derivations.
+analytic/exact/layer_contact.json: ten digits, two independent derivations.
 """
 
 import json
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from analytic.exact.layer_references import TABLE
 from comparisons.finite_element import finite_element_level
 from comparisons.finite_element_mesh import Refinement
 from comparisons.plan import make_plan
@@ -15,7 +16,7 @@ from comparisons.problem import Problem, problem_of
 from comparisons.resolve import resolve_tables
 from comparisons.stages import Stages
 
-CASES = json.loads((Path(__file__).parents[1] / "data/e_layer_contact.json").read_text())["cases"]
+CASES = json.loads(TABLE.read_text())["cases"]
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
 
 

@@ -46,7 +46,7 @@ def test_every_quantity_has_a_short_name():
 
 
 def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Outcome, finish: Callable):
-    tolerance = {"contact_length": 0.015}  # less than its uncertainty
+    tolerance = {"contact_length": 0.007}  # less than its uncertainty
     outcome = finish({**wavy_outcome.problem.scene.tables, "tolerance": tolerance})
     text = printed(outcome)
     assert "\x1b" not in text
