@@ -16,6 +16,11 @@ which makes a model of the wrong stiffness, or a layer thinner than the contact,
 r instead of p keeps every p within the constraints. There is no energy to descend on where
 friction makes C unsymmetric. Instead, when PATIENCE steps in a row have not improved on the best
 one, the iteration goes back to it, forgets the secants and halves s.
+
+A half-plane's displacements are defined up to a constant, a body's are not. Under a prescribed
+load the approach takes that up. Under a prescribed approach a half-plane of another datum carries
+another load, and half of the steps would go on that: one application to some pressure p comes
+first, and the model gets the datum with which (C - D) p does no work on p.
 Symbols as in `analytic.contact`.
 """
 
@@ -34,7 +39,7 @@ from analytic.contact import (
 from analytic.coupled_contact import solve_coupled
 from analytic.coupling import CoupledOperator
 from analytic.equilibrium import SET_TOLERANCE, Constraints
-from analytic.operators import ComplianceOperator, ModelOperator
+from analytic.operators import ComplianceOperator, HalfPlane, ModelOperator
 
 MAX_STEPS = 40
 SECANTS = 2  # with one, half as many steps again over 144 cases; with three, no fewer
@@ -58,7 +63,8 @@ def solve_with_model(
     gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
-    `iterations` counts the steps and the applications of C and of D.
+    `iterations` counts the steps and the applications of C and of D; C is applied once more than
+    there are steps where an approach is prescribed and the model is a half-plane.
     """
     return _solve(operator, model, solve_contact, gap, weights, constraints, start, tolerance)
 
@@ -95,13 +101,20 @@ def _solve(
     gap = gap - common * weights
     pressure, carried, share = start, np.zeros_like(gap), 1.0
     path: list[tuple[np.ndarray, np.ndarray]] = []  # r and f of the last steps
-    best, model_applications = None, 0
+    best, model_applications, probes = None, 0, 0
+    if constraints.approach is not None and isinstance(model, HalfPlane):
+        model = _at_datum_of(operator, model, weights, start)
+        model_applications, probes = 1, 1
     for step in range(1, MAX_STEPS + 1):
         trial = solver(model, gap + carried, weights, constraints, pressure)
         model_applications += 1 + trial.iterations["applications"]
         pressure = trial.pressure
         displacement = operator.apply(pressure)
-        counts = {"steps": step, "applications": step, "model_applications": model_applications}
+        counts = {
+            "steps": step,
+            "applications": step + probes,
+            "model_applications": model_applications,
+        }
         free = _free(pressure, constraints)
         approach = _approach(displacement, pressure, gap, weights, constraints)
         solution = assessed(
@@ -124,6 +137,15 @@ def _solve(
         path = [*path[-SECANTS:], (carried, misfit)]
         carried = _onward(path, free, share)
     return replace(best, approach=best.approach + common, iterations=counts)
+
+
+def _at_datum_of(
+    operator: ComplianceOperator, model: HalfPlane, weights: np.ndarray, start: np.ndarray | None
+) -> HalfPlane:
+    """The model at the datum of the operator, as seen under `start` or an even pressure."""
+    pressure = start if start is not None and start.any() else np.ones_like(weights)
+    work = pressure @ (operator.apply(pressure) - model.apply(pressure))
+    return model.on_base(work / (weights @ pressure) ** 2)
 
 
 def _onward(

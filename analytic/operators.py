@@ -24,6 +24,7 @@ from analytic.elements import at_whole_offsets, hat_galerkin, strip_displacement
 Element = Literal["hat", "strip"]
 
 RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
+FURTHEST = 500.0  # ln(L'/L) of a datum L': the largest that numbers of any unit of length hold
 
 
 class ComplianceOperator(Protocol):
@@ -100,6 +101,15 @@ class HalfPlane(Convolution):
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
         half = self.count // 2
         return HalfPlane(half, 2.0 * self.pitch, self.modulus, self.datum, self.element)
+
+    def on_base(self, compliance: float) -> "HalfPlane":
+        """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.
+
+        That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST.
+        """
+        further = np.clip(0.5 * np.pi * self.modulus * compliance, 0.0, FURTHEST)
+        datum = self.datum * float(np.exp(further))
+        return HalfPlane(self.count, self.pitch, self.modulus, datum, self.element)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2 / (E* |k|) seen through the elements, with the nearest aliases [m^2/Pa].

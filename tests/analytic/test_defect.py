@@ -131,6 +131,56 @@ def test_a_large_common_displacement_does_not_stall_the_iteration(modulus):
     assert raised.pressure == pytest.approx(plain.pressure, abs=1e-6 * plain.pressure.max())
 
 
+@pytest.mark.parametrize("base", [0.0, 1.0, 10.0, 60.0])
+def test_an_approach_takes_no_more_steps_than_its_load(base):
+    """A body on a base that gives way: the half-plane takes its datum from one application."""
+    rigid = base * half_plane().column[0] * np.ones((GRID.count, GRID.count))
+    operator = Dense(perturbed().matrix + rigid)
+    gap = average_gap()
+
+    def found(constraints):
+        return solve_with_model(operator, half_plane(), gap, GRID.weights, constraints)
+
+    by_load = found(Constraints(load=LOAD))
+    pressed = found(Constraints(approach=by_load.approach))
+    assert by_load.converged and pressed.converged
+    assert pressed.iterations["applications"] == pressed.iterations["steps"] + 1
+    assert by_load.iterations["steps"] - 1 <= pressed.iterations["steps"]
+    assert pressed.iterations["steps"] <= by_load.iterations["steps"]
+    # an approach is met to a part of all the displacement, the base's included
+    near = 1e-6 * (1.0 + base) * by_load.pressure.max()
+    assert pressed.pressure == pytest.approx(by_load.pressure, abs=near)
+
+
+def test_a_body_on_a_base_that_gives_nearly_all_the_way_is_solved_all_the_same():
+    """Further off than a datum of the model can be."""
+    rigid = 1e3 * half_plane().column[0] * np.ones((GRID.count, GRID.count))
+    operator, gap = Dense(perturbed().matrix + rigid), average_gap()
+    found = solve_with_model(
+        operator, half_plane(), gap, GRID.weights, Constraints(approach=1e-3), tolerance=1e-11
+    )
+    assert found.converged
+    by_load = solve_with_model(
+        operator, half_plane(), gap, GRID.weights, Constraints(load=found.load), tolerance=1e-9
+    )
+    assert found.pressure == pytest.approx(by_load.pressure, abs=1e-5 * by_load.pressure.max())
+
+
+@pytest.mark.parametrize("above", [0.0, 3e-6])
+def test_the_datum_may_come_from_a_nearby_solution(above):
+    """Or from an even pressure where that one touches nowhere."""
+    rigid = 10.0 * half_plane().column[0] * np.ones((GRID.count, GRID.count))
+    operator, model = Dense(perturbed().matrix + rigid), half_plane()
+    gap, approach = average_gap() + above * GRID.weights, Constraints(approach=1.5e-6)
+    first = solve_with_model(operator, model, gap, GRID.weights, approach)
+    assert first.converged and (first.load > 0.0) == (above == 0.0)
+    for start in (first.pressure, np.zeros(GRID.count)):
+        again = solve_with_model(operator, model, gap, GRID.weights, approach, start)
+        assert again.converged
+        assert again.iterations["steps"] <= first.iterations["steps"]
+        assert again.pressure == pytest.approx(first.pressure, abs=1e-5 * first.pressure.max())
+
+
 LIGHT = Constraints(load=0.8e6)
 CAPPED = Constraints(load=0.8e6, hardness=8e9)
 

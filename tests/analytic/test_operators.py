@@ -69,6 +69,22 @@ def test_coarsened_operator_agrees_on_coarse_hats():
     assert toeplitz(coarse.column) == pytest.approx(expected, rel=1e-11)
 
 
+@pytest.mark.parametrize("element", ["hat", "strip"])
+def test_a_base_sinks_in_proportion_to_the_load(element):
+    """Whatever the pressures are, and no further up than where the half-plane stands."""
+    plain = HalfPlane(50, PITCH, MODULUS, element=element)
+    compliance = 3.0 / MODULUS
+    on_base = plain.on_base(compliance)
+    pressure = np.random.default_rng(6).standard_normal(50)
+    sunk = PITCH * compliance * PITCH * pressure.sum()
+    moved = on_base.apply(pressure) - plain.apply(pressure)
+    assert moved == pytest.approx(np.full(50, sunk), rel=1e-10)
+    assert on_base.element == element
+    assert plain.on_base(-compliance).datum == plain.datum
+    far = plain.on_base(1e6 * compliance)
+    assert np.isfinite(far.datum) and np.isfinite(far.column).all()
+
+
 def test_sum_of_bodies_is_the_half_plane_of_the_combined_modulus():
     both = SumOfBodies(HalfPlane(40, PITCH, 70e9), HalfPlane(40, PITCH, 210e9))
     combined = HalfPlane(40, PITCH, 1.0 / (1.0 / 70e9 + 1.0 / 210e9))
