@@ -53,12 +53,29 @@ def run(
     models: Annotated[
         str, typer.Option(help="Models to solve with, separated by commas.")
     ] = ",".join(MODELS),
+    tolerance: Annotated[
+        float | None,
+        typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print result.json instead of the table.")
     ] = False,
 ) -> Job:
     """Solve a scene with both models, compare them and judge."""
-    return partial(_run, scene, out, models, as_json)
+    return partial(_run, scene, out, models, tolerance, as_json)
+
+
+@app.command()
+def cost(
+    scene: Annotated[str, typer.Argument(help="A TOML file, or a name that `scenes` lists.")],
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Folder for the results.", show_default="results/<name>-cost"),
+    ] = None,
+    repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
+) -> Job:
+    """Measure error against time of every method; name the cheapest for each tolerance."""
+    return partial(_cost, scene, out, repeats)
 
 
 @app.command()
@@ -78,6 +95,17 @@ def stability(
 ) -> Job:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
     return partial(_stability, out)
+
+
+@app.command()
+def verify(
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the figures.", show_default="results/verify")
+    ] = None,
+    junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
+) -> Job:
+    """Hold both models to exact solutions, and stated uncertainties to true errors."""
+    return partial(_verify, out, junit)
 
 
 @app.command("map")
@@ -154,12 +182,16 @@ def _carry_out(arguments: list[str]) -> int:
         return _end(_defect(error), f"{_account(error)} (set {TRACEBACK}=1 for the traceback)")
 
 
-def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
+def _run(scene: str, out: Path | None, models: str, tolerance: float | None, as_json: bool) -> int:
     chosen = _models(models)
     from comparisons.files import check_writable
     from comparisons.resolve import load_scene
 
     resolved = from_first(lambda: load_scene(scene))
+    if tolerance is not None:
+        from comparisons.tolerance import with_tolerance
+
+        resolved = with_tolerance(resolved, tolerance)
     directory = out or RESULTS / resolved.name
     from_first(lambda: check_writable(directory))
     from comparisons.run import run as run_scene
@@ -173,6 +205,20 @@ def _run(scene: str, out: Path | None, models: str, as_json: bool) -> int:
 
         _show(summary(outcome))
     return outcome.exit_status
+
+
+def _cost(scene: str, out: Path | None, repeats: int) -> int:
+    from comparisons.cost import cost as measured_cost
+    from comparisons.cost_table import cost_summary
+    from comparisons.resolve import load_scene
+
+    resolved = load_scene(scene)
+    directory = out or RESULTS / f"{resolved.name}-cost"
+    with _progress() as progress:
+        found = measured_cost(resolved, directory, repeats, progress)
+    _show(cost_summary(found))
+    print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
+    return ExitStatus.DONE
 
 
 def _rerun(folder: Path, out: Path | None) -> int:
@@ -193,6 +239,16 @@ def _stability(out: Path | None) -> int:
         result = run_stability(out or RESULTS / "stability", progress)
     _show(stability_table(result))
     return result.exit_status
+
+
+def _verify(out: Path | None, report: Path | None) -> int:
+    from comparisons.verify import verify as verify_all
+    from comparisons.verify_table import verify_summary
+
+    with _progress() as progress:
+        found = verify_all(out or RESULTS / "verify", report, progress)
+    _show(verify_summary(found))
+    return found.exit_status
 
 
 def _map(

@@ -78,9 +78,10 @@ def _check_folder(out: Path, place: Path) -> None:
 
 
 @contextmanager
-def published(out: Path) -> Iterator[Path]:
+def published(out: Path, own: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
+    own   files that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes.
     """
     check_writable(out)
@@ -94,7 +95,7 @@ def published(out: Path) -> Iterator[Path]:
         made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
         for name in made:
             _move(scratch / name, out / name)
-        for name in OWN_FILES:
+        for name in own:
             if Path(name) not in made:
                 (out / name).unlink(missing_ok=True)
         for folder in OWN_FOLDERS:

@@ -1,0 +1,187 @@
+"""Error against time of every method and setting that applies to a scene, and what to take."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from analytic.contact import ContactError
+from comparisons.cost_choice import Assessed, Choice, choices, followed, pareto
+from comparisons.cost_methods import METHODS, Method
+from comparisons.cost_reference import Reference, error_of, references
+from comparisons.cost_study import Row, Study, measured_study
+from comparisons.errors import InputError, SceneError
+from comparisons.files import check_writable, published
+from comparisons.problem import Problem, problem_of
+from comparisons.quantities import QUANTITIES
+from comparisons.rank import is_several
+from comparisons.record import as_json, machine, versions
+from comparisons.scene import ResolvedScene
+from comparisons.stages import Listener, silent
+from comparisons.window import window_of
+from meshes.errors import MeshError
+
+SCHEMA = 1
+FILES = ("cost.json", "cost.html")
+THREADS = 1  # of a measuring process
+
+
+@dataclass(frozen=True)
+class Cost:
+    """A finished study.
+
+    references  by quantity            assessed  every row with its errors
+    fronts      by quantity, rows that nothing beats, from cheap to dear
+    choices     one a tolerance, the last for all of them
+    """
+
+    problem: Problem
+    study: Study
+    references: dict[str, Reference]
+    assessed: list[Assessed]
+    fronts: dict[str, list[Assessed]]
+    choices: list[Choice]
+    versions: dict
+    machine: dict
+
+    @property
+    def floors(self) -> dict[str, float]:
+        return {name: reference.floor for name, reference in self.references.items()}
+
+
+def cost(
+    scene: ResolvedScene,
+    out: Path,
+    repeats: int,
+    listener: Listener = silent,
+    methods: tuple[Method, ...] = METHODS,
+) -> Cost:
+    """Measure, judge, and leave cost.json and cost.html in `out`, whole or not at all.
+
+    Raises InputError for a scene that cannot be solved, or a folder that cannot be written.
+    """
+    if is_several():
+        raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
+    if repeats < 1:
+        raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
+    check_writable(out)
+    problem = _problem(scene, listener)
+    found = judged(problem, measured_study(problem, repeats, listener, methods))
+    listener("drawing the diagrams")
+    from comparisons.cost_page import cost_page
+
+    with published(out, FILES) as folder:
+        (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
+        (folder / "cost.html").write_text(cost_page(found), encoding="utf-8")
+    return found
+
+
+def _problem(scene: ResolvedScene, listener: Listener) -> Problem:
+    """The scene's problem; a prescribed approach is turned into its load."""
+    listener("finding the reach of the contact")
+    try:
+        if scene.load.kind != "approach":
+            return problem_of(scene)
+        from comparisons.approach import problem_of_approach
+
+        return problem_of_approach(scene, listener)
+    except (ContactError, MeshError) as error:
+        raise SceneError(f"{scene.source}: {error}") from error
+
+
+def judged(problem: Problem, study: Study) -> Cost:
+    """Errors, fronts and choices of what was measured."""
+    scene = problem.scene
+    window = window_of(problem) if scene.stress is not None else None
+    known = references(problem, study, window)
+    if not known:
+        failed = next((row.because for row in study.rows if row.because), "nothing was solved")
+        raise SceneError(f"{scene.source}: there is nothing to measure errors by: {failed}")
+
+    def errors(row: Row) -> dict[str, float | None]:
+        if row.measured is None:
+            return {}
+        answer = row.measured.answer
+        return {
+            name: None
+            if row is reference.row
+            else error_of(answer, name, reference, problem, window)
+            for name, reference in known.items()
+        }
+
+    assessed = [Assessed(row, errors(row)) for row in study.rows]
+    return Cost(
+        problem=problem,
+        study=study,
+        references=known,
+        assessed=assessed,
+        fronts={name: pareto(assessed, name, known[name].floor) for name in known},
+        choices=choices(study, assessed, known, scene.tolerance),
+        versions=versions(),
+        machine=machine() | {"threads": THREADS},
+    )
+
+
+def content_of(cost: Cost) -> dict:
+    """The content of cost.json: SI units, errors relative, None for what is unknown."""
+    names = [name for name in QUANTITIES if name in cost.references]
+    return {
+        "schema": SCHEMA,
+        "scene": cost.problem.scene.as_dict(),
+        "reference": {
+            name: {
+                "source": cost.references[name].source,
+                "values": list(cost.references[name].values),
+                "uncertainty": cost.references[name].floor,
+            }
+            for name in names
+        },
+        "rows": [_row(cost, each) for each in cost.assessed],
+        "choices": [
+            {
+                "quantity": choice.quantity,
+                "tolerance": choice.tolerance,
+                "sentence": choice.sentence,
+                "half_plane": _chosen(cost, choice.half_plane),
+                "finite_element": _chosen(cost, choice.finite_element),
+                "cheapest": _chosen(cost, choice.cheapest, scene=False),
+            }
+            for choice in cost.choices
+        ],
+        "versions": cost.versions,
+        "machine": cost.machine,
+    }
+
+
+def _row(cost: Cost, each: Assessed) -> dict:
+    row, measured = each.row, each.row.measured
+    found = {
+        "method": row.method.name,
+        "model": row.method.model,
+        "pitch": None if row.method.adapted else row.setting,
+        "wanted_error": row.setting if row.method.adapted else None,
+        "status": row.status,
+        "because": row.because,
+    }
+    if measured is None:
+        return found
+    return found | {
+        "elements": measured.answer.elements,
+        "unknowns": measured.answer.unknowns,
+        "seconds": measured.seconds,
+        "total": measured.total,
+        "smallest_total": measured.spread[0],
+        "largest_total": measured.spread[1],
+        "wall": measured.wall,
+        "repeats": measured.repeats,
+        "peak_memory": measured.memory,
+        "figures": list(measured.answer.figures),
+        "errors": each.errors,
+        "best_for": [name for name, front in cost.fronts.items() if each in front],
+    }
+
+
+def _chosen(cost: Cost, each: Assessed | None, scene: bool = True) -> dict | None:
+    """Which row, by its place in `rows`, and what to write into the scene for it."""
+    if each is None:
+        return None
+    found = {"row": cost.assessed.index(each), "method": each.row.method.name}
+    return found | {"scene": followed(each.row, cost.problem)} if scene else found

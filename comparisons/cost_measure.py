@@ -1,0 +1,124 @@
+"""Time and memory of one setting of one method, in a process of its own that has one thread.
+
+Seconds are the processor's, gmsh's process included: on an idle machine they are those of the
+clock, on a busy one they are what the clock would show if it were idle.
+"""
+
+import resource
+import statistics
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from comparisons.cost_methods import METHODS
+from comparisons.cost_solve import Answer, solved
+from comparisons.errors import InputError
+from comparisons.problem import problem_of
+from comparisons.scene import ResolvedScene
+from comparisons.stages import Stages, peak_memory
+from comparisons.window import window_of
+
+WARM = 1.0  # seconds on the clock: a first go that is shorter is repeated before any is counted
+
+_begun: list[str] = []  # methods that this process has met: the first go loads what it takes
+
+
+@dataclass(frozen=True)
+class Task:
+    """What to measure: as many `repeats` as fit into `limit` seconds on the clock, at least one.
+
+    load    [N/m] that a prescribed approach takes, else None
+    halved  whether an unbounded body is held at half the distance
+    """
+
+    scene: ResolvedScene
+    load: float | None
+    method: str
+    setting: float
+    repeats: int = 1
+    limit: float = 0.0
+    halved: bool = False
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What a setting gave and took: medians over the `repeats` that were counted.
+
+    seconds   of the processor by stage       total   of all stages
+    wall      on the clock                    spread  smallest and largest total
+    memory    largest of the process so far [bytes]; settings come from coarse to fine
+    """
+
+    answer: Answer
+    seconds: dict[str, float]
+    total: float
+    wall: float
+    spread: tuple[float, float]
+    repeats: int
+    memory: int
+
+
+@dataclass(frozen=True)
+class Refused:
+    """Why a setting gave nothing: `skipped` as too large, or failed."""
+
+    because: str
+    skipped: bool
+
+
+@dataclass
+class ProcessorStages(Stages):
+    """Seconds of the processor by stage, those of ended child processes included."""
+
+    begun: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str, announce: str | None = None) -> Iterator[None]:
+        begin = processor_seconds()
+        try:
+            yield
+        finally:
+            self.seconds[name] = self.seconds.get(name, 0.0) + processor_seconds() - begin
+
+
+def processor_seconds() -> float:
+    """Of this process and of its children that have ended."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
+
+
+def measure(task: Task) -> Measured | Refused:
+    """Carry out a task in this process."""
+    method = next(m for m in METHODS if m.name == task.method)
+    try:
+        problem = problem_of(task.scene, task.load)
+        window = window_of(problem) if task.scene.stress is not None else None
+        runs, spent, warm = [], 0.0, task.method in _begun
+        _begun.append(task.method)
+        while True:
+            stages, begin = ProcessorStages(), time.perf_counter()
+            answer = solved(method, problem, task.setting, window, stages, task.halved)
+            wall = time.perf_counter() - begin
+            spent += wall
+            if not runs and (not warm or wall < WARM) and spent == wall and not task.halved:
+                warm = True
+                continue
+            runs.append((stages.seconds, wall))
+            if len(runs) >= task.repeats or spent >= task.limit:
+                break
+    except InputError as error:  # of the budget, before anything was meshed
+        return Refused(str(error), skipped=True)
+    except Exception as error:
+        return Refused(f"{type(error).__name__}: {error}", skipped=False)
+    totals = [sum(seconds.values()) for seconds, _ in runs]
+    names = list(runs[0][0])
+    return Measured(
+        answer=answer,
+        seconds={name: statistics.median(s[name] for s, _ in runs) for name in names},
+        total=statistics.median(totals),
+        wall=statistics.median(wall for _, wall in runs),
+        spread=(min(totals), max(totals)),
+        repeats=len(runs),
+        memory=peak_memory(),
+    )

@@ -1,0 +1,161 @@
+"""All methods at all their settings, measured one after the other; what fails is a row as well."""
+
+import time
+from concurrent.futures import Executor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+
+from comparisons.cost_measure import Measured, Refused, Task, measure
+from comparisons.cost_methods import (
+    METHODS,
+    MOST_DENSE,
+    Method,
+    is_half_plane_problem,
+    why_not,
+)
+from comparisons.maps.executors import processes
+from comparisons.problem import Problem
+from comparisons.report.numbers import with_unit
+from comparisons.stages import Listener
+
+GROWTH = {"half_plane": 2.5, "finite_element": 3.5}  # of a setting's time over the one before
+# Part of budget.time by whose end each method is done; what one leaves the next ones have.
+SHARES = (0.04, 0.08, 0.14, 0.18, 0.35, 0.6, 0.85, 0.95)
+OK, FAILED, SKIPPED = "ok", "failed", "skipped"
+
+
+@dataclass(frozen=True)
+class Row:
+    """A method at a setting.
+
+    setting   pitch [m] or tolerance; None: the method does not apply
+    status    ok | failed | skipped      because  why not ok
+    """
+
+    method: Method
+    setting: float | None
+    status: str
+    because: str | None = None
+    measured: Measured | None = None
+
+    def seconds(self, stresses: bool) -> float:
+        """Of the processor, to the contact alone or to the stresses too."""
+        own = self.measured.seconds
+        return sum(s for name, s in own.items() if stresses or name != "stresses")
+
+    @property
+    def label(self) -> str:
+        """The setting in words."""
+        if self.setting is None:
+            return "–"
+        if self.method.adapted:
+            return f"to {self.setting:.3g}"
+        return with_unit(self.setting, "m", 3)
+
+
+@dataclass(frozen=True)
+class Study:
+    """All rows, by method and from coarse to fine, and by method's name what the coarsest setting
+    gives with the far boundary at half its distance, where that is needed."""
+
+    rows: tuple[Row, ...]
+    halved: dict[str, Measured]
+
+    def of(self, name: str) -> tuple[Row, ...]:
+        """The good rows of a method."""
+        return tuple(r for r in self.rows if r.method.name == name and r.status == OK)
+
+
+def measured_study(
+    problem: Problem, repeats: int, listener: Listener, methods: tuple[Method, ...] = METHODS
+) -> Study:
+    """Measure; in a fresh process for each method, whose memory is its own, on one thread."""
+    begin, rows, halved = time.perf_counter(), [], {}
+    for share, method in zip(SHARES[-len(methods) :], methods, strict=True):
+        because = why_not(method, problem)
+        if because is not None:
+            rows.append(Row(method, None, SKIPPED, because))
+            continue
+        end = begin + share * problem.scene.budget.time
+        with processes(1) as executor:
+            found = _series(method, problem, repeats, end, executor, listener)
+            rows += found
+            if _wants_halved(method, problem) and found[0].status == OK:
+                task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
+                again = _carried_out(executor, task)
+                if isinstance(again, Measured):
+                    halved[method.name] = again
+    return Study(tuple(rows), halved)
+
+
+def _series(
+    method: Method,
+    problem: Problem,
+    repeats: int,
+    end: float,
+    executor: Executor,
+    listener: Listener,
+) -> list[Row]:
+    """The rows of a method, until `end` on the clock."""
+    rows, settings, lost = [], method.settings(problem), None
+    for number, setting in enumerate(settings, start=1):
+        label = Row(method, setting, OK).label
+        listener(f"{method.name}: {label} ({number} of {len(settings)})")
+        left = end - time.perf_counter()
+        done = [row.measured.wall for row in rows if row.status == OK]
+        next_wall = GROWTH[method.model] * done[-1] if done else 0.0
+        count = 0 if method.adapted else problem.grid(setting).count
+        if lost is not None:
+            rows.append(Row(method, setting, SKIPPED, lost))
+        elif method.dense and count > MOST_DENSE:
+            because = f"{count} elements; a dense matrix is made of at most {MOST_DENSE}"
+            rows.append(Row(method, setting, SKIPPED, because))
+        elif next_wall > left:
+            because = f"its part of {problem.scene.budget.time:g} s (budget.time) would not do"
+            rows.append(Row(method, setting, SKIPPED, because))
+        else:
+            limit = max(left, 0.0) / 2.0
+            found = _carried_out(executor, _task(problem, method, setting, repeats, limit))
+            rows.append(_row(method, setting, found))
+            if found is None:
+                lost = "the process that measured had ended"
+    return rows
+
+
+def _row(method: Method, setting: float, found: Measured | Refused | None) -> Row:
+    if found is None:
+        return Row(method, setting, FAILED, "the process that measured it ended")
+    if isinstance(found, Refused):
+        return Row(method, setting, SKIPPED if found.skipped else FAILED, found.because)
+    if not found.answer.converged:
+        return Row(method, setting, FAILED, "did not converge", found)
+    return Row(method, setting, OK, None, found)
+
+
+def _carried_out(executor: Executor, task: Task) -> Measured | Refused | None:
+    """What a task gives; None where its process ended."""
+    try:
+        return executor.submit(measure, task).result()
+    except BrokenProcessPool:
+        return None
+
+
+def _task(
+    problem: Problem,
+    method: Method,
+    setting: float,
+    repeats: int,
+    limit: float,
+    halved: bool = False,
+) -> Task:
+    prescribed = problem.scene.load.kind == "approach"
+    load = problem.hertz.load_per_length if prescribed else None
+    return Task(problem.scene, load, method.name, setting, repeats, limit, halved)
+
+
+def _wants_halved(method: Method, problem: Problem) -> bool:
+    """Whether the finite elements are a reference, whose far boundary counts."""
+    scene = problem.scene
+    unbounded = scene.thickness is None or scene.width is None
+    plain = method.model == "finite_element" and not method.adapted
+    return plain and unbounded and not is_half_plane_problem(problem)
