@@ -37,7 +37,9 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
 
     `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
     basix element. On 0.5 the element is declared equispaced from the start: the first form that
-    is compiled would otherwise rewrite it so, and every later process would compile again.
+    is compiled would otherwise rewrite it so, and every later process would compile again. And
+    there the cells go in as an adjacency list: an array is refused in a message that prints all
+    of it, then made one, which for a small mesh takes as long as all else.
     """
     from dolfinx.mesh import create_mesh
 
@@ -46,10 +48,12 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
     points = np.ascontiguousarray(points, dtype=np.float64)
     if "domain" in inspect.signature(create_mesh).parameters:
         import ufl
+        from dolfinx.cpp.graph import AdjacencyList_int64
 
         triangle = ufl.Cell("triangle", geometric_dimension=2)
         scalar = ufl.FiniteElement("Lagrange", triangle, degree, variant="equispaced")
-        return create_mesh(comm, cells, points, ufl.Mesh(ufl.VectorElement(scalar)))
+        domain = ufl.Mesh(ufl.VectorElement(scalar))
+        return create_mesh(comm, AdjacencyList_int64(cells), points, domain)
     return create_mesh(comm, cells, x=points, e=_equispaced(degree))
 
 

@@ -6,6 +6,8 @@ displacement with the same hats; symmetric and positive definite by construction
 Nomenclature: p hat pressures [Pa], K stiffness, B nodal forces of unit hats (`fem.surface`).
 """
 
+from functools import cached_property
+
 import numpy as np
 from scipy.sparse import csr_matrix
 
@@ -28,7 +30,7 @@ class FiniteElementCompliance:
     far         None: the body is held as its support says. Else its boundary gets the half-plane's
                 displacement; made for the same body and the hats' stretch
     normal      B of the pressure, (2k, count)
-    tangential  B of a sliding traction towards +x, (2k, count)
+    tangential  B of a sliding traction towards +x, (2k, count); made when first asked for
     applications   back-substitutions so far
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface.
@@ -44,8 +46,13 @@ class FiniteElementCompliance:
         direction = straight_down if direction is None else direction
         self.body, self.hats, self.count, self.far = body, hats, len(hats) - 2, far
         self.normal = hat_forces(body.surface, hats, direction)
-        self.tangential = hat_forces(body.surface, hats, tangent_of(direction))
+        self._means = self.normal.T.tocsr()  # a transposed view anew for each product costs more
+        self._direction = direction
         self.applications = 0
+
+    @cached_property
+    def tangential(self) -> csr_matrix:
+        return hat_forces(self.body.surface, self.hats, tangent_of(self._direction))
 
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
@@ -56,7 +63,7 @@ class FiniteElementCompliance:
         force = self._force(pressure, friction)
         self.applications += 1
         moved = self.weighted(self.body.solve(self._load(force)))
-        return moved if self.far is None else moved + self.normal.T @ self.far.symmetric(force)
+        return moved if self.far is None else moved + self._means @ self.far.symmetric(force)
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
@@ -70,7 +77,7 @@ class FiniteElementCompliance:
 
     def weighted(self, displacement: np.ndarray) -> np.ndarray:
         """B^T u (count,) [m^2] of a displacement (n, 2) [m]."""
-        return self.normal.T @ displacement[self.body.surface.point].ravel()
+        return self._means @ displacement[self.body.surface.point].ravel()
 
     def matrix(self, friction: float = 0.0) -> np.ndarray:
         """C dense (count, count) [m^2/Pa]: one back-substitution a hat."""
@@ -89,7 +96,7 @@ class FiniteElementCompliance:
         moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
         if self.far is not None:
             moved = moved + self.far.symmetric(force)
-        return (self.normal.T @ moved).T
+        return (self._means @ moved).T
 
     def _force(self, pressure: np.ndarray, friction: float) -> np.ndarray:
         """Forces (2k,) [N/m] on the surface's nodes."""

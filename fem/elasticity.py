@@ -220,6 +220,7 @@ def elastic_body(
     """
     load_dolfinx()
     import ufl
+    from dolfinx import fem
 
     start = perf_counter()
     numbering = nodes_of(mesh, degree)
@@ -233,8 +234,12 @@ def elastic_body(
     space = compiled(lambda: compat.displacement_space(domain, degree))
     cell, node = own_numbers(mesh, domain, number, space, numbering)
 
+    # a form keeps no constant's value: it is compiled once for all bodies, and once for coated ones
     constants = relative_constants(material, coating, coated)
-    shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
+    if coating is None:
+        shear, lame = (fem.Constant(domain, compat.real_number(value[0])) for value in constants)
+    else:
+        shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     strain = ufl.sym(ufl.grad(u))
     stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)

@@ -11,6 +11,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
@@ -62,17 +63,23 @@ def compiled(make: Callable[[], Result]) -> Result:
     """
     from mpi4py import MPI
 
-    waits = 0
+    waits, clear = 0, _clear_once
     while True:
         if MPI.COMM_WORLD.rank == 0:  # it compiles for all
-            remove_leftovers(compat.form_cache())
+            clear(compat.form_cache())
         try:
             with uninterrupted():
                 return make()
         except TimeoutError:
-            waits += 1
+            waits, clear = waits + 1, remove_leftovers
             if waits > MOST_WAITS:
                 raise
+
+
+@cache
+def _clear_once(folder: Path) -> None:
+    """`remove_leftovers` at a process' first form: what is left later is met by a timeout first."""
+    remove_leftovers(folder)
 
 
 def remove_leftovers(folder: Path) -> None:
