@@ -27,7 +27,7 @@ from comparisons.stability.row import Case, Figure, Findings
 
 PER_HALF = 77.3
 RADIUS, LOAD = 10e-3, 1e6  # [m], [N/m]
-DISCRETE = 1e-3  # of peak, length and place, at PER_HALF
+DISCRETE = 1e-4  # of the peak and of the load's place, with PER_HALF hats
 SOFT, STEEL = Material(1e5, 0.0), Material(207e9, 0.3)
 
 

@@ -183,7 +183,7 @@ def cases() -> tuple[Case, ...]:
     """The cases of this module."""
     table: dict[str, list[tuple[str, Callable[[], Findings]]]] = {
         "one node": [
-            (f"load {load:g} of what closes the gaps", partial(vanishing_findings, load))
+            (f"load {load:g} of modulus times length", partial(vanishing_findings, load))
             for load in (1e-12, 1e-50, 1e-150)
         ],
         "equal peaks": [

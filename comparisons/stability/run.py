@@ -20,12 +20,18 @@ FILE = "stability.json"
 # In this order: cheap ones first. What a module's cases need is imported with it.
 MODULES = (
     "smooth_cases",
+    "profile_cases",
     "rough_cases",
     "unit_cases",
     "friction_cases",
     "layer_cases",
     "stress_cases",
     "algebra_cases",
+    "finite_element_algebra",
+    "finite_element_cases",
+    "finite_element_layers",
+    "finite_element_extremes",
+    "rounding_cases",
 )
 
 

@@ -25,7 +25,8 @@ def stability_table(result: Stability) -> "Table":
         "cond.",
         "cost x",
         "s",
-        title=f"{passed} of {len(result.rows)} cases hold, {result.seconds:.0f} s, "
+        caption_justify="left",
+        caption=f"{passed} of {len(result.rows)} cases hold, {result.seconds:.0f} s, "
         f"{result.directory / FILE}",
     )
     for row in result.rows:
