@@ -2,14 +2,13 @@
 
 from comparisons.maps.axes import Axis
 from comparisons.maps.groups import GROUPS
-from comparisons.maps.point import SOLVED
+from comparisons.maps.point import SOLVED, TOLERANCES
 from comparisons.maps.request import MapRequest
 from comparisons.maps.rule import rules_of
 from comparisons.maps.store import PointStore
 from comparisons.record import versions
 
 SCHEMA = 1
-TOLERANCES = (0.01, 0.02, 0.05, 0.10)
 MISSING = "missing"
 # What is known of the half-plane's own error at a point.
 TOLD, BELOW, UNCLEAR = "told", "below", "unclear"
@@ -21,7 +20,7 @@ def map_content(request: MapRequest, store: PointStore) -> dict:
     for asked in request.points:
         kept = store.load(asked.key)
         found = {"status": MISSING} if kept is None else kept["found"]
-        points.append({"x": asked.x, "y": asked.y, **found, **_known(found, request.quantity)})
+        points.append({"x": asked.x, "y": asked.y, **found, **known(found, request.quantity)})
     content = {
         "schema": SCHEMA,
         "command": request.command,
@@ -48,7 +47,7 @@ def _axis(axis: Axis) -> dict:
     }
 
 
-def _known(found: dict, quantity: str) -> dict:
+def known(found: dict, quantity: str) -> dict:
     """Whether the own error of a solved point can be told from the numerical one.
 
     told: it is larger than its uncertainty; below: it is not, but that is less than the first

@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from analytic.synthetic import SAMPLES_PER_WAVELENGTH
 from comparisons.errors import SceneError
 from comparisons.problem import Problem, problem_of
 from comparisons.resolve import resolve_tables
@@ -27,6 +26,7 @@ WAVES = {
     "ground": ("length", "shortest_wavelength", "roll_off_wavelength", "longest_wavelength"),
 }
 HEIGHTS = {"sinusoid": ("amplitude",), "self-affine": ("rms_height",), "ground": ("rms_height",)}
+SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
 FILTERS = ("cutoff", "short_cutoff")
 
 
@@ -167,7 +167,7 @@ def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
         shortest = profile["wavelength"]
     else:
         spacing = profile["length"] / (profile["samples"] - 1)
-        shortest = profile.get("shortest_wavelength", SAMPLES_PER_WAVELENGTH * spacing)
+        shortest = profile.get("shortest_wavelength", SHORTEST * spacing)
     factor = value * _half_width(tables, origin) / shortest
     for name in (*WAVES[kind], *HEIGHTS[kind], *FILTERS):
         if isinstance(profile.get(name), float):

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.compare import PRESSURE_PER_RESIDUAL, figures, norms
+from comparisons.compare import PRESSURE_PER_RESIDUAL, figures, length_resolution, norms
 from comparisons.level import Level, ModelRun, Window
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
-from comparisons.uncertainty import grid_convergence
+from comparisons.uncertainty import DOMAIN, grid_convergence
+
+LENGTHS = ("contact_length", "contact_ratio")
 
 
 @dataclass(frozen=True)
@@ -46,8 +48,12 @@ def own_errors(
     residual = sum(run.finest.solution.residuals.worst for run in (half_plane, finite_element))
     found = {}
     for name in (name for name in QUANTITIES if name in history[-1]):
-        convergence = grid_convergence([h[name] for h in history], QUANTITIES[name].formal_order)
-        domain = abs(moved[name] - history[0][name])
+        convergence = grid_convergence(
+            [differences[name] for differences in history],
+            QUANTITIES[name].formal_order,
+            _resolution(half_plane.finest, finite_element.finest) if name in LENGTHS else 0.0,
+        )
+        domain = DOMAIN * abs(moved[name] - history[0][name])
         doubt = convergence.uncertainty + domain + PRESSURE_PER_RESIDUAL * residual
         found[name] = OwnError(
             one.get(name),
@@ -56,6 +62,13 @@ def own_errors(
             float(doubt) if np.isfinite(doubt) else None,
         )
     return found
+
+
+def _resolution(one: Level, other: Level) -> float:
+    """How finely the relative difference of two lengths of contact can be told."""
+    edges = [length_resolution(level.grid.pitch, len(level.patches)) for level in (one, other)]
+    ratio = one.contact_length / other.contact_length
+    return (edges[0] + ratio * edges[1]) / other.contact_length
 
 
 def _differences(

@@ -33,10 +33,11 @@ HATCHES = {True: "....", False: "////"}
 def map_picture(content: dict) -> str:
     """SVG of a map's content; the same for the same content."""
     with drawing():
-        return svg(_drawn(content))
+        return svg(map_figure(content))
 
 
-def _drawn(content: dict) -> "Figure":
+def map_figure(content: dict) -> "Figure":
+    """The same as a figure, to be called inside `drawing()`."""
     drawn = figure(*SIZE)
     axes = drawn.add_axes(BOX)
     x, y = (_places(content[name]) for name in ("x", "y"))

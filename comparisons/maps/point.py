@@ -1,15 +1,15 @@
 """One point of a map, solved by both models: what a worker does.
 
-Nothing here refines by the clock or by the memory that happens to be free, so that a point has
-the same answer wherever and whenever it is computed.
+Both models are refined until the half-plane's own error is told from the numerical one, never by
+the clock, so that a point has the same answer wherever and whenever it is computed.
 """
 
+from collections.abc import Iterator
 from dataclasses import asdict
-from pathlib import Path
 from time import perf_counter
 
 from comparisons.errors import one_line
-from comparisons.level import ModelRun
+from comparisons.level import Level, ModelRun, Window
 from comparisons.maps.own_error import OwnError, own_errors
 from comparisons.maps.request import Asked
 from comparisons.plan import MODELS, Plan, make_plan
@@ -18,9 +18,14 @@ from comparisons.resolve import resolve_tables
 from comparisons.stages import Stages
 from comparisons.window import window_of
 from fem.communicator import each_alone
+from meshes.errors import MeshError
 
 SOLVED, FAILED = "solved", "failed"
 NOT_CONVERGED = "the contact did not converge"
+TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
+SHARE = 1.0 / 3.0  # of an error, or the first tolerance, that may be numerical
+MOST_UNKNOWNS = 250_000  # of a level
+GROWTH = 2.3  # of unknowns from one level to the next
 DECIMALS = 9  # of relative differences: the digits that rounding does not reach
 FIGURES = 10  # decimal, of the models' own values
 
@@ -28,18 +33,17 @@ FIGURES = 10  # decimal, of the models' own values
 def solve_point(asked: Asked) -> dict:
     """The figures of a point, or why there are none; and the `seconds` that it took.
 
-    Errors of solvers and refusals are answers; what ends the whole work is raised: OSError,
-    MemoryError.
+    Refusals and what solvers and numbers run into are answers; what is wrong with the program or
+    the machine is raised.
     """
     began = perf_counter()
     if asked.why is not None:
         found = failed(asked.why)
     else:
         try:
-            found = _solved(asked.tables, asked.folder, asked.source)
-        except (OSError, MemoryError):
-            raise
-        except Exception as error:
+            with each_alone():
+                found = _solved(asked)
+        except (ValueError, ArithmeticError, RuntimeError) as error:
             found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
 
@@ -49,47 +53,67 @@ def failed(why: str) -> dict:
     return {"status": FAILED, "why": one_line(why)}
 
 
-def _solved(tables: dict, folder: Path, source: str) -> dict:
-    with each_alone():
-        return _figures_of(
-            problem_of(resolve_tables(tables, name="point", folder=folder, source=source))
-        )
-
-
-def _figures_of(problem: Problem) -> dict:
-    scene = problem.scene
+def _solved(asked: Asked) -> dict:
+    scene = resolve_tables(asked.tables, name="point", folder=asked.folder, source=asked.source)
+    problem = problem_of(scene)
     plan = make_plan(problem, MODELS)
     window = window_of(problem) if plan.stress else None
-    runs = _runs(problem, plan, window)
-    for run in runs:
-        if not all(level.solution.converged for level in run.levels):
-            return failed(f"{run.name}: {NOT_CONVERGED}")
     friction = max(scene.friction)
-    errors = own_errors(*runs, problem, friction, window)
+    for runs in _refined(problem, plan, window):
+        for run in runs:
+            if not run.finest.solution.converged:
+                return failed(f"{run.name}: {NOT_CONVERGED}")
+        errors = own_errors(*runs, problem, friction, window)
+        if not is_open(errors[asked.quantity]):
+            break
     return {
         "status": SOLVED,
         "half_width": _figures(problem.hertz.half_width),
         "hertz_peak_pressure": _figures(problem.hertz.peak_pressure),
         "friction": _figures(friction),
+        "levels": len(runs[1].levels),
         "unknowns": runs[1].finest.unknowns,
         "quantities": {name: _rounded(error) for name, error in errors.items()},
     }
 
 
-def _runs(problem: Problem, plan: Plan, window: object) -> tuple[ModelRun, ModelRun]:
-    """The planned levels of both models."""
+def _refined(
+    problem: Problem, plan: Plan, window: Window | None
+) -> Iterator[tuple[ModelRun, ModelRun]]:
+    """Both models on the scene's first levels, then with one more each time, while there may be."""
     from comparisons.finite_element import finite_element_level
     from comparisons.finite_element_mesh import Refinement
     from comparisons.half_plane import half_plane_level
 
-    def finite_elements(pitch: float, halved: bool = False) -> object:
+    def finite_elements(pitch: float, halved: bool = False) -> Level:
         return finite_element_level(problem, plan, Refinement(pitch, halved), window, Stages())
 
-    pitches = problem.pitches
-    one = tuple(half_plane_level(problem, plan, pitch, window, Stages()) for pitch in pitches)
-    other = tuple(map(finite_elements, pitches))
-    halved = finite_elements(pitches[0], halved=True) if plan.domain_check else None
-    return ModelRun("half_plane", one), ModelRun("finite_element", other, halved)
+    one: list[Level] = []
+    other: list[Level] = []
+    pitch = problem.pitches[0]
+    halved = finite_elements(pitch, halved=True) if plan.domain_check else None
+    for number in range(1, problem.scene.resolution.most + 1):
+        try:
+            other.append(finite_elements(pitch))
+        except MeshError:
+            if number <= len(problem.pitches):
+                raise
+            break  # what is finer than the scene asks for need not be possible
+        one.append(half_plane_level(problem, plan, pitch, window, Stages()))
+        if number >= len(problem.pitches):
+            yield (
+                ModelRun("half_plane", tuple(one)),
+                ModelRun("finite_element", tuple(other), halved),
+            )
+        if GROWTH * other[-1].unknowns > MOST_UNKNOWNS:
+            break
+        pitch *= 0.5
+
+
+def is_open(error: OwnError) -> bool:
+    """Whether the error is not told from the numerical one as well as a map can show it."""
+    told = SHARE * max(abs(error.difference), TOLERANCES[0])
+    return error.uncertainty is None or error.uncertainty > told
 
 
 def _rounded(error: OwnError) -> dict:

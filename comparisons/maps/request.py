@@ -24,14 +24,16 @@ SIZE = "8x8"
 class Asked:
     """A point of a map.
 
-    x, y     values of the groups
-    tables   the scene, SI; None where it cannot be
-    why      it cannot be
-    key      hash of everything that shapes the answer
+    x, y      values of the groups
+    quantity  that the levels are refined for
+    tables    the scene, SI; None where it cannot be
+    why       it cannot be
+    key       hash of everything that shapes the answer
     """
 
     x: float
     y: float
+    quantity: str
     tables: dict | None
     folder: Path
     source: str
@@ -94,9 +96,9 @@ class MapRequest:
                 profile = digest(scene.profile.x, scene.profile.height)
         except InputError as error:
             why = str(error)
-        parts = json.dumps([tables or [why], profile, program], sort_keys=True)
+        parts = json.dumps([tables or [why], profile, self.quantity, program], sort_keys=True)
         key = hashlib.sha256(parts.encode()).hexdigest()[:24]
-        return Asked(x, y, tables, self.origin.folder, self.origin.source, why, key)
+        return Asked(x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key)
 
 
 def request_of(

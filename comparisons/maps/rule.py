@@ -1,12 +1,15 @@
 """A rule of thumb from a map: up to which value of one group an error stays within a tolerance.
 
-    u < C v^k      or u > C v^k, with u one group of the map and v the other
+    u < C v^k (or u > C v^k)    where v <= V (or v >= V)
+
+with u one group of the map and v the other.
 
 On every line of equal v it is found how far, from the good end of u, the error and its numerical
 uncertainty together stay within the tolerance, between points by straight lines in logarithms.
 k is fitted through those ends; C is then the largest, to two figures, with which no line is
-overstepped. Of both groups and ends the rule is taken that holds most points. A point that failed
-or is unclear ends its line.
+overstepped. V, a value of the map, leaves lines out where that is worth it. Of both groups, their
+ends and all V the rule is taken that holds most points. A point that failed or is unclear ends
+its line.
 """
 
 import math
@@ -15,7 +18,6 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-WEAK = 0.05  # an exponent smaller than that is none
 STEP = 0.05  # of exponents
 FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
 
@@ -24,7 +26,8 @@ FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
 class Rule:
     """`group` `side` (below or above) `coefficient` times `of` to the power of `exponent`.
 
-    coefficient     None: everywhere on the map, or nowhere
+    coefficient     None: everywhere, or nowhere
+    of_span         values of `of` between which it holds
     inside          points that the rule holds
     within          points of the map that meet the tolerance
     largest         error of a point inside, None without points
@@ -37,6 +40,7 @@ class Rule:
     side: str
     coefficient: float | None
     exponent: float
+    of_span: tuple[float, float]
     inside: int
     within: int
     largest: float | None
@@ -58,7 +62,9 @@ def rule_of(content: dict, tolerance: float) -> Rule:
         for axes, values in (((x, y), (error, worst)), ((y, x), (error.T, worst.T)))
         for side in ("below", "above")
     ]
-    return max(candidates, key=lambda rule: rule.inside)
+    whole = {axis["group"]: (axis["values"][0], axis["values"][-1]) for axis in (x, y)}
+    # of equals one that leaves out no line: its bound is found between points
+    return max(candidates, key=lambda rule: (rule.inside, rule.of_span == whole[rule.of]))
 
 
 def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
@@ -83,45 +89,60 @@ def _rule(
     worst: np.ndarray,
 ) -> Rule:
     """For a group along the rows of `error` and `worst`."""
-    u, v = _scaled(axis), _scaled(other)
-    sign = 1.0 if side == "below" else -1.0
-    order = slice(None) if side == "below" else slice(None, None, -1)
-    ends = np.array([_end(sign * u[order], row[order], tolerance) for row in worst])
-    exponent = 0.0
-    inner = np.isfinite(ends) & (ends > sign * u[order][0])
-    both = axis["logarithmic"] and other["logarithmic"]
-    if both and np.count_nonzero(inner) >= FEWEST_ENDS:
-        exponent = float(np.polyfit(v[inner], sign * ends[inner], 1)[0])
-        exponent = round(exponent / STEP) * STEP if abs(exponent) >= WEAK else 0.0
-    shift = exponent * v if both else np.zeros_like(v)
-    reach = float(np.min(ends - sign * shift))
-    coefficient = None
-    if np.isfinite(reach):
-        coefficient = _round_in(sign * reach, axis["logarithmic"], side)
-        limit = np.log(coefficient) if axis["logarithmic"] else coefficient
-        inside = sign * u[None, :] < sign * (limit + shift)[:, None]
-    else:
-        inside = np.full(worst.shape, reach > 0.0)
+    bounds = [_bound(axis, other, side, worst, tolerance, rows) for rows in _runs(len(worst))]
+    coefficient, exponent, rows, inside = max(bounds, key=lambda bound: np.count_nonzero(bound[3]))
     held = int(np.count_nonzero(inside))
-    if not held:
-        coefficient = None
-    within = int(np.count_nonzero(worst <= tolerance))
-    largest = float(error[inside].max()) if held else None
+    values = other["values"][rows] if held else other["values"]
     rule = Rule(
         tolerance,
         axis["group"],
         other["group"],
         side,
-        coefficient,
-        round(exponent, 2) if coefficient is not None else 0.0,
+        coefficient if held else None,
+        exponent if held else 0.0,
+        (values[0], values[-1]),
         held,
-        within,
-        largest,
+        int(np.count_nonzero(worst <= tolerance)),
+        float(error[inside].max()) if held else None,
         "",
         "",
     )
     rule = replace(rule, law=_law(rule, axis, other))
     return replace(rule, text=_text(rule, content, worst.size))
+
+
+def _runs(count: int) -> list[slice]:
+    """All lines, then ever fewer that begin with the first or end with the last."""
+    fewer = range(count - 1, 0, -1)
+    return [
+        slice(0, count),
+        *(run for n in fewer for run in (slice(0, n), slice(count - n, count))),
+    ]
+
+
+def _bound(
+    axis: dict, other: dict, side: str, worst: np.ndarray, tolerance: float, rows: slice
+) -> tuple[float | None, float, slice, np.ndarray]:
+    """Coefficient (None: no bound is needed) and exponent on some rows, and the points inside."""
+    u, v = _scaled(axis), _scaled(other)[rows]
+    sign = 1.0 if side == "below" else -1.0
+    order = slice(None) if side == "below" else slice(None, None, -1)
+    ends = np.array([_end(sign * u[order], row[order], tolerance) for row in worst[rows]])
+    exponent = 0.0
+    inner = np.isfinite(ends) & (ends > sign * u[order][0])
+    if axis["logarithmic"] and other["logarithmic"] and np.count_nonzero(inner) >= FEWEST_ENDS:
+        slope = float(np.polyfit(v[inner], sign * ends[inner], 1)[0])
+        exponent = round(round(slope / STEP) * STEP, 2)
+    shift = exponent * v if exponent else np.zeros_like(v)
+    reach = float(np.min(ends - sign * shift))
+    inside = np.zeros(worst.shape, dtype=bool)
+    if np.isposinf(reach):
+        inside[rows] = True
+        return None, 0.0, rows, inside
+    coefficient = _round_in(sign * reach, axis["logarithmic"], side)
+    limit = np.log(coefficient) if axis["logarithmic"] else coefficient
+    inside[rows] = sign * u[None, :] < sign * (limit + shift)[:, None]
+    return coefficient, exponent, rows, inside
 
 
 def _scaled(axis: dict) -> np.ndarray:
@@ -157,10 +178,16 @@ def _round_in(limit: float, logarithmic: bool, side: str) -> float:
 def _law(rule: Rule, axis: dict, other: dict) -> str:
     if not rule.inside:
         return "no simple bound"
-    if rule.coefficient is None:
-        return "everywhere"
-    law = f"{axis['symbol']} {'<' if rule.side == 'below' else '>'} {rule.coefficient:g}"
-    return law + (f" ({other['symbol']})^{rule.exponent:g}" if rule.exponent else "")
+    parts = []
+    if rule.coefficient is not None:
+        law = f"{axis['symbol']} {'<' if rule.side == 'below' else '>'} {rule.coefficient:g}"
+        parts.append(law + (f" ({other['symbol']})^{rule.exponent:g}" if rule.exponent else ""))
+    first, last = rule.of_span
+    if last < other["values"][-1]:
+        parts.append(f"{other['symbol']} <= {last:g}")
+    if first > other["values"][0]:
+        parts.append(f"{other['symbol']} >= {first:g}")
+    return " and ".join(parts) or "everywhere"
 
 
 def _text(rule: Rule, content: dict, points: int) -> str:
