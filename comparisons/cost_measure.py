@@ -11,22 +11,23 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from comparisons.cost_methods import METHODS
+from comparisons.cost_methods import METHODS, Method
 from comparisons.cost_solve import Answer, solved
 from comparisons.errors import InputError
-from comparisons.problem import problem_of
+from comparisons.level import Window
+from comparisons.problem import Problem, problem_of
 from comparisons.scene import ResolvedScene
 from comparisons.stages import Stages, peak_memory
 from comparisons.window import window_of
 
-WARM = 1.0  # seconds on the clock: a first go that is shorter is repeated before any is counted
+WARM = 1.0  # seconds: a first go that is shorter is repeated before any is counted
 
 _begun: list[str] = []  # methods that this process has met: the first go loads what it takes
 
 
 @dataclass(frozen=True)
 class Task:
-    """What to measure: as many `repeats` as fit into `limit` seconds on the clock, at least one.
+    """What to measure: as many `repeats` as `limit` seconds of the processor allow, at least one.
 
     load    [N/m] that a prescribed approach takes, else None
     halved  whether an unbounded body is held at half the distance
@@ -48,6 +49,7 @@ class Measured:
     seconds   of the processor by stage       total   of all stages
     wall      on the clock                    spread  smallest and largest total
     memory    largest of the process so far [bytes]; settings come from coarse to fine
+    spent     seconds of the processor that measuring took, all goes together
     """
 
     answer: Answer
@@ -57,6 +59,7 @@ class Measured:
     spread: tuple[float, float]
     repeats: int
     memory: int
+    spent: float
 
 
 @dataclass(frozen=True)
@@ -91,22 +94,18 @@ def processor_seconds() -> float:
 def measure(task: Task) -> Measured | Refused:
     """Carry out a task in this process."""
     method = next(m for m in METHODS if m.name == task.method)
+    first = processor_seconds()
     try:
         problem = problem_of(task.scene, task.load)
         window = window_of(problem) if task.scene.stress is not None else None
-        runs, spent, warm = [], 0.0, task.method in _begun
+        answer, seconds, wall = _go(method, problem, task, window)
+        runs = [(seconds, wall)]
+        if task.method not in _begun or sum(seconds.values()) < WARM:
+            runs = []
         _begun.append(task.method)
-        while True:
-            stages, begin = ProcessorStages(), time.perf_counter()
-            answer = solved(method, problem, task.setting, window, stages, task.halved)
-            wall = time.perf_counter() - begin
-            spent += wall
-            if not runs and (not warm or wall < WARM) and spent == wall and not task.halved:
-                warm = True
-                continue
-            runs.append((stages.seconds, wall))
-            if len(runs) >= task.repeats or spent >= task.limit:
-                break
+        while not runs or (len(runs) < task.repeats and processor_seconds() - first < task.limit):
+            answer, seconds, wall = _go(method, problem, task, window)
+            runs.append((seconds, wall))
     except InputError as error:  # of the budget, before anything was meshed
         return Refused(str(error), skipped=True)
     except Exception as error:
@@ -121,4 +120,14 @@ def measure(task: Task) -> Measured | Refused:
         spread=(min(totals), max(totals)),
         repeats=len(runs),
         memory=peak_memory(),
+        spent=processor_seconds() - first,
     )
+
+
+def _go(
+    method: Method, problem: Problem, task: Task, window: Window | None
+) -> tuple[Answer, dict[str, float], float]:
+    """One solution: its answer, seconds of the processor by stage, and seconds on the clock."""
+    stages, begin = ProcessorStages(), time.perf_counter()
+    answer = solved(method, problem, task.setting, window, stages, task.halved)
+    return answer, stages.seconds, time.perf_counter() - begin

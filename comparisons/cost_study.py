@@ -1,6 +1,5 @@
 """All methods at all their settings, measured one after the other; what fails is a row as well."""
 
-import time
 from concurrent.futures import Executor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -18,9 +17,13 @@ from comparisons.problem import Problem
 from comparisons.report.numbers import with_unit
 from comparisons.stages import Listener
 
-GROWTH = {"half_plane": 2.5, "finite_element": 3.5}  # of a setting's time over the one before
-# Part of budget.time by whose end each method is done; what one leaves the next ones have.
-SHARES = (0.04, 0.08, 0.14, 0.18, 0.35, 0.6, 0.85, 0.95)
+# Of a setting's time over the one before.
+GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
+DENSE_GROWTH = 8.0
+# Parts of budget.time, in seconds of the processor, by which each method is done; what one leaves
+# the next ones have.
+SHARES = (0.03, 0.08, 0.15, 0.2, 0.35, 0.55, 0.75, 0.9)
+MOST_OF_REST = 0.25  # that the goes of one setting may take before they are enough
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
 
 
@@ -70,21 +73,22 @@ def measured_study(
     problem: Problem, repeats: int, listener: Listener, methods: tuple[Method, ...] = METHODS
 ) -> Study:
     """Measure; in a fresh process for each method, whose memory is its own, on one thread."""
-    begin, rows, halved = time.perf_counter(), [], {}
+    spent, rows, halved = 0.0, [], {}
     for share, method in zip(SHARES[-len(methods) :], methods, strict=True):
         because = why_not(method, problem)
         if because is not None:
             rows.append(Row(method, None, SKIPPED, because))
             continue
-        end = begin + share * problem.scene.budget.time
+        left = share * problem.scene.budget.time - spent
         with processes(1) as executor:
-            found = _series(method, problem, repeats, end, executor, listener)
-            rows += found
+            found = _series(method, problem, repeats, left, executor, listener)
             if _wants_halved(method, problem) and found[0].status == OK:
                 task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
                 again = _carried_out(executor, task)
                 if isinstance(again, Measured):
                     halved[method.name] = again
+        rows += found
+        spent += sum(row.measured.spent for row in found if row.measured is not None)
     return Study(tuple(rows), halved)
 
 
@@ -92,33 +96,38 @@ def _series(
     method: Method,
     problem: Problem,
     repeats: int,
-    end: float,
+    left: float,
     executor: Executor,
     listener: Listener,
 ) -> list[Row]:
-    """The rows of a method, until `end` on the clock."""
+    """The rows of a method, in the seconds of the processor that are left for it."""
     rows, settings, lost = [], method.settings(problem), None
+    growth = DENSE_GROWTH if method.dense else GROWTH[method.model]
+    expected = 0.0
     for number, setting in enumerate(settings, start=1):
         label = Row(method, setting, OK).label
         listener(f"{method.name}: {label} ({number} of {len(settings)})")
-        left = end - time.perf_counter()
-        done = [row.measured.wall for row in rows if row.status == OK]
-        next_wall = GROWTH[method.model] * done[-1] if done else 0.0
         count = 0 if method.adapted else problem.grid(setting).count
         if lost is not None:
             rows.append(Row(method, setting, SKIPPED, lost))
         elif method.dense and count > MOST_DENSE:
             because = f"{count} elements; a dense matrix is made of at most {MOST_DENSE}"
             rows.append(Row(method, setting, SKIPPED, because))
-        elif next_wall > left:
-            because = f"its part of {problem.scene.budget.time:g} s (budget.time) would not do"
+        elif expected > left:
+            because = (
+                f"{expected:.2g} s are more than is left of this method's part of "
+                f"{problem.scene.budget.time:g} s (budget.time)"
+            )
             rows.append(Row(method, setting, SKIPPED, because))
         else:
-            limit = max(left, 0.0) / 2.0
+            limit = MOST_OF_REST * max(left, 0.0)
             found = _carried_out(executor, _task(problem, method, setting, repeats, limit))
             rows.append(_row(method, setting, found))
             if found is None:
                 lost = "the process that measured had ended"
+            elif isinstance(found, Measured):
+                left -= found.spent
+                expected = growth * found.total
     return rows
 
 

@@ -79,7 +79,7 @@ def row(name, setting, seconds, peak, status=OK, stress_seconds=0.0):
         level=None,
     )
     times = {"contact": seconds, "stresses": stress_seconds}
-    measured = Measured(answer, times, seconds, seconds, (seconds, seconds), 1, 10**8)
+    measured = Measured(answer, times, seconds, seconds, (seconds, seconds), 1, 10**8, seconds)
     return Row(BY_NAME[name], setting, status, None if status == OK else "why", measured)
 
 
@@ -198,9 +198,8 @@ class TestRows:
             return future
 
     def rows(self, *answers, name="P2", left=1e9):
-        end = time.perf_counter() + left
         executor = self.Executor(*answers)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, end, executor, silent)
+        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, executor, silent)
         return found, executor
 
     def test_refused_and_failed(self):
@@ -219,8 +218,8 @@ class TestRows:
         assert len(executor.tasks) == 2
 
     def test_what_would_not_end_in_time_is_skipped(self):
-        """After a second the next one takes 3.5, and there are 2."""
-        found, executor = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=2.0)
+        """After a second the next one takes 3.5, and there are 3 left."""
+        found, executor = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=4.0)
         assert [r.status for r in found] == [OK, SKIPPED, SKIPPED, SKIPPED]
         assert "budget.time" in found[1].because and executor.tasks[0].limit <= 1.0
 
