@@ -40,6 +40,7 @@ OTHERS = {"mean_gap": 2.0}  # formal orders of figures that are not compared in 
 class OperatorCase:
     """A contact on an operator of the library.
 
+    kind    wave | punch | layer
     model   half_plane | layer
     make    grid to operator
     gap     g0(x) [m], smooth but for `knots` [m]
@@ -49,6 +50,7 @@ class OperatorCase:
 
     name: str
     source: str
+    kind: str
     model: str
     make: Callable[[HatGrid], ModelOperator]
     gap: Callable[[np.ndarray], np.ndarray]
@@ -98,10 +100,11 @@ def _pairs(case: OperatorCase, elements: float) -> list[Pair]:
             Pair(
                 case=f"{case.name}, {elements:g} elements",
                 source=case.source,
+                kind=case.kind,
                 model=case.model,
                 quantity=quantity,
                 levels=tuple(values),
-                exact=exact,
+                exact=float(exact),
                 uncertainty=(iteration, convergence.uncertainty / scale, 0.0),
                 scale=scale,
                 behaviour=convergence.behaviour,
@@ -147,6 +150,7 @@ def _contact(case: ExactContact) -> OperatorCase:
     return OperatorCase(
         name=case.name,
         source=case.source,
+        kind="punch" if case.period is None else "wave",
         model="half_plane",
         make=lambda grid: kind(grid.count, grid.pitch, case.combined_modulus),
         gap=case.gap,
@@ -168,6 +172,7 @@ def _layer(reference: LayerReference, nu: float) -> OperatorCase:
     return OperatorCase(
         name=f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t",
         source="slope equation by collocation, analytic/exact/layer_contact.json",
+        kind="layer",
         model="layer",
         make=lambda grid: LayeredSurface(grid.count, grid.pitch, body),
         gap=roller_gap(LAYER_RADIUS),

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.exact.cases import ExactContact, capped_case, hertz_case, sliding_case
+from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, sliding_case
 from analytic.exact.gallery import STEEL, exact_contacts
 from analytic.exact.layer_references import LayerReference, layer_references
 from analytic.material import Material
@@ -46,14 +46,18 @@ class ExactScene:
 
     name, source   of the case, and of its solution
     tables         of the scene, as TOML has them
+    kind           Hertz | sliding | hardness | layer
     exact          figures [SI] by the names of `comparisons.quantities`
+    pressure       p(x) [Pa] where it is known in closed form
     models         that the solution holds for
     """
 
     name: str
     source: str
+    kind: str
     tables: Mapping[str, object]
     exact: Mapping[str, float]
+    pressure: Curve | None = None
     models: tuple[str, ...] = BOTH
 
 
@@ -166,7 +170,8 @@ def scene_of(
         tables["finite_element"] = dict(finite_element)
         name += "".join(f", {field} {value}" for field, value in finite_element.items())
     exact = {q: case.quantities[q] for q in COMPARED if q in case.quantities}
-    return ExactScene(name, case.source, tables, exact)
+    kind = "hardness" if np.isfinite(case.hardness) else "sliding" if case.coupled else "Hertz"
+    return ExactScene(name, case.source, kind, tables, exact, case.pressure)
 
 
 def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
@@ -189,7 +194,7 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
     }
     name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
     source = "slope equation by collocation, analytic/exact/layer_contact.json"
-    return ExactScene(name, source, tables, exact, ("finite_element",))
+    return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
 
 
 def _elastic(material: Material | None) -> dict:

@@ -1,182 +1,48 @@
-"""Observed orders of the displacement and of its energy, by the method of manufactured solutions.
+"""Finite elements by the method of manufactured solutions, as `crosscheck verify` runs it.
 
-    u_x = a(z) sin(K x + PHASE),   u_z = b(z) cos(K x + PHASE),   a = b = 0 at z = 1
-
-with the body force and the boundary tractions that it takes. In a coating a and b are continued
-with such slopes that displacement and traction are continuous at its lower side. Requirement: in
-L2 orders 2, 3, 4 for degrees 1, 2, 3 and one less in the energy norm, each within 0.1 on both
-sides; reference: the exact solution, integrated with a rule of degree 8 on each element. The error
-is that of the elements, not of nodes only. A body of quadratic edges is solved as it is: the exact
-solution knows no boundary, so that how well the edges follow a profile does not enter.
+Requirement, reference and tolerances: `comparisons.verify_manufactured`.
 """
-
-from collections.abc import Callable
-from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
-from analytic.material import Material
+from comparisons.verify_blocks import forces_of
+from comparisons.verify_manufactured import (
+    BODIES,
+    BODY,
+    Exact,
+    errors,
+    manufactured_orders,
+    skewed,
+)
 from fem import elasticity
-from fem.elasticity import Coating, ElasticBody, Support, elastic_body
-from fem.triangle import gradients, jacobians, shapes
+from fem.elasticity import Support, elastic_body
 from meshes.roughen import roughen
 
-BODY, COAT = Material(3.0, 0.3), Material(12.0, 0.2)
-THICKNESS = 0.25
-K, PHASE = 1.7, 0.3
-# Across the block: from 32 to 64 the order of linear elements is still 1.93 to 1.95.
-CELLS = {1: (64, 128), 2: (32, 64), 3: (32, 64)}
-LARGEST = {1: (6e-4, 8e-2), 2: (6e-6, 3e-3), 3: (6e-8, 3e-5)}  # of both norms, on the finer mesh
+
+@pytest.mark.parametrize("degree", [1, 2, 3])
+@pytest.mark.parametrize("kind", BODIES)
+def test_orders(kind, degree):
+    checks = manufactured_orders(kind, degree)
+    assert len(checks) == 4
+    assert [check for check in checks if not check.holds] == []
 
 
-def lame(material: Material) -> tuple[float, float]:
-    shear, nu = material.shear_modulus, material.poissons_ratio
-    return shear, 2.0 * shear * nu / (1.0 - 2.0 * nu)
-
-
-def profiles(z):
-    """a, b, then their first and second derivatives (3, 2, ...), in the body."""
-    a = (1 - z) * np.cos(2 * z)
-    b = (1 - z) * (1 + np.sin(1.5 * z))
-    a_z = -np.cos(2 * z) - 2 * (1 - z) * np.sin(2 * z)
-    b_z = -(1 + np.sin(1.5 * z)) + 1.5 * (1 - z) * np.cos(1.5 * z)
-    a_zz = 4 * np.sin(2 * z) - 4 * (1 - z) * np.cos(2 * z)
-    b_zz = -3 * np.cos(1.5 * z) - 2.25 * (1 - z) * np.sin(1.5 * z)
-    return np.array([[a, b], [a_z, b_z], [a_zz, b_zz]])
-
-
-@dataclass(frozen=True)
-class Exact:
-    """The solution on a body of `material`, with a coating of `coat` down to `thickness`."""
-
-    material: Material
-    coat: Material | None = None
-    thickness: float = 0.0
-
-    def _parts(self, x, z):
-        """mu, lambda, the derivatives of a and b, sine and cosine."""
-        (a, b), (a_z, b_z), second = profiles(z)
-        shear, bulk = lame(self.material)
-        if self.coat is not None:
-            coated = z < self.thickness
-            (ai, bi), (ai_z, bi_z), _ = profiles(self.thickness)
-            own, own_bulk = lame(self.coat)
-            twist = shear / own * (ai_z - K * bi) + K * bi - ai_z
-            down = (bulk - own_bulk) * K * ai + (bulk + 2 * shear) * bi_z
-            down = down / (own_bulk + 2 * own) - bi_z
-            above = np.where(coated, z - self.thickness, 0.0)
-            a, b = a + twist * above, b + down * above
-            a_z, b_z = a_z + twist * coated, b_z + down * coated
-            shear, bulk = np.where(coated, own, shear), np.where(coated, own_bulk, bulk)
-        angle = K * x + PHASE
-        return shear, bulk, (a, b), (a_z, b_z), second, np.sin(angle), np.cos(angle)
-
-    def displacement(self, x, z):
-        _, _, (a, b), _, _, sine, cosine = self._parts(x, z)
-        return np.stack([a * sine, b * cosine], axis=-1)
-
-    def gradient(self, x, z):
-        """d u / d(x, z) (..., 2, 2)."""
-        _, _, (a, b), (a_z, b_z), _, sine, cosine = self._parts(x, z)
-        of_x = np.stack([K * a * cosine, a_z * sine], axis=-1)
-        return np.stack([of_x, np.stack([-K * b * sine, b_z * cosine], axis=-1)], axis=-2)
-
-    def stress(self, x, z):
-        shear, bulk, (a, b), (a_z, b_z), _, sine, cosine = self._parts(x, z)
-        mean = bulk * (K * a + b_z)
-        return (
-            (mean + 2 * shear * K * a) * cosine,
-            (mean + 2 * shear * b_z) * cosine,
-            shear * (a_z - K * b) * sine,
-        )
-
-    def body_force(self, x, z):
-        shear, bulk, (a, b), (a_z, b_z), (a_zz, b_zz), sine, cosine = self._parts(x, z)
-        along = K * ((bulk + 2 * shear) * K * a + bulk * b_z) - shear * (a_zz - K * b_z)
-        down = -K * shear * (a_z - K * b) - bulk * K * a_z - (bulk + 2 * shear) * b_zz
-        return along * sine, down * cosine
-
-
-def errors(body: ElasticBody, moved: np.ndarray, exact: Exact) -> tuple[float, float]:
-    """L2 norm [m^2] and energy norm [N^(1/2)] of the error."""
-    line, weight = np.polynomial.legendre.leggauss(5)
-    line, weight = 0.5 * (line + 1), 0.5 * weight
-    at = np.array([[r, s * (1 - r)] for r in line for s in line])
-    weight = np.array([w * v * (1 - r) for r, w in zip(line, weight, strict=True) for v in weight])
-    nodes, value = body.points[body.mesh.triangles], moved[body.elements]
-    place = np.einsum("mac,qa->mqc", nodes, shapes(at))
-    volume = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
-    off = np.einsum("mac,qa->mqc", value, shapes(at, body.degree))
-    off = off - exact.displacement(*np.moveaxis(place, -1, 0))
-    slope = gradients(nodes, value, at) - exact.gradient(*np.moveaxis(place, -1, 0))
-    strain = 0.5 * (slope + np.swapaxes(slope, -1, -2))
-    shear, nu = body.shear_modulus[:, None], body.poissons_ratio[:, None]
-    bulk = 2.0 * shear * nu / (1.0 - 2.0 * nu)
-    trace = strain[..., 0, 0] + strain[..., 1, 1]
-    energy = 2.0 * shear * (strain**2).sum(axis=(-1, -2)) + bulk * trace**2
-    return tuple(np.sqrt([np.sum(volume[..., None] * off**2), np.sum(volume * energy)]))
-
-
-def skewed(structured_block, cells: int):
-    """A block whose cells are no right-angled triangles, alike on every level; level lines at
-    z = 0, THICKNESS and 1."""
-    line = np.linspace(-1, 1, cells + 1)
-    mesh = structured_block(line, line[cells // 2 :])
-    x, z = mesh.points.T
-    fading = z * (THICKNESS - z) * (1 - z)
-    points = np.column_stack([x + 2.0 * fading * (1 - x**2), z + 0.8 * fading * np.sin(2 * x)])
-    corner = mesh.triangles[:, :3]
-    points[mesh.triangles[:, 3:]] = 0.5 * (points[corner] + points[np.roll(corner, -1, axis=1)])
-    return replace(mesh, points=points)
-
-
-def flat(structured_block, cells):
-    return skewed(structured_block, cells), None
-
-
-def rough(structured_block, cells):
-    mesh = skewed(structured_block, cells)
-    return roughen(mesh, lambda x: 0.05 * np.sin(4.0 * x + 0.4)), None
-
-
-def coated(structured_block, cells):
-    return skewed(structured_block, cells), Coating(COAT, THICKNESS)
-
-
-def rough_coated(structured_block, cells):
-    """Rough above, straight along the coating's lower side."""
-    mesh = skewed(structured_block, cells)
-    x, z = mesh.points.T
-    share = np.maximum(0.0, 1.0 - z / THICKNESS)
-    shift = np.column_stack([np.zeros_like(x), -0.03 * np.sin(4.0 * x + 0.4) * share])
-    return replace(mesh, shift=shift), Coating(COAT, THICKNESS)
+@pytest.mark.parametrize("kind", BODIES)
+def test_bodies_are_what_their_names_say(kind):
+    mesh, coating = BODIES[kind](8)
+    body = elastic_body(mesh, BODY, Support(), coating=coating)
+    assert body.curved == ("rough" in kind)
+    assert (body.coating is not None) == ("coated" in kind)
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])
-@pytest.mark.parametrize("make", [flat, rough, coated, rough_coated])
-def test_orders(structured_block, exact_forces, make: Callable, degree):
-    found = []
-    for cells in CELLS[degree]:
-        mesh, coating = make(structured_block, cells)
-        exact = Exact(BODY, COAT, THICKNESS) if coating else Exact(BODY)
-        body = elastic_body(mesh, BODY, Support(), degree=degree, coating=coating)
-        assert body.curved == (make in (rough, rough_coated))
-        load = exact_forces(mesh, exact.stress, exact.body_force, degree)
-        found.append(errors(body, body.solve(load), exact))
-    assert np.all(np.array(found[-1]) < LARGEST[degree])
-    assert np.log2(np.divide(*found)) == pytest.approx([degree + 1, degree], abs=0.1)
-
-
-@pytest.mark.parametrize("degree", [1, 2, 3])
-def test_the_stiffness_quadrature_adds_little_even_on_steep_boundaries(
-    structured_block, exact_forces, monkeypatch, degree
-):
+def test_the_stiffness_quadrature_adds_little_even_on_steep_boundaries(monkeypatch, degree):
     """Slope 0.8, six edges to a wave. In the energy norm, against the error of the elements; a
     quadrature of two degrees less makes it 4, 7 and 23 %."""
-    mesh = roughen(skewed(structured_block, 32), lambda x: 0.05 * np.sin(16.0 * x + 0.4))
+    mesh = roughen(skewed(32), lambda x: 0.05 * np.sin(16.0 * x + 0.4))
     exact = Exact(BODY)
-    load = exact_forces(mesh, exact.stress, exact.body_force, degree)
+    load = forces_of(mesh, exact.stress, exact.body_force, degree)
     body = elastic_body(mesh, BODY, Support(), degree=degree)
     monkeypatch.setattr(elasticity, "quadrature_degree", lambda degree, curved: 12)
     fine = elastic_body(mesh, BODY, Support(), degree=degree)

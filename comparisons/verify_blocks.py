@@ -1,0 +1,93 @@
+"""Structured blocks with exact control of the nodes, and nodal forces of exact stress fields.
+
+Written apart from the code that they judge: plain loops over nodes, a quadrature of their own.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from fem.nodes import nodes_of
+from fem.triangle import edge_shapes, jacobians, shapes
+from meshes.block import BlockMesh, BlockSpec
+from meshes.second_order import add_midpoints
+
+# Degree 8 on the square, collapsed onto the triangle: far more than what is tested.
+LINE, LINE_WEIGHT = np.polynomial.legendre.leggauss(5)
+LINE, LINE_WEIGHT = 0.5 * (1.0 + LINE), 0.5 * LINE_WEIGHT
+AREA = np.array([[r, s * (1.0 - r)] for r in LINE for s in LINE])
+AREA_WEIGHT = np.array(
+    [w * v * (1.0 - r) for r, w in zip(LINE, LINE_WEIGHT, strict=True) for v in LINE_WEIGHT]
+)
+
+
+def structured(
+    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
+) -> BlockMesh:
+    """Two triangles to each cell of the grid x (ascending) by z (from 0 to the depth).
+
+    `height` moves the top by -height(x), fading linearly to the bottom; `seed` jitters the inner
+    vertices by up to a fifth of a cell so that no symmetry hides a mistake.
+    """
+    grid_x, grid_z = np.meshgrid(x, z, indexing="ij")
+    if seed is not None:
+        random = np.random.default_rng(seed)
+        for grid, line, axis in ((grid_x, x, 0), (grid_z, z, 1)):
+            cell = np.gradient(line)[1:-1]
+            cell = cell[:, None] if axis == 0 else cell[None, :]
+            grid[1:-1, 1:-1] += 0.2 * cell * random.uniform(-1, 1, grid[1:-1, 1:-1].shape)
+    vertices = np.column_stack([grid_x.ravel(), grid_z.ravel()])
+    number = np.arange(len(vertices)).reshape(grid_x.shape)
+    a, b, c, d = (
+        n.ravel() for n in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
+    )
+    corners = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    points, triangles = add_midpoints(vertices, corners)
+    shift = np.zeros_like(points)
+    if height is not None:
+        shift[:, 1] = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
+    spec = BlockSpec(0.5 * (x[-1] - x[0]), z[-1], np.array([[x[0], x[-1]]]), float(x[1] - x[0]))
+    return BlockMesh(points, triangles, shift, spec)
+
+
+def quadratic(t: np.ndarray) -> np.ndarray:
+    """Shape functions (3, q) on an edge: start, middle, end."""
+    return np.stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
+
+
+def forces_of(
+    mesh: BlockMesh, stress: Callable, body_force: Callable | None = None, degree: int = 2
+) -> np.ndarray:
+    """Nodal forces (n, 2) of the boundary tractions of a stress field (and of a body force).
+
+    `stress`(x, z) gives sx, sz, txz; `body_force`(x, z) two components; `degree` is that of the
+    displacement. Written apart from the code under test: plain loops over nodes, own quadrature.
+    """
+    elements = nodes_of(mesh, degree).elements
+    points = mesh.points + mesh.shift
+    corner = points[mesh.triangles[:, :3]]
+    side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    turn = np.sign(side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0])
+    load = np.zeros((elements.max() + 1, 2))
+    inner = [range(3 + k * (degree - 1), 3 + (k + 1) * (degree - 1)) for k in range(3)]
+    own = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
+    edges = mesh.triangles[:, [[0, 3, 1], [1, 4, 2], [2, 5, 0]]].reshape(-1, 3)
+    turn = np.repeat(turn, 3)
+    outer = np.bincount(edges[:, 1], minlength=len(points))[edges[:, 1]] == 1
+    edges, own, turn = edges[outer], own[outer], turn[outer]
+    slope = np.stack([4 * LINE - 3, 4 - 8 * LINE, 4 * LINE - 1])
+    place = np.einsum("eac,aq->eqc", points[edges], quadratic(LINE))
+    tangent = np.einsum("eac,aq->eqc", points[edges], slope) * turn[:, None, None]
+    sx, sz, txz = np.broadcast_arrays(*stress(place[..., 0], place[..., 1]))
+    along, down = tangent[..., 1], -tangent[..., 0]
+    traction = np.stack([sx * along + txz * down, txz * along + sz * down], axis=-1)
+    for node, shape in enumerate(edge_shapes(LINE, degree).T):
+        np.add.at(load, own[:, node], np.einsum("eqc,q->ec", traction, LINE_WEIGHT * shape))
+    if body_force is not None:
+        nodes = points[mesh.triangles]
+        place = np.einsum("mac,qa->mqc", nodes, shapes(AREA))
+        volume = np.abs(np.linalg.det(jacobians(nodes, AREA))) * AREA_WEIGHT
+        force = np.stack(body_force(place[..., 0], place[..., 1]), axis=-1)
+        for node, shape in enumerate(shapes(AREA, degree).T):
+            np.add.at(load, elements[:, node], np.einsum("mqc,mq->mc", force, volume * shape))
+    return load
