@@ -9,7 +9,10 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
-from comparisons.uncertainty import grid_convergence
+from comparisons.compare import length_resolution, uncertainties
+from comparisons.level import ModelRun
+from comparisons.outcome import Outcome
+from comparisons.uncertainty import DOMAIN, grid_convergence
 
 
 def sequence(limit, error, order, levels=3):
@@ -114,3 +117,28 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
             widths.append(found.uncertainty / exact)
     assert np.mean(covered) >= 0.9
     assert np.median(widths) < 2e-3
+
+
+def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Outcome):
+    """By an order of 1/2: 2.4 times. The halved level's place is taken by another level."""
+    assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
+    levels = smooth_outcome.runs["half_plane"].levels
+    run = ModelRun("finite_element", levels, halved=levels[1])
+    found = uncertainties(run, smooth_outcome.problem, 0.0)["peak_pressure"]
+    first, second, last = (level.solution.pressure.max() for level in levels)
+    assert found.domain == pytest.approx(DOMAIN * abs(second - first) / last)
+    assert found.total == found.iteration + found.discretisation + found.domain
+
+
+def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
+    smooth_outcome: Outcome,
+):
+    """A twentieth of a pitch for each of the two edges; of many patches they err by chance."""
+    level = smooth_outcome.runs["half_plane"].finest
+    run = ModelRun("half_plane", (level, level, level))
+    found = uncertainties(run, smooth_outcome.problem, 0.0)
+    expected = 0.1 * level.grid.pitch / level.contact_length
+    assert found["contact_length"].discretisation == pytest.approx(expected)
+    assert found["contact_ratio"].discretisation == pytest.approx(expected)
+    assert found["peak_pressure"].discretisation == 0.0
+    assert length_resolution(1.0, 9) == pytest.approx(3.0 * length_resolution(1.0, 1))
