@@ -369,6 +369,22 @@ class TestMethods:
             assert other.figures[0][name] == pytest.approx(value, rel=1e-6)
             assert value > 0.0
 
+    @pytest.mark.parametrize("element", ["hats", "strips"])
+    def test_of_hertz_errors_fall_with_the_pitch(self, element):
+        made = scene(SMOOTH, stress={"points": [60, 20]})
+        exact = {
+            "peak_pressure": HERTZ.peak_pressure,
+            "contact_length": 2.0 * HERTZ.half_width,
+            "tau1_max": HERTZ.tau1_max,
+        }
+        errors = []
+        for part in (1.0, 0.125):
+            pitch = part * problem_of(made).pitches[0]
+            found = measure(Task(made, None, f"{element}, FFT", pitch)).answer.figures[0]
+            errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
+        assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
+        assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
+
     def test_strips_reach_from_edge_to_edge(self):
         grid = problem(SMOOTH).grid(1e-4)
         pressure = np.zeros(grid.count)
