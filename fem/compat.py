@@ -6,6 +6,7 @@ against these functions, numpy, and the part of PETSc and UFL that all three sha
 
 import inspect
 import logging
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from dolfinx.mesh import Mesh
     from mpi4py.MPI import Comm
     from petsc4py.PETSc import Mat
+
+_COMPILED: dict[tuple, tuple] = {}  # by 0.5's compiler, in this process
 
 
 def quiet_compiler() -> None:
@@ -70,16 +73,36 @@ def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
     """Continuous vector space of evenly spaced nodes.
 
     0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly unless
-    told otherwise.
+    told otherwise. 0.5 looks up the compiled element on disk each time; here once a process.
     """
     from dolfinx import fem
 
-    if hasattr(fem, "VectorFunctionSpace"):
-        import ufl
+    if not hasattr(fem, "VectorFunctionSpace"):
+        return fem.functionspace(mesh, _equispaced(degree))
+    import ufl
+    from dolfinx import cpp
 
-        scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
-        return fem.FunctionSpace(mesh, ufl.VectorElement(scalar))
-    return fem.functionspace(mesh, _equispaced(degree))
+    scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
+    vector = ufl.VectorElement(scalar)
+    (element, dofmap), module, _ = _compiled_once(("element", degree), lambda: vector, mesh.comm)
+    element, dofmap = (_address(module, each) for each in (element, dofmap))
+    element = cpp.fem.FiniteElement(element)
+    dofmap = cpp.fem.create_dofmap(mesh.comm, dofmap, mesh.topology, element)
+    return fem.FunctionSpace(mesh, vector, cpp.fem.FunctionSpace(mesh._mesh, element, dofmap))
+
+
+def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tuple:
+    """What 0.5's compiler makes of the UFL object of that name: compiled parts, module, code."""
+    from dolfinx import jit
+
+    if name not in _COMPILED:
+        _COMPILED[name] = jit.ffcx_jit(comm, make())
+    return _COMPILED[name]
+
+
+def _address(module, part):
+    """Where the compiled part of a module is, as 0.5's C++ takes it."""
+    return module.ffi.cast("uintptr_t", module.ffi.addressof(part))
 
 
 def cell_nodes(space: "FunctionSpace") -> np.ndarray:
@@ -162,6 +185,44 @@ def compile_form(bilinear: "ufl.Form") -> "Form":
 
     quiet_compiler()
     return fem.form(bilinear)
+
+
+def compile_bilinear(
+    name: tuple, make: Callable[[], "ufl.Form"], space: "FunctionSpace", values: list
+) -> "Form":
+    """The compiled form that `make` gives, on a space; one name stands for one form on any mesh.
+
+    `values` are all its constants, or all its functions, in the order in which they were made. 0.5
+    goes through the whole of the form to find it on disk; here that is done once a process.
+    """
+    from dolfinx import fem
+
+    quiet_compiler()
+    if not hasattr(fem, "VectorFunctionSpace"):
+        return fem.form(make())
+    from dolfinx import cpp
+    from dolfinx.fem.forms import FormMetaClass
+    from petsc4py import PETSc
+
+    form, module, code = _compiled_once(name, make, space.mesh.comm)
+    taken = [value._cpp_object for value in values]
+    positions = form.original_coefficient_position
+    functions = [taken[positions[i]] for i in range(form.num_coefficients)]
+    constants = [] if functions else taken
+    base = {np.float64: cpp.fem.Form_float64, np.complex128: cpp.fem.Form_complex128}
+    kind = type("Form", (FormMetaClass, base[PETSc.ScalarType]), {})
+    bare = space._cpp_object
+    return kind(form, [bare, bare], functions, constants, {}, bare.mesh, module.ffi, code)
+
+
+def conditioned(space: "FunctionSpace") -> object:
+    """A space as conditions take it.
+
+    0.5 tries them with the Python one first, and prints all their nodes into the error.
+    """
+    from dolfinx import fem
+
+    return space._cpp_object if hasattr(fem, "VectorFunctionSpace") else space
 
 
 def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":

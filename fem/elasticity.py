@@ -36,6 +36,7 @@ parabolas whatever the degree and whose pressures have kinks, an error costs the
 
 from functools import cached_property
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -53,6 +54,10 @@ from fem.surface import BoundaryPoints, Surface, boundary_points, surface_of
 from fem.transfer import conditions_of, domain_of, own_numbers
 from meshes.block import BlockMesh
 from meshes.quality import corner_jacobians, real_points
+
+if TYPE_CHECKING:
+    import ufl
+    from dolfinx.fem import FunctionSpace
 
 # A body that can slide is refused a net horizontal load above this part of the whole load.
 HORIZONTAL_BALANCE = 1e-6
@@ -196,8 +201,9 @@ class ElasticBody:
         """The whole displacement (..., n, 2) on every process from the parts they own."""
         part = part.reshape(*part.shape[:-1], -1, 2)
         whole = np.empty((*part.shape[:-2], *self.nodes.shape))
-        comm = self.matrix.comm.tompi4py()
-        pieces = [(self.owned, part)] if comm.size == 1 else comm.allgather((self.owned, part))
+        comm, pieces = self.matrix.comm, [(self.owned, part)]
+        if comm.size > 1:
+            pieces = comm.tompi4py().allgather((self.owned, part))
         for owned, piece in pieces:
             whole[..., owned, :] = piece
         return whole
@@ -219,7 +225,6 @@ def elastic_body(
     Raises FemError if an element is turned over, ValueError if one crosses the interface.
     """
     load_dolfinx()
-    import ufl
     from dolfinx import fem
 
     start = perf_counter()
@@ -240,19 +245,31 @@ def elastic_body(
         shear, lame = (fem.Constant(domain, compat.real_number(value[0])) for value in constants)
     else:
         shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
-    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
-    strain = ufl.sym(ufl.grad(u))
-    stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)
-    quadrature = {"quadrature_degree": quadrature_degree(degree, curved)}
-    work = ufl.inner(stress, ufl.sym(ufl.grad(v))) * ufl.dx(domain=domain, metadata=quadrature)
-    conditions = conditions_of(space, held[node])
-    matrix = compat.petsc_matrix(compiled(lambda: compat.compile_form(work)), conditions)
+    quadrature = quadrature_degree(degree, curved)
+    name = ("stiffness", degree, curved, coating is not None)
+    form = compiled(
+        lambda: compat.compile_bilinear(
+            name, lambda: _work(space, shear, lame, quadrature), space, [shear, lame]
+        )
+    )
+    matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
 
     owned = node[: space.dofmap.index_map.size_local]
     seconds = perf_counter() - start
     return ElasticBody(
         mesh, material, support, coating, coated, numbering, held, owned, space, matrix, seconds
     )
+
+
+def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
+    """Work of the stresses of one displacement on the strains of another."""
+    import ufl
+
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    strain = ufl.sym(ufl.grad(u))
+    stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)
+    points = {"quadrature_degree": quadrature}
+    return ufl.inner(stress, ufl.sym(ufl.grad(v))) * ufl.dx(domain=space.mesh, metadata=points)
 
 
 def quadrature_degree(degree: int, curved: bool) -> int:

@@ -49,6 +49,7 @@ def uninterrupted() -> Iterator[None]:
             signal.raise_signal(signal.SIGINT)
 
 
+@cache
 def load_dolfinx() -> None:
     """Import dolfinx and the compiled packages below it."""
     with uninterrupted():

@@ -26,7 +26,7 @@ SAME_POINT = 1e-9
 # A direction that varies along the surface is integrated with it. On edges whose middle is in the
 # middle the integrand has degree 5 with cubic displacements and a linear direction, 3 more where
 # the mesh is bent along x: five Gauss points integrate both exactly.
-GAUSS_POINTS = 5
+GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
@@ -158,14 +158,13 @@ def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
 
     edge = surface.edges[element]
     begin, end = _place(edge, cut[:-1]), _place(edge, cut[1:])
-    gauss, weight = np.polynomial.legendre.leggauss(GAUSS_POINTS)
-    t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + gauss)
+    t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + GAUSS_POINTS)
     length, bend = (value[:, None] for value in _length_and_bend(edge))
     x = edge[:, :1] + t * (length + bend * (1.0 - t))
     rising = (x - hats[interval, None]) / pitch[interval, None]
     return HatPoints(
         x=x,
-        weight=0.5 * (end - begin)[:, None] * weight * (length + bend * (1.0 - 2.0 * t)),
+        weight=0.5 * (end - begin)[:, None] * GAUSS_WEIGHTS * (length + bend * (1.0 - 2.0 * t)),
         shape=np.moveaxis(edge_shapes(t, surface.degree), -1, 0),
         node=surface.degree * element + np.arange(surface.degree + 1)[:, None],
         hat=np.stack([1.0 - rising, rising]),
@@ -189,9 +188,7 @@ def hat_forces(
     points, count = hat_points(surface, hats), len(hats) - 2
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece
-    value = np.einsum(
-        "aeg,ceg,heg,eg->ache", points.shape, along, points.hat, points.weight, optimize=True
-    )
+    value = np.einsum("aeg,cheg->ache", points.shape * points.weight, along[:, None] * points.hat)
     row = 2 * points.node[:, None, None, :] + np.arange(2)[None, :, None, None]
     row, column = np.broadcast_arrays(row, points.column[None, None, :, :])
     inside = (column >= 0) & (column < count) & (value != 0.0)

@@ -57,11 +57,15 @@ def conditions_of(space: "FunctionSpace", held: np.ndarray) -> list["DirichletBC
     """Zero displacement of the held components (nodes, 2) of the space."""
     from dolfinx import fem
 
-    return [
-        fem.dirichletbc(
-            compat.real_number(0.0),
-            (2 * np.flatnonzero(held[:, axis]) + axis).astype(np.int32),
-            space.sub(axis),
-        )
-        for axis in (0, 1)
-    ]
+    def nodes(which: np.ndarray) -> np.ndarray:
+        return np.flatnonzero(which).astype(np.int32)
+
+    zero, whole = compat.real_number(0.0), held.all(axis=1)
+    both = fem.dirichletbc(np.full(2, zero), nodes(whole), compat.conditioned(space))
+    conditions = [both]
+    for axis in (0, 1):
+        alone = 2 * nodes(held[:, axis] & ~whole) + axis
+        if len(alone):  # a space of one component takes as long as its condition
+            part = compat.conditioned(space.sub(axis))
+            conditions.append(fem.dirichletbc(zero, alone, part))
+    return conditions
