@@ -12,9 +12,11 @@ from comparisons.benchmarks.fe_peers_process import Code, by_program, runs
 OURS = "crosscheck"
 SETTINGS = {
     "21": "quadratic, a hat an edge",
-    "21s": "the same, smooth curves",
+    "21s": "quadratic, a hat, smooth",
     "22": "quadratic, two hats an edge",
+    "22s": "quadratic, two hats, smooth",
     "32": "cubic, two hats an edge",
+    "32s": "cubic, two hats, smooth",
 }
 
 
