@@ -53,6 +53,12 @@ class PlaneStress:
         return np.hypot(np.sqrt(3.0) * self.tau1, (1.0 - 2.0 * poissons_ratio) * mean)
 
 
+def von_mises(stress: PlaneStress, sy: np.ndarray) -> np.ndarray:
+    """Equivalent stress of von Mises [Pa] with any stress `sy` [Pa] across the plane."""
+    normal = (stress.sx - stress.sz) ** 2 + (stress.sz - sy) ** 2 + (sy - stress.sx) ** 2
+    return np.sqrt(0.5 * normal + 3.0 * stress.txz**2)
+
+
 @dataclass(frozen=True)
 class Extremum:
     """An extreme `value` [Pa] of a stress and where it stands: `x`, `z` [m]."""

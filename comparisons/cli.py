@@ -19,7 +19,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.errors import InputError, one_line
+from comparisons.errors import InputError, SolverError, one_line
 from comparisons.exit_status import ExitStatus
 from comparisons.rank import as_one, from_first, is_several
 from comparisons.stages import Listener, silent
@@ -171,6 +171,8 @@ def _carry_out(arguments: list[str]) -> int:
         return int(ExitStatus.BROKEN_PIPE)
     except InputError as error:
         return _end(ExitStatus.BAD_INPUT, str(error))
+    except SolverError as error:
+        return _end(ExitStatus.NOT_CONVERGED, str(error))
     except Exception as error:
         if _is_interrupt(error):
             return _end(ExitStatus.INTERRUPTED, "interrupted")

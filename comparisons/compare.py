@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.level import Level, ModelRun, Window
+from comparisons.level import Level, ModelRun, StressResult, Window
 from comparisons.problem import Problem
 from comparisons.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
 from comparisons.uncertainty import DOMAIN, Convergence, grid_convergence
@@ -44,9 +44,17 @@ def figures(level: Level, problem: Problem, friction: float) -> dict[str, float]
     stress = level.stress(friction)
     if stress is not None:
         found["tau1_max"] = stress.extremes["tau1"].value
-        found["tau1_max_depth"] = stress.extremes["tau1"].z
+        found["tau1_max_depth"] = stress.extremes["tau1"].z + _rise(problem, level, stress)
         found["txz_max_abs"] = abs(stress.extremes["txz"].value)
     return found
+
+
+def _rise(problem: Problem, level: Level, stress: StressResult) -> float:
+    """Height [m] of the boundary above the largest tau1, from which a depth counts."""
+    scene = problem.scene
+    if level.mesh is None or scene.finite_element.geometry == "flat":
+        return 0.0
+    return float(scene.profile.spline()(stress.extremes["tau1"].x))
 
 
 def norms(

@@ -2,8 +2,16 @@
 
 import numpy as np
 
+from analytic.gap import HatGrid
 from comparisons.level import Level
 from comparisons.problem import Problem
+
+
+def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
+    """Heights (n,) [m] of the rough body's surface without load, averaged over each hat."""
+    if problem.scene.profile is None:
+        return np.zeros(grid.count)
+    return grid.average(problem.scene.profile.spline(), problem.knots) / grid.weights
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:
@@ -11,9 +19,6 @@ def deformed_height(problem: Problem, level: Level) -> np.ndarray:
 
     Zero displacement at the mean of the grid's two ends: a datum that both models have.
     """
-    height = np.zeros(level.grid.count)
-    if problem.scene.profile is not None:
-        height = level.grid.average(problem.scene.profile.spline(), problem.knots)
-        height = height / level.grid.weights
+    height = mean_height(problem, level.grid)
     ends = level.displacement[[0, -1]].mean()
     return height - (level.displacement - ends)

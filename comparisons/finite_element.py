@@ -74,14 +74,16 @@ def finite_element_level(
         if len(missed) == 0:
             break
         ground, start = merge(np.vstack([ground, missed])), solution.pressure
+    else:
+        solution = replace(solution, converged=False)  # it touches ground that was not refined
     with stages.stage("contact", "finite elements: contact"):
-        pressed = pressed_linearly(problem, operator, solution)
+        pressed = pressed_linearly(problem, operator, grid, solution)
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
-            pressed = pressed_finitely(problem, operator, solution, constraints)
+            pressed = pressed_finitely(problem, operator, grid, solution, constraints)
     if scene.finite_element.plastic:
         with stages.stage("plastic flow", "finite elements: plastic flow"):
-            pressed = pressed_plastically(problem, operator, solution, average, constraints)
+            pressed = pressed_plastically(problem, operator, grid, solution, average, constraints)
     solution = pressed.solution
     level = Level(
         grid=grid,

@@ -115,7 +115,7 @@ def bodies_of(
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":
-        support = Support("bonded", "free")
+        support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
     roller = _body(mesh, shape, scene.roller, support, settings.degree, None, stages, store)
     return Bodies(rough, roller, 0.0)
 

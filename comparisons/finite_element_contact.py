@@ -17,6 +17,7 @@ from comparisons.problem import Problem
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody
 from fem.far_field import FarField
+from fem.rigid_roller import Roller, circle, parabola
 
 MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
 
@@ -98,15 +99,19 @@ def roller_normal(problem: Problem, mirrored: bool = False) -> Direction:
 
     `mirrored` is the reaction in the roller's own frame, z into the roller.
     """
-    radius = problem.scene.roller_radius
-    circle = problem.scene.finite_element.roller_shape == "circle"
-    sign = -1.0 if mirrored else 1.0
+    roller, sign = roller_of(problem), -1.0 if mirrored else 1.0
 
     def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        slope = x / np.sqrt(radius**2 - x**2) if circle else x / radius
-        return sign * slope, np.ones_like(x)
+        return sign * roller(x)[1], np.ones_like(x)
 
     return direction
+
+
+def roller_of(problem: Problem) -> Roller:
+    """The shape of the finite elements' roller."""
+    scene = problem.scene
+    shape = circle if scene.finite_element.roller_shape == "circle" else parabola
+    return shape(scene.roller_radius)
 
 
 def solve_mutual(

@@ -1,10 +1,11 @@
-"""The meshes of a scene's bodies: what to ask for, and what they and their factors will cost."""
+"""The meshes of a scene's bodies: what to ask for, and how many displacements they will have."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from comparisons.errors import SceneError
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from meshes.block import BlockMesh, BlockSpec
@@ -18,6 +19,7 @@ MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
 FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
 COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
 STEEPEST_GROWTH = 0.5
+THICKEST_COATING = 0.9  # of the body: what is left below must hold elements
 LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
 TAPER_HATS = 40.0  # surface edges over which real roughness fades outside the refined ground
 DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
@@ -53,6 +55,12 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     )
     if scene.finite_element.geometry == "rough":
         intervals = np.array([[intervals[0, 0], intervals[-1, 1]]])
+    if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
+        raise SceneError(
+            f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "
+            f"{depth:.3g} m (finite_element.block); allowed is at most "
+            f"{THICKEST_COATING * depth:.3g} m"
+        )
     growth = scene.finite_element.growth * COARSER_GROWTH**coarser
     window = None
     if scene.stress is not None:

@@ -9,28 +9,27 @@ import numpy as np
 
 from analytic.contact import ContactSolution, assessed
 from analytic.equilibrium import Constraints
+from analytic.gap import HatGrid
 from analytic.patches import contact_patches
-from comparisons.finite_element_contact import MutualCompliance
-from comparisons.finite_element_stress import Pressed
+from analytic.plane_stress import von_mises
+from comparisons.finite_element_contact import MutualCompliance, roller_of
+from comparisons.finite_element_cost import flow_increments
+from comparisons.finite_element_stress import DeformedSurface, Pressed
 from comparisons.problem import Problem
-from fem.compliance import FiniteElementCompliance
 from fem.finite_deformation import press_finitely
 from fem.plastic_fields import plastic_fields
-from fem.press_plastic import INCREMENTS, press_plastically
+from fem.press_plastic import press_plastically
 from fem.return_mapping import ElasticPlastic
-from fem.rigid_roller import circle, parabola
 from fem.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
-# Steps of the load on the coarsest levels; their number doubles from level to level, so that what
-# they leave out belongs to the uncertainty of the discretisation.
-FEWEST_INCREMENTS = 4
 
 
 def pressed_finitely(
     problem: Problem,
     operator: MutualCompliance,
+    grid: HatGrid,
     linear: ContactSolution,
     constraints: Constraints,
 ) -> Pressed:
@@ -39,11 +38,10 @@ def pressed_finitely(
     Pressures are those on the deformed surface, where it has come to along x.
     """
     scene, rough = problem.scene, operator.rough
-    shape = circle if scene.finite_element.roller_shape == "circle" else parabola
     found = press_finitely(
         rough.body,
         rough.hats,
-        shape(scene.roller_radius),
+        roller_of(problem),
         linear.pressure,
         load=constraints.load,
         approach=constraints.approach,
@@ -55,32 +53,28 @@ def pressed_finitely(
         "newton_steps": found.solution.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    weights, x = _weights(rough), rough.hats[1:-1]
+    weights, x = grid.weights, grid.x
     moved = (found.gap + found.approach) * weights
     solution = assessed(
         moved, found.pressure, np.zeros_like(moved), weights, found.approach, constraints, counts
     )
     patches = contact_patches(x, solution.pressure, solution.gap)
-    # the residuals are those of the equations that were solved, over the undeformed surface
-    solution = replace(
-        solution,
-        pressure=np.interp(x, found.place, found.cauchy_pressure),
-        gap=np.interp(x, found.place, solution.gap),
+    solution = replace(solution, pressure=found.cauchy_pressure)
+    top = rough.body.top
+    down = rough.body.at_points(found.displacement)[top.point, 1]
+    depth = np.interp(x, top.x, down)
+    nodal, across = found.stress, found.stress_across
+    others = {"sy": across, "von_mises": von_mises(nodal.stress, across)}
+    pressed = Pressed(
+        rough.body, solution, depth * weights, lambda friction: nodal, patches, others
     )
-    # of the surface, along z: what the roller's normal adds belongs to the gap
-    down = FiniteElementCompliance(rough.body, rough.hats)
-    return Pressed(
-        rough.body,
-        solution,
-        down.weighted(found.displacement),
-        lambda friction: found.stress,
-        np.interp(patches, x, found.place),
-    )
+    return DeformedSurface(grid, found.place, depth).carried(problem, pressed)
 
 
 def pressed_plastically(
     problem: Problem,
     operator: MutualCompliance,
+    grid: HatGrid,
     linear: ContactSolution,
     gap: np.ndarray,
     constraints: Constraints,
@@ -89,11 +83,10 @@ def pressed_plastically(
 
     gap  (count,) [m^2] initial, weighted by each hat
     """
-    scene, rough, weights = problem.scene, operator.rough, _weights(operator.rough)
+    scene, rough, weights = problem.scene, operator.rough, grid.weights
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
-    increments = max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(weights.mean())))
     body, (loaded, released) = press_plastically(
         rough,
         metal,
@@ -103,7 +96,7 @@ def pressed_plastically(
         linear.pressure,
         friction,
         roller,
-        increments,
+        flow_increments(problem, grid.pitch),
     )
     own = rough.weighted(loaded.displacement)
     both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
@@ -126,10 +119,5 @@ def pressed_plastically(
         "residual_von_mises": left.von_mises,
     }
     stress = at_mesh_points(rough.body, fields.stress)
-    patches = contact_patches(rough.hats[1:-1], solution.pressure, solution.gap)
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return Pressed(rough.body, solution, own, lambda friction: stress, patches, others)
-
-
-def _weights(compliance: FiniteElementCompliance) -> np.ndarray:
-    """Integrals of the hats (count,) [m]."""
-    return 0.5 * (compliance.hats[2:] - compliance.hats[:-2])

@@ -1,18 +1,21 @@
 """What a pressed body shows: its surface, its stresses on the window and at the mesh's points."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from analytic.contact import ContactSolution
+from analytic.gap import HatGrid
 from analytic.patches import contact_patches
 from analytic.plane_stress import Extremum, PlaneStress
+from comparisons.deformed import mean_height
 from comparisons.finite_element_contact import MutualCompliance, roller_normal
 from comparisons.level import MeshField, StressResult, Window
 from comparisons.problem import Problem
 from comparisons.rank import from_first
 from fem.elasticity import ElasticBody
+from fem.hyperelastic import along_surface
 from fem.maximum import maximum
 from fem.stress import NodalStress, evaluate, nodal_stress
 from fem.surface import straight_down
@@ -37,12 +40,16 @@ class Pressed:
 
 
 def pressed_linearly(
-    problem: Problem, operator: MutualCompliance, solution: ContactSolution
+    problem: Problem, operator: MutualCompliance, grid: HatGrid, solution: ContactSolution
 ) -> Pressed:
-    """The linear elastic body under the pressures of a contact."""
+    """The linear elastic body under the pressures of a contact.
+
+    Where the gap is taken at the displaced place, so are the pressures.
+    """
     rough, settings = operator.rough, problem.scene.finite_element
-    direction = roller_normal(problem) if settings.gap == "displaced" else straight_down
-    pressure = solution.pressure
+    displaced = settings.gap == "displaced"
+    direction = roller_normal(problem) if displaced else straight_down
+    pressure, x = solution.pressure, grid.x
 
     def stress(friction: float) -> NodalStress:
         moved = rough.displacement(pressure, friction)
@@ -51,8 +58,44 @@ def pressed_linearly(
         )
 
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
-    patches = contact_patches(rough.hats[1:-1], pressure, solution.gap)
-    return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress, patches)
+    patches = contact_patches(x, pressure, solution.gap)
+    if not displaced:
+        return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress, patches)
+    moved = rough.displacement(pressure, dragged)
+    top = rough.body.top
+    along, down = rough.body.at_points(moved)[top.point].T
+    place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
+    stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
+    solution = replace(solution, pressure=pressure / stretch)
+    pressed = Pressed(rough.body, solution, depth * grid.weights, stress, patches)
+    return DeformedSurface(grid, place, depth).carried(problem, pressed)
+
+
+@dataclass(frozen=True)
+class DeformedSurface:
+    """Where the nodes of a grid have come to: `place` (count,) [m] along x, `depth` (count,) [m]
+    by which they have sunk."""
+
+    grid: HatGrid
+    place: np.ndarray
+    depth: np.ndarray
+
+    def carried(self, problem: Problem, pressed: Pressed) -> Pressed:
+        """What was found at the nodes, told at the grid's x again.
+
+        The residuals stay those of the equations that were solved, over the undeformed surface.
+        """
+        x, height = self.grid.x, mean_height(problem, self.grid)
+        pressure, gap, now = (
+            np.interp(x, self.place, value)
+            for value in (pressed.solution.pressure, pressed.solution.gap, height - self.depth)
+        )
+        return replace(
+            pressed,
+            solution=replace(pressed.solution, pressure=pressure, gap=gap),
+            displacement=(height - now) * self.grid.weights,
+            patches=np.interp(pressed.patches, x, self.place),
+        )
 
 
 def stresses_of(

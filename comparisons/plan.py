@@ -60,7 +60,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     shared = finite_elements and _shares_factor(scene)
     uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
     coupling = "half_plane" in models and not all(uncoupled)
-    unbounded = scene.thickness is None or scene.width is None
+    unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
     domain_check = finite_elements and unbounded
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models

@@ -38,6 +38,8 @@ NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
 # Ground beyond the outermost contact that stays in the grid, in half-widths. The edge of a contact
 # is found from the six elements beyond it, which are as wide as a smooth contact's are few.
+WIDEST_CIRCLE = 0.8  # of the radius that pressures may reach to
+LEAST_REACH = 8.0  # of the farthest pressure: width and depth of an unbounded block
 MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 
@@ -76,10 +78,11 @@ class Problem:
         """Width and depth [m] of the block that stands for an unbounded body.
 
         In half-widths of the smooth contact, or of a wider reach of pressures: a light load
-        on a rough surface touches far beyond its Hertz contact.
+        on a rough surface touches far beyond its Hertz contact, and beside the roller's centre.
         """
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
-        return self.scene.finite_element.block * half_width
+        farthest = max(abs(self.extent[0]), abs(self.extent[1]))
+        return max(self.scene.finite_element.block * half_width, LEAST_REACH * farthest)
 
     @cached_property
     def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
@@ -140,6 +143,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
         problem = replace(problem, extent=_reach(problem))
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
+    _check_circle(problem)
     return problem
 
 
@@ -241,6 +245,18 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
     finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
     return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
+
+
+def _check_circle(problem: Problem) -> None:
+    """Refuse a circle that the grid of pressures reaches around."""
+    scene, farthest = problem.scene, float(np.abs(problem.extent).max())
+    circle = scene.finite_element.roller_shape == "circle"
+    if circle and farthest > WIDEST_CIRCLE * scene.roller_radius:
+        raise SceneError(
+            f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may '
+            f"reach to {farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m;"
+            " allowed is a lighter load or a larger radius"
+        )
 
 
 def _check_count(problem: Problem) -> None:

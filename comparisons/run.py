@@ -6,11 +6,12 @@ from analytic.contact import ContactError
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compare
 from comparisons.coupling import couplings
-from comparisons.errors import InputError, SceneError
+from comparisons.errors import InputError, SceneError, SolverError
 from comparisons.ladder import refined
 from comparisons.outcome import Outcome
 from comparisons.plan import Plan, make_plan
 from comparisons.problem import Problem, problem_of
+from comparisons.rank import is_several
 from comparisons.record import digest, record_of
 from comparisons.result import result_of
 from comparisons.running_in import run_in_scene
@@ -18,6 +19,7 @@ from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, Stages, silent
 from comparisons.window import window_of
 from comparisons.write import write_files
+from fem.mumps import FemError
 from meshes.errors import MeshError
 
 GOES_ON = "finished levels are kept, the same command goes on from there"
@@ -33,10 +35,11 @@ def run(
 
     models    of half_plane, finite_element
     listener  is told each stage as it begins
-    Raises InputError for a scene that cannot be solved or a folder that cannot be written;
-    nothing is written then.
+    Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
+    SolverError where the finite elements find no solution; nothing is written then.
     """
     stages = Stages(listener)
+    _check_processes(scene, models)
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
@@ -46,6 +49,30 @@ def run(
         return solve(problem, make_plan(problem, models), out, listener)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
+    except FemError as error:
+        remedy = "a lighter load"
+        if scene.finite_element.plastic:
+            remedy += ", a higher body.yield_stress or body.hardening_modulus"
+        raise SolverError(
+            f"{scene.source}: the finite elements found no solution: {error}; what may help is "
+            f"{remedy}, or finer pressures (resolution.pitch)"
+        ) from error
+
+
+def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
+    """Refuse on several processes what is solved on one."""
+    settings = scene.finite_element
+    if "finite_element" not in models or not is_several():
+        return
+    for name, nonlinear in (
+        ("deformation", settings.deformation == "finite"),
+        ("plastic", settings.plastic),
+    ):
+        if nonlinear:
+            raise SceneError(
+                f"{scene.source}: finite_element.{name}: is solved on one process; allowed "
+                "without mpirun"
+            )
 
 
 def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) -> Problem:
@@ -70,7 +97,7 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
-    except (ContactError, InputError, MeshError):
+    except (ContactError, FemError, InputError, MeshError):
         checkpoint.discard()
         raise
     comparisons = ()

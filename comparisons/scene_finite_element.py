@@ -60,7 +60,30 @@ class FiniteElementTable(Table):
         unbounded = body.thickness is None and body.width is None
         coated, finite = coating is not None, self.deformation == "finite"
         coupled = load.coupled if self.coupled is None else self.coupled
+        nonlinear = finite or self.plastic
         rules = [
+            (
+                self.geometry == "rough" and profile is None,
+                "geometry",
+                'is "rough" for a smooth body; allowed with [profile]',
+            ),
+            (
+                nonlinear and self.far_field == "half-plane",
+                "far_field",
+                'is "half-plane" for a body that is not linear; allowed is "held"',
+            ),
+            (
+                nonlinear and len(load.friction) != 1,
+                "plastic" if self.plastic else "deformation",
+                f"wants one friction coefficient, not {len(load.friction)}: each has pressures of "
+                "its own; allowed is load.friction = one number",
+            ),
+            (
+                finite and body.hardness is not None,
+                "deformation",
+                'is "finite" for a body with a hardness, a cap on small deformation; '
+                "allowed without body.hardness",
+            ),
             (
                 self.roller_body == "disc" and roller.rigid,
                 "roller_body",
@@ -107,6 +130,12 @@ class FiniteElementTable(Table):
                 "coupled",
                 "is false at finite deformation, where the sliding traction moves the surface; "
                 "allowed is true",
+            ),
+            (
+                body.yield_stress is not None and not self.plastic,
+                "plastic",
+                "is false, but the body has a yield stress; allowed is true, or no "
+                "body.yield_stress",
             ),
             (
                 self.plastic and load.kind == "approach",

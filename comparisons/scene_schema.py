@@ -172,11 +172,19 @@ class SceneTables(Table):
 
     @model_validator(mode="after")
     def _approach_has_a_datum(self) -> "SceneTables":
-        if self.load.approach is not None and self.body.thickness is None:
+        if self.load.approach is None:
+            return self
+        if self.body.thickness is None:
             raise FieldError(
                 "load.approach",
                 "has no meaning on a half-plane, whose displacement has no datum; "
                 "allowed is per_length or hertz_peak_pressure, or approach with body.thickness",
+            )
+        if not self.roller.rigid:
+            raise FieldError(
+                "load.approach",
+                "has no meaning for an elastic roller, whose displacement has no datum; allowed "
+                "is per_length or hertz_peak_pressure, or approach with roller.rigid = true",
             )
         return self
 

@@ -18,7 +18,12 @@ import numpy as np
 from fem.compliance import FiniteElementCompliance
 from fem.contact_terms import Contact, Response
 from fem.elasticity import ElasticBody
-from fem.hyperelastic import NeoHookeanBody, along_surface, nodal_cauchy_stress
+from fem.hyperelastic import (
+    NeoHookeanBody,
+    along_surface,
+    nodal_cauchy_stress,
+    nodal_stress_across,
+)
 from fem.nonlinear_contact import ContactState, NonlinearSolution, solve_nonlinear_contact
 from fem.rigid_roller import CurrentContact, Roller
 from fem.stress import NodalStress
@@ -85,6 +90,11 @@ class FiniteDeformation:
         x = self.body.top.x
         pressure = self._on_deformed(x, np.interp(x, self.hats, nodal))
         return nodal_cauchy_stress(self.body, self.displacement, load, pressure)
+
+    @cached_property
+    def stress_across(self) -> np.ndarray:
+        """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
+        return nodal_stress_across(self.body, self.displacement)
 
     @cached_property
     def deformed_points(self) -> np.ndarray:

@@ -145,6 +145,15 @@ def nodal_cauchy_stress(
     return replace(nodal, kinks=matched.kinks)
 
 
+def nodal_stress_across(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
+    """Cauchy's stress across the plane (k,) [Pa] at the mesh points, lambda ln J / J."""
+    at = reference_nodes(2)
+    gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
+    volume = np.linalg.det(np.eye(2) + gradient)
+    _, lame = _lame(body)
+    return _averaged(body, (lame[:, None] * np.log(volume) / volume)[..., None])[:, 0]
+
+
 @dataclass(frozen=True)
 class _MatchedLoad(SurfaceLoad):
     """A load as the linear stress of a finite displacement has it, whose tractions on the
@@ -174,10 +183,12 @@ def _beyond_linear(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
 
 
 def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
-    """Means (k, 3) at the mesh points of values (m, 6, 3) of the elements around them."""
+    """Means (k, c) at the mesh points of values (m, 6, c) of the elements around them."""
     point = body.mesh.triangles.ravel()
     number = np.bincount(point, minlength=len(body.points))
-    columns = [np.bincount(point, column, len(body.points)) for column in value.reshape(-1, 3).T]
+    columns = [
+        np.bincount(point, column, len(body.points)) for column in value.reshape(len(point), -1).T
+    ]
     return np.column_stack(columns) / number[:, None]
 
 

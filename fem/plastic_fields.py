@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.plane_stress import PlaneStress
+from analytic.plane_stress import PlaneStress, von_mises
 from fem.plasticity import PlasticBody
 from fem.press_plastic import PlasticContact
 from fem.triangle import GAUSS, reference_nodes
@@ -37,9 +37,7 @@ class PlasticFields:
     @cached_property
     def von_mises(self) -> np.ndarray:
         """Equivalent stress (n,) [Pa]."""
-        s = self.stress
-        normal = (s.sx - s.sz) ** 2 + (s.sz - self.sy) ** 2 + (self.sy - s.sx) ** 2
-        return np.sqrt(0.5 * normal + 3.0 * s.txz**2)
+        return von_mises(self.stress, self.sy)
 
 
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:

@@ -9,6 +9,7 @@ from comparisons.assumptions import assumptions_of
 from comparisons.errors import SceneError
 from comparisons.problem import problem_of
 from comparisons.resolve import resolve_tables
+from comparisons.scene import Yielding
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 ELASTIC = {
@@ -22,7 +23,8 @@ RIGID = {**ELASTIC, "roller": {"radius": 8e-3, "rigid": True}}
 def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict):
     tables = copy.deepcopy(tables)
     for name, fields in {**sections, "finite_element": finite_element or {}}.items():
-        tables[name] = {**tables.get(name, {}), **fields}
+        merged = {**tables.get(name, {}), **fields}
+        tables[name] = {key: value for key, value in merged.items() if value is not None}
     return resolve_tables(tables, name="mine", folder=Path("."), source="mine.toml")
 
 
@@ -30,8 +32,6 @@ def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict)
     ("given", "follows"),
     [
         ({}, {"gap": "reference", "block": 400.0}),
-        ({"geometry": "rough"}, {"gap": "displaced"}),
-        ({"geometry": "rough", "gap": "reference"}, {"gap": "reference"}),
         ({"far_field": "half-plane"}, {"block": 20.0}),
         ({"far_field": "half-plane", "block": 40}, {"block": 40.0}),
     ],
@@ -39,6 +39,21 @@ def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict)
 def test_what_follows_from_other_fields(given, follows):
     settings = scene_of(ELASTIC, given).finite_element
     assert {name: getattr(settings, name) for name in follows} == follows
+
+
+WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
+
+
+def test_a_rough_boundary_is_met_where_it_has_come_to():
+    assert scene_of(ELASTIC, {"geometry": "rough"}, profile=WAVE).finite_element.gap == "displaced"
+    kept = scene_of(ELASTIC, {"geometry": "rough", "gap": "reference"}, profile=WAVE)
+    assert kept.finite_element.gap == "reference"
+
+
+def test_a_body_that_yields():
+    steel = {"yield_stress": "2.5 GPa", "hardening_modulus": "1 GPa"}
+    scene = scene_of(RIGID, {"plastic": True, "coupled": True}, body=steel)
+    assert scene.yielding == Yielding(2.5e9, 1e9)
 
 
 @pytest.mark.parametrize("load", [False, True])
@@ -95,10 +110,36 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
         (
             RIGID,
             {"deformation": "finite"},
-            {"profile": {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}},
+            {"profile": WAVE},
             'geometry: is "flat" at finite deformation',
         ),
         (RIGID, {"deformation": "finite"}, {}, "coupled: is false at finite deformation"),
+        (ELASTIC, {"geometry": "rough"}, {}, 'geometry: is "rough" for a smooth body'),
+        (ELASTIC, {}, {"body": {"yield_stress": 1e9}}, "plastic: is false, but the body has a"),
+        (
+            RIGID,
+            {"deformation": "finite", "far_field": "half-plane"},
+            {},
+            'far_field: is "half-plane" for a body that is not linear',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True, "far_field": "half-plane"},
+            {"body": {"yield_stress": 1e9}},
+            'far_field: is "half-plane" for a body that is not linear',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True},
+            {"body": {"yield_stress": 1e9}, "load": {"friction": [0.0, 0.1]}},
+            "plastic: wants one friction coefficient, not 2",
+        ),
+        (
+            RIGID,
+            {"deformation": "finite"},
+            {"body": {"hardness": 1e9}},
+            'deformation: is "finite" for a body with a hardness',
+        ),
         (
             ELASTIC,
             {"plastic": True},
@@ -126,6 +167,13 @@ def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, co
     [
         ({"body": {"hardening_modulus": 1e9}}, "body.hardening_modulus: is given for a body that"),
         (
+            {
+                "body": {"thickness": 1e-3},
+                "load": {"per_length": None, "approach": 1e-6, "friction": 0.0},
+            },
+            "load.approach: has no meaning for an elastic roller",
+        ),
+        (
             {"body": {"thickness": 1e-5}, "coating": {"thickness": 1e-5, **STEEL}},
             "coating.thickness: is 1e-05 m on a body of 1e-05 m",
         ),
@@ -142,7 +190,6 @@ def test_bodies_that_cannot_be(sections, complaint):
     [
         ({}, "the gap is taken at the undeformed place", "finite elements:"),
         ({"gap": "displaced"}, "the displaced one, and the pressure acts along the roller's", None),
-        ({"geometry": "rough"}, "finite elements: it is the boundary", "the boundary is flat"),
         ({"roller_shape": "circle"}, "finite elements: it is a circle", "disc"),
         ({"roller_body": "disc"}, "finite elements: it is an elastic body of a disc's", None),
         ({"coupled": True}, "finite elements: the sliding traction moves the surfaces", None),

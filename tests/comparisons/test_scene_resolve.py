@@ -24,7 +24,6 @@ from comparisons.scene import (
     Load,
     Resolution,
     RunningIn,
-    Yielding,
 )
 from comparisons.scene_file import SCENES, scene_names
 from comparisons.scene_schema import SECTIONS, ToleranceTable
@@ -44,8 +43,6 @@ FULL = {
         "thickness": "5 mm",
         "width": "40 mm",
         "base": "bonded",
-        "yield_stress": "2.5 GPa",
-        "hardening_modulus": "1 GPa",
     },
     "coating": {"thickness": "2 um", "youngs_modulus": "400 GPa", "poissons_ratio": 0.2},
     "profile": {
@@ -138,7 +135,6 @@ def test_everything_that_can_be_said():
         "tau1_max": 0.02,
         "tau1_field_deep": 0.05,
     }
-    assert scene.yielding == Yielding(2.5e9, 1e9)
     assert scene.coating == Coated(Material(400e9, 0.2), 2e-6)
     assert scene.finite_element == FiniteElementSettings(
         geometry="rough",
@@ -180,6 +176,7 @@ def test_a_layer_is_bonded_unless_it_says_otherwise():
 
 def test_a_layer_may_be_given_an_approach():
     layer = changed(BARE, "body", thickness="5 mm")
+    layer["roller"] = {"radius": "8.2 mm", "rigid": True}
     scene = resolved(changed(layer, "load", per_length=None, approach="2 um"))
     assert scene.load == Load("approach", 2e-6)
 
