@@ -51,7 +51,7 @@ def map_figure(content: dict) -> "Figure":
     _ticks(axes.yaxis, content["y"], y)
     _bar(drawn)
     label = QUANTITIES[content["quantity"]].label
-    axes.set_title(f"The half-plane's own error: {label}\n{content['scene']['title']}")
+    axes.set_title(f"The half-plane's own error: {label}, per cent\n{content['scene']['title']}")
     _legend(axes, content, kinds)
     return drawn
 
@@ -94,8 +94,10 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             look["facecolor"] = colours(share)
             if columns <= LETTERED:
                 ink = "white" if share > LIGHT else "black"
-                text = f"{100.0 * error:+.2g}"
-                axes.text(*middle, text, color=ink, fontsize=6.5, ha="center", va="center")
+                text = f"{100.0 * error:+.2g}".replace("-", "−")
+                axes.text(
+                    *middle, text, color=ink, fontsize=7.0, ha="center", va="center", zorder=4
+                )
         else:
             kinds.add(point["error"])
             look |= {"hatch": HATCHES[point["error"] == BELOW], "edgecolor": "#777777"}
