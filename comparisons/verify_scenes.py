@@ -11,6 +11,7 @@ pressure [Pa], mu friction coefficient.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 
@@ -115,6 +116,7 @@ def layer_scenes() -> tuple[ExactScene, ...]:
     )
 
 
+@cache
 def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
     """Hertz's contact of like bodies, on which friction acts without moving them."""
     return tuple(
@@ -123,6 +125,7 @@ def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
     )
 
 
+@cache
 def sliding_rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
     """Rigid cylinders whose traction moves the surface."""
     return tuple(
@@ -131,6 +134,7 @@ def sliding_rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
     )
 
 
+@cache
 def capped_rollers(shares: tuple[float, ...] = SHARES) -> tuple[ExactContact, ...]:
     return tuple(
         capped_case(f"flattened, hardness {share:g} p0", STEEL, STEEL, 8.2e-3, 1.4e9, share)
