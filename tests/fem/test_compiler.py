@@ -24,8 +24,9 @@ vertices = np.array([[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [0.0, 1.0
 corners = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
 points, triangles = add_midpoints(vertices, corners)
 spec = BlockSpec(1.0, 1.0, np.array([[-1.0, 1.0]]), 1.0)
+material = Material(1.0, float(sys.argv[1]))
 for shift in (0.0 * points, 0.1 * (1.0 - points[:, 1:]) * [0.0, 1.0]):
-    body = elastic_body(BlockMesh(points, triangles, shift, spec), Material(1.0, float(sys.argv[1])), Support())
+    body = elastic_body(BlockMesh(points, triangles, shift, spec), material, Support())
     assert np.isfinite(body.solve(np.ones_like(points))).all()
 """
 
