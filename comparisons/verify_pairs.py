@@ -21,8 +21,7 @@ from comparisons.window import window_of
 LEAST_COVERAGE = 0.95
 WIDEST = 5.0  # median of stated uncertainty over true error
 FEWEST = 200  # pairs that tell
-# Largest relative error of a figure on the third level. Three to five times what is met; where the
-# largest shear lies on the surface it is a maximum over the elements' own waves.
+# Largest relative error of a figure on the third level, three to five times what is met.
 CEILINGS = {
     "peak_pressure": 1e-3,
     "contact_length": 5e-3,
@@ -31,13 +30,16 @@ CEILINGS = {
     "txz_max_abs": 5e-3,
     "mean_gap": 1e-3,
 }
+# Of tau1_max where the whole surface in contact shears alike, so that the elements' own waves next
+# to the edge decide on the largest: 1 to 3 % too large at any resolution.
+SURFACE_CEILING = 0.06
 
 
 @dataclass(frozen=True)
 class Pair:
     """One figure of one model against its exact value.
 
-    kind         of the case: Hertz | sliding | hardness | layer | wave | punch
+    kind         of the case: Hertz | surface | sliding | hardness | layer | wave | punch
     levels       figures on all levels, coarse to fine [SI]
     exact        [SI]
     uncertainty  as stated, relative to `scale`: iteration, discretisation, domain
@@ -88,6 +90,8 @@ class Pair:
     @property
     def ceiling(self) -> float:
         """Largest relative error that it may have."""
+        if (self.kind, self.quantity) == ("surface", "tau1_max"):
+            return SURFACE_CEILING
         return CEILINGS[self.quantity]
 
     @property

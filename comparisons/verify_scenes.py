@@ -21,7 +21,7 @@ from analytic.exact.layer_references import LayerReference, layer_references
 from analytic.material import Material
 
 BOTH = ("half_plane", "finite_element")
-FRICTIONS = (0.0, 0.1, 0.2, 0.3)
+FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
 SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
 # a/h of the third level. With fewer the grid of the first holds too little open ground to find an
@@ -47,7 +47,7 @@ class ExactScene:
 
     name, source   of the case, and of its solution
     tables         of the scene, as TOML has them
-    kind           Hertz | sliding | hardness | layer
+    kind           Hertz | surface (Hertz, most shear on the surface) | sliding | hardness | layer
     exact          figures [SI] by the names of `comparisons.quantities`
     pressure       p(x) [Pa] where it is known in closed form
     models         that the solution holds for
@@ -175,6 +175,8 @@ def scene_of(
         name += "".join(f", {field} {value}" for field, value in finite_element.items())
     exact = {q: case.quantities[q] for q in COMPARED if q in case.quantities}
     kind = "hardness" if np.isfinite(case.hardness) else "sliding" if case.coupled else "Hertz"
+    if exact.get("tau1_max_depth") == 0.0:
+        kind = "surface"
     return ExactScene(name, case.source, kind, tables, exact, case.pressure)
 
 
