@@ -15,7 +15,7 @@ next coarser one (`analytic.nesting`); on a fixed set conjugate gradients (`anal
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -56,13 +56,8 @@ class Residuals:
 
     @property
     def worst(self) -> float:
-        return max(
-            self.load_balance,
-            self.complementarity,
-            self.penetration,
-            self.negative_pressure,
-            self.excess_pressure,
-        )
+        """The largest of them; not a number if one is none."""
+        return float(np.max(astuple(self)))
 
 
 @dataclass(frozen=True)
@@ -110,7 +105,7 @@ def contact_residuals(
     work = np.sum(weights * np.abs(pressure) * apart)
     residuals = Residuals(
         load_balance=error,
-        complementarity=work / (load * scale) if load > 0.0 else 0.0,
+        complementarity=work / load / scale if load > 0.0 else 0.0,
         penetration=max(0.0, -np.min(actual[free], initial=0.0)) / scale,
         negative_pressure=max(0.0, -np.min(pressure)) / highest if highest > 0.0 else 0.0,
         excess_pressure=max(0.0, highest / hardness - 1.0),

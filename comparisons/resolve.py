@@ -67,7 +67,9 @@ def resolve_tables(
     plain = plain_tables(scene)
     if scene.body.thickness is not None:
         plain["body"].setdefault("base", "bonded")
-    settings = settings_of(scene.finite_element, scene.load.coupled)
+    ratios = [table.poissons_ratio for table in (scene.roller, scene.body, scene.coating) if table]
+    largest = max(ratio for ratio in ratios if ratio is not None)
+    settings = settings_of(scene.finite_element, scene.load.coupled, largest)
     plain["finite_element"] = asdict(settings)
     profile = info = None
     position = scene.load.position or 0.0

@@ -10,6 +10,9 @@ from comparisons.scene_table import FieldError, Table
 from comparisons.units import DIMENSIONLESS
 
 HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
+# Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
+# stresses at the edge of a contact half as large again as the largest below it.
+QUADRATIC_UP_TO = 0.49
 HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
 
 
@@ -23,7 +26,7 @@ class FiniteElementTable(Table):
     coupled: Annotated[bool, Truth()] | None = None
     deformation: Annotated[str, Choice(("linear", "finite"))] = "linear"
     plastic: Annotated[bool, Truth()] = False
-    element: Annotated[str, Choice(("P1", "P2", "P3"))] = "P2"
+    element: Annotated[str, Choice(("P1", "P2", "P3"))] | None = None
     far_field: Annotated[str, Choice(("held", "half-plane"))] = "held"
     block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
@@ -37,16 +40,25 @@ class FiniteElementTable(Table):
                 'is true beside deformation = "finite"; allowed is either, plastic flow is of '
                 "small deformation",
             )
-        if (self.deformation == "finite" or self.plastic) and self.element != "P2":
+        if self.nonlinear and self.element not in (None, "P2"):
             raise FieldError(
                 "element", f'is "{self.element}" with {nonlinear}; allowed there is "P2"'
             )
         return self
 
     @property
-    def defaults(self) -> dict:
-        """Fields that follow from others where the section leaves them out."""
+    def nonlinear(self) -> bool:
+        return self.deformation == "finite" or self.plastic
+
+    def defaults(self, poissons_ratio: float) -> dict:
+        """Fields that follow from others where the section leaves them out.
+
+        poissons_ratio  the largest of the bodies
+        """
         found = {}
+        if self.element is None:
+            cubic = poissons_ratio > QUADRATIC_UP_TO and not self.nonlinear
+            found["element"] = "P3" if cubic else "P2"
         if self.gap is None:
             found["gap"] = "displaced" if self.geometry == "rough" else "reference"
         if self.block is None:
@@ -60,7 +72,7 @@ class FiniteElementTable(Table):
         unbounded = body.thickness is None and body.width is None
         coated, finite = coating is not None, self.deformation == "finite"
         coupled = load.coupled if self.coupled is None else self.coupled
-        nonlinear = finite or self.plastic
+        nonlinear = self.nonlinear
         rules = [
             (
                 self.geometry == "rough" and profile is None,
@@ -154,9 +166,15 @@ class FiniteElementTable(Table):
                 raise FieldError(f"finite_element.{field}", message)
 
 
-def settings_of(table: FiniteElementTable, coupled: bool) -> FiniteElementSettings:
-    """The section with its defaults; `coupled` is what [load] says of both models."""
-    given = dict(table) | table.defaults
+def settings_of(
+    table: FiniteElementTable, coupled: bool, poissons_ratio: float
+) -> FiniteElementSettings:
+    """The section with its defaults.
+
+    coupled         what [load] says of both models
+    poissons_ratio  the largest of the bodies
+    """
+    given = dict(table) | table.defaults(poissons_ratio)
     if table.coupled is None:
         given["coupled"] = coupled
     return FiniteElementSettings(**given)

@@ -8,7 +8,13 @@ from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
 from analytic import active_set
-from analytic.contact import ContactError, contact_residuals, solve_contact, solve_contacts
+from analytic.contact import (
+    ContactError,
+    Residuals,
+    contact_residuals,
+    solve_contact,
+    solve_contacts,
+)
 from analytic.equilibrium import Constraints, EquilibriumProblem
 from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
@@ -354,3 +360,12 @@ def test_residuals_see_pressure_at_the_hardness_over_an_open_gap():
     )
     assert gap[~inner].max() > 1e-8
     assert residuals.complementarity > 0.01
+
+
+def test_a_residual_that_is_no_number_does_not_count_as_met():
+    none = Residuals(0.0, np.nan, 0.0, 0.0, 0.0)
+    assert not none.worst <= 1.0
+    light = solve_contact(
+        HalfPlane(8, 1.0, 1.0), np.arange(8.0), np.ones(8), Constraints(load=1e-200)
+    )
+    assert np.isfinite(light.residuals.worst)

@@ -41,6 +41,20 @@ def test_what_follows_from_other_fields(given, follows):
     assert {name: getattr(settings, name) for name in follows} == follows
 
 
+@pytest.mark.parametrize(
+    ("ratio", "given", "element"),
+    [
+        (0.49, {}, "P2"),
+        (0.4901, {}, "P3"),
+        (0.4999, {"element": "P2"}, "P2"),
+        (0.4999, {"deformation": "finite", "coupled": True}, "P2"),
+    ],
+)
+def test_elements_are_cubic_near_incompressibility(ratio, given, element):
+    tables = {**RIGID, "body": {**STEEL, "poissons_ratio": ratio}}
+    assert scene_of(tables, given).finite_element.element == element
+
+
 WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
 
 
