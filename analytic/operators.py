@@ -90,6 +90,7 @@ class HalfPlane(Convolution):
         self.pitch = pitch
         self.modulus = modulus
         self.datum = (count + 1) * pitch if datum is None else datum
+        self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
         kernel = hat_galerkin if element == "hat" else strip_displacement
         log_integral = at_whole_offsets(kernel, count)
         scale = 2.0 * pitch**2 / (np.pi * modulus)
@@ -114,7 +115,9 @@ class HalfPlane(Convolution):
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2 / (E* |k|) seen through the elements, with the nearest aliases [m^2/Pa].
 
-        A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc.
+        A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc. On
+        a datum beyond the support the mean sinks further, c h^2 a node of the ring (`on_base`):
+        without it a search for pressures first moves off, and may end as rounding what is none.
         """
         c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         sine = np.sin(np.pi * c) / np.pi
@@ -125,6 +128,7 @@ class HalfPlane(Convolution):
             )
         else:
             seen = sine * (own**2 + lower**2 - upper**2)
+        seen[cycles == 0.0] += 2.0 * self._further / cycles[1]
         return self.pitch**2 / (np.pi * self.modulus) * seen
 
 

@@ -152,6 +152,24 @@ def test_an_approach_takes_no_more_steps_than_its_load(base):
     assert pressed.pressure == pytest.approx(by_load.pressure, abs=near)
 
 
+@pytest.mark.parametrize("base", [0.0, 1.0, 10.0, 60.0])
+@pytest.mark.parametrize("change", [1e-9, 1e-8, 1e-7])
+def test_on_a_base_little_is_not_taken_for_rounding(base, change):
+    """What the last steps still move, too many nodes being free to be solved for directly."""
+    grid = HatGrid.within(-0.5e-3, 0.5e-3, 1e-6)
+    plain = HalfPlane(grid.count, grid.pitch, MODULUS)
+    model = plain.on_base(base * plain.column[0] / grid.pitch**2)
+    gap = grid.average(roller_gap(RADIUS))
+    load = Constraints(load=LOAD)
+    first = solve_contact(model, gap, grid.weights, load)
+    pressed = Constraints(approach=first.approach)
+    size = np.abs(model.apply(first.pressure)).max()
+    waves = change * size * np.cos(np.arange(grid.count))
+    second = solve_contact(model, gap + waves, grid.weights, pressed, first.pressure)
+    assert np.count_nonzero(first.pressure) > 200
+    assert second.residuals.penetration < 0.05 * change
+
+
 def test_a_body_on_a_base_that_gives_nearly_all_the_way_is_solved_all_the_same():
     """Further off than a datum of the model can be."""
     rigid = 1e3 * half_plane().column[0] * np.ones((GRID.count, GRID.count))
