@@ -2,8 +2,12 @@
 
 import weakref
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from petsc4py.PETSc import Object
 
 # Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
 # 20). Graded meshes of high contrast overflow the default; each failure is answered by doubling.
@@ -33,7 +37,7 @@ class FemError(RuntimeError):
     """The finite-element system could not be built or solved."""
 
 
-def release_with(owner: object, *objects) -> None:
+def release_with(owner: object, *objects: "Object") -> None:
     """Free PETSc's objects when their owner goes.
 
     From 3.18 on PETSc keeps what Python lets go of until all processes of its communicator ask for

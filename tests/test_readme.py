@@ -153,9 +153,11 @@ def test_test_command_is_the_launchers():
 
 
 def test_commands_in_passing_work(tmp_path):
-    """What the doctor finds is tested with it: each of its trials takes seconds."""
-    assert set(re.findall(r"`\./crosscheck ([^`]+)`", README)) == {"scenes", "doctor"}
-    for arguments in (["scenes"], ["doctor", "--help"]):
+    """What the doctor finds is tested with it, and so are the studies: they take seconds and more."""
+    named = {command.split()[0] for command in re.findall(r"`\./crosscheck ([^`]+)`", README)}
+    studies = {"cost", "map", "verify", "stability", "rerun"}
+    assert named == {"scenes", "doctor", "run", *studies}
+    for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)
         assert done.status == ExitStatus.DONE and done.printed
 
