@@ -77,7 +77,7 @@ def finite_element_level(
     else:
         solution = replace(solution, converged=False)  # it touches ground that was not refined
     with stages.stage("contact", "finite elements: contact"):
-        pressed = pressed_linearly(problem, operator, grid, solution)
+        pressed = pressed_linearly(problem, operator, grid, solution, average)
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
             pressed = pressed_finitely(problem, operator, grid, solution, constraints)

@@ -40,9 +40,14 @@ class Pressed:
 
 
 def pressed_linearly(
-    problem: Problem, operator: MutualCompliance, grid: HatGrid, solution: ContactSolution
+    problem: Problem,
+    operator: MutualCompliance,
+    grid: HatGrid,
+    solution: ContactSolution,
+    gap: np.ndarray,
 ) -> Pressed:
-    """The linear elastic body under the pressures of a contact.
+    """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
+    one, weighted by each hat.
 
     Where the gap is taken at the displaced place, so are the pressures.
     """
@@ -60,7 +65,12 @@ def pressed_linearly(
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
     patches = contact_patches(x, pressure, solution.gap)
     if not displaced:
-        return Pressed(rough.body, solution, rough.apply(pressure, dragged), stress, patches)
+        if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
+            both = (solution.gap + solution.approach) * grid.weights - gap
+            own = both / operator.parts[0].factor
+        else:
+            own = rough.apply(pressure, dragged)
+        return Pressed(rough.body, solution, own, stress, patches)
     moved = rough.displacement(pressure, dragged)
     top = rough.body.top
     along, down = rough.body.at_points(moved)[top.point].T
