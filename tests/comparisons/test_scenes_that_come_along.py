@@ -60,7 +60,7 @@ class TestGroundUnrun:
         assert half_space["verdict"] == "undecided"
         assert "finite rotation" in half_space["why"] and "finite strain" in half_space["why"]
         assert unrun.result["refinement"] == "every judged quantity is resolved"
-        assert len(unrun.runs["finite_element"].levels) == 3
+        assert len(unrun.runs["finite_element"].levels) == 4
         assert all(row.verdict == "agree" for row in unrun.comparisons if row.tolerance)
 
     def test_pressures_agree_on_the_same_hats(self, unrun):
