@@ -246,7 +246,7 @@ def elastic_body(
     else:
         shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
     quadrature = quadrature_degree(degree, curved)
-    name = ("stiffness", degree, curved, coating is not None)
+    name = ("stiffness", degree, curved, quadrature, coating is not None)
     form = compiled(
         lambda: compat.compile_bilinear(
             name, lambda: _work(space, shear, lame, quadrature), space, [shear, lame]

@@ -152,7 +152,12 @@ class TestRestOfTheScene:
         )
 
     def test_an_approach_is_no_load_to_run_in_under(self):
-        layer = {"body": {"thickness": 1e-3}, "load": {"per_length": None, "approach": 1e-6}}
+        rigid = {"rigid": True, "youngs_modulus": None, "poissons_ratio": None}
+        layer = {
+            "roller": rigid,
+            "body": {"thickness": 1e-3},
+            "load": {"per_length": None, "approach": 1e-6},
+        }
         found = self.refused(layer)
         assert found.startswith("wavy.toml: running_in.load: is missing; allowed is a load per")
         scene = resolved({**layer, "running_in": {"load": LOAD}})
