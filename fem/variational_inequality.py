@@ -17,8 +17,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import bmat, csr_matrix
+from scipy.sparse import bmat, csr_matrix, diags
 
+from fem.contact_terms import on_all_nodes
 from fem.elasticity import ElasticBody
 from fem.mumps import ORDERING, SPARE_ROOM, FemError
 
@@ -130,7 +131,8 @@ def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: flo
     rows[-2][-2] = csr_matrix((len(weights), len(weights)))
     for place, ((body, forces), soft) in enumerate(zip(bodies, softness, strict=True)):
         k = body.stiffness() / body.material.youngs_modulus
-        b = _on_all_nodes(body, forces) / pitch
+        free = diags((~body.held).ravel().astype(float))  # held components bear no forces
+        b = free @ on_all_nodes(len(body.nodes), body.surface, forces) / pitch
         rows[place][place], rows[place][-2] = k, -b
         rows[-2][place] = soft * (b.T - b.T @ k)
         rows[-2][-2] = rows[-2][-2] + soft * (b.T @ b)
@@ -138,11 +140,3 @@ def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: flo
     rows[-2][-1], rows[-1][-2] = -share, -share.T
     rows[-1][-1] = csr_matrix((1, 1))
     return bmat(rows, format="csr")
-
-
-def _on_all_nodes(body: ElasticBody, forces: csr_matrix) -> csr_matrix:
-    """Nodal forces (2n, hats) of all the body's components; held ones bear none."""
-    component = (2 * body.surface.point[:, None] + np.arange(2)).ravel()
-    free = (~body.held).ravel()[component].astype(float)
-    place = (component, np.arange(component.size))
-    return csr_matrix((free, place), shape=(body.unknowns, component.size)) @ forces
