@@ -25,7 +25,7 @@ from fem.just_in_time import compiled
 from fem.mumps import FemError
 from fem.recovery import element_stress, recovered_stress
 from fem.stress import NodalStress, at_mesh_points
-from fem.surface_load import SurfaceLoad, to_surface
+from fem.surface_load import SurfaceLoad, from_surface, to_surface
 from fem.triangle import gradients, reference_nodes
 
 
@@ -197,16 +197,8 @@ def _surface_stress(
 ) -> np.ndarray:
     """sx, sz, txz (t, 3) at the surface with tangents `along` (t, 2): s_tt of `stress` (t, 3)."""
     t = along / np.linalg.norm(along, axis=1)[:, None]
-    n = np.column_stack([t[:, 1], -t[:, 0]])
-    sx, sz, txz = stress.T
-    s_tt = sx * t[:, 0] ** 2 + sz * t[:, 1] ** 2 + 2.0 * txz * t[:, 0] * t[:, 1]
-
-    def component(i: int, j: int) -> np.ndarray:
-        mixed = t[:, i] * n[:, j] + n[:, i] * t[:, j]
-        pressed = friction * mixed - n[:, i] * n[:, j]
-        return s_tt * t[:, i] * t[:, j] + pressure * pressed
-
-    return np.column_stack([component(0, 0), component(1, 1), component(0, 1)])
+    s_tt, _, _ = to_surface(t, stress)
+    return from_surface(t, s_tt, -pressure, friction * pressure)
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:
