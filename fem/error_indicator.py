@@ -8,10 +8,9 @@ the latter. In the norm of energy, E^2 = integral (s* - s) : strain of (s* - s).
 import numpy as np
 
 from fem.elasticity import ElasticBody
-from fem.far_field import collapsed_gauss
 from fem.recovery import element_stress, recovered_stress
 from fem.stress_nodes import stress_nodes
-from fem.triangle import jacobians, shapes
+from fem.triangle import collapsed_gauss, jacobians, shapes
 
 LINE_POINTS = 3  # exact for the square of a difference that is quadratic, on straight elements
 

@@ -27,7 +27,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.elasticity import ElasticBody
-from fem.triangle import jacobians, slopes
+from fem.triangle import collapsed_gauss, jacobians, slopes
 
 # The first power of reach over distance of the boundary that is left out. In the compliance that
 # leaves 3e-8, measured at blocks of 4 to 40 half-widths; in the moments it costs 4 to 9 each way.
@@ -168,15 +168,3 @@ def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
         (stiffness[of_held], (row[of_held], column[of_held])),
         shape=(2 * len(held), 2 * np.count_nonzero(held)),
     )
-
-
-def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Reference points (q, 2) and weights (q,) of a rule on the triangle, q = count^2.
-
-    Gauss's rule on the square, collapsed: exact for degree 2 count - 2, that of the product of
-    two slopes on straight elements of degree `count`.
-    """
-    line, weight = np.polynomial.legendre.leggauss(count)
-    line, weight = 0.5 * (1.0 + line), 0.5 * weight
-    r, s = (value.ravel() for value in np.meshgrid(line, line))
-    return np.column_stack([r, s * (1.0 - r)]), (weight[:, None] * weight).ravel() * (1.0 - r)

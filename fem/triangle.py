@@ -78,6 +78,18 @@ def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarr
     return reference @ np.linalg.inv(jacobians(nodes, at))
 
 
+def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Reference points (q, 2) and weights (q,) of a rule on the triangle, q = count^2.
+
+    Gauss's rule on the square, collapsed: exact for degree 2 count - 2, that of the product of
+    two slopes on straight elements of degree `count`.
+    """
+    line, weight = np.polynomial.legendre.leggauss(count)
+    line, weight = 0.5 * (1.0 + line), 0.5 * weight
+    r, s = (value.ravel() for value in np.meshgrid(line, line))
+    return np.column_stack([r, s * (1.0 - r)]), (weight[:, None] * weight).ravel() * (1.0 - r)
+
+
 def _barycentric(at: np.ndarray) -> np.ndarray:
     """Barycentric coordinates (..., 3) at reference points (..., 2)."""
     return np.concatenate([1.0 - at.sum(axis=-1, keepdims=True), at], axis=-1)

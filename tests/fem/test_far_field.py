@@ -16,7 +16,7 @@ from analytic.material import Material, combined_modulus
 from analytic.operators import HalfPlane, SumOfBodies
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Coating, elastic_body
-from fem.far_field import FarField, collapsed_gauss, multipoles
+from fem.far_field import FarField, multipoles
 from fem.maximum import maximum
 from fem.stress import evaluate, nodal_stress
 from fem.support import Support
@@ -90,17 +90,6 @@ def test_series_of_a_load_off_the_centre_converges_with_its_distance(away):
     assert errors[0] < 1.5 * away**6
     rate = (errors[1] / errors[0]) ** (1 / 6)
     assert rate == pytest.approx(away, rel=0.15)
-
-
-@pytest.mark.parametrize("degree", [1, 2, 3])
-def test_the_rule_on_the_triangle_is_exact_to_its_degree_and_not_beyond(degree):
-    """Integral of r^a s^b over the triangle: a! b! / (a + b + 2)!."""
-    at, weight = collapsed_gauss(degree)
-    exact = 2 * degree - 2
-    assert weight @ at[:, 1] ** exact == pytest.approx(1 / (exact + 1) / (exact + 2), rel=1e-14)
-    assert weight @ (at[:, 0] ** exact) == pytest.approx(1 / (exact + 1) / (exact + 2), rel=1e-14)
-    beyond = 2 * degree
-    assert weight @ at[:, 1] ** beyond != pytest.approx(1 / (beyond + 1) / (beyond + 2), rel=1e-6)
 
 
 @pytest.mark.parametrize("size", [4.0, 20.0])

@@ -19,7 +19,7 @@ from analytic.operators import HalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody, Support, elastic_body
 from fem.surface import hat_nodes
-from fem.triangle import jacobians, shapes, slopes
+from fem.triangle import collapsed_gauss, jacobians, shapes, slopes
 
 SUPPORT = Support("bonded", "fixed")
 
@@ -30,10 +30,7 @@ def mixed(body: ElasticBody, load: np.ndarray) -> np.ndarray:
     integral 2 mu e(u):e(v) - p div v = load,   integral -q div u - q p / lambda = 0
     """
     triangles, points, material = body.mesh.triangles, body.points, body.material
-    line, weight = np.polynomial.legendre.leggauss(4)
-    line, weight = 0.5 * (line + 1), 0.5 * weight
-    at = np.array([[r, s * (1 - r)] for r in line for s in line])
-    weight = np.array([w * v * (1 - r) for r, w in zip(line, weight, strict=True) for v in weight])
+    at, weight = collapsed_gauss(4)
     jacobian = jacobians(points[triangles], at)
     volume = np.abs(np.linalg.det(jacobian)) * weight
     slope = np.einsum("qad,mqdc->mqac", slopes(at), np.linalg.inv(jacobian))
