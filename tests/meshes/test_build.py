@@ -36,22 +36,6 @@ SPECS = {
 }
 
 
-@pytest.fixture(scope="module")
-def meshes():
-    return {name: build_block(spec) for name, spec in SPECS.items()}
-
-
-@pytest.fixture(params=SPECS)
-def mesh(request, meshes):
-    return meshes[request.param]
-
-
-def signed_areas(mesh):
-    corner = mesh.points[mesh.triangles[:, :3]]
-    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-
-
 def boundary_edges(mesh):
     edges, edge_of = unique_edges(mesh.triangles[:, :3])
     uses = np.bincount(edge_of.ravel(), minlength=len(edges))
@@ -63,7 +47,7 @@ def top_vertices(mesh):
     return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
 
 
-def test_area_is_that_of_the_block(mesh):
+def test_area_is_that_of_the_block(mesh, signed_areas):
     areas = signed_areas(mesh)
     assert areas.min() > 0.0
     exact = 2.0 * mesh.spec.half_width * mesh.spec.depth
@@ -147,7 +131,7 @@ def test_fit_to_solve_on(mesh):
     assert corner_jacobians(mesh.points, mesh.triangles).min() > 0.0
 
 
-def test_elements_in_the_window_are_small(meshes):
+def test_elements_in_the_window_are_small(meshes, signed_areas):
     mesh = meshes["window"]
     x0, x1, z1, size = WINDOW
     centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)

@@ -31,31 +31,17 @@ SPECS = {
 }
 
 
-@pytest.fixture(scope="module")
-def meshes():
-    return {name: build_block(spec) for name, spec in SPECS.items()}
-
-
-@pytest.fixture(params=SPECS)
-def mesh(request, meshes):
-    return meshes[request.param]
-
-
 def corners(mesh):
     return mesh.points[mesh.triangles[:, :3]]
 
 
-def areas(mesh):
-    corner = corners(mesh)
-    u, v = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    return 0.5 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
-
-
-def test_no_element_crosses_the_interface_and_its_edges_follow_all_of_it(mesh):
+def test_no_element_crosses_the_interface_and_its_edges_follow_all_of_it(mesh, signed_areas):
     t, z = mesh.spec.interface, corners(mesh)[:, :, 1]
     above = (z <= t).all(axis=1)
     assert (above | (z >= t).all(axis=1)).all()
-    assert areas(mesh)[above].sum() == pytest.approx(2.0 * mesh.spec.half_width * t, rel=1e-12)
+    assert signed_areas(mesh)[above].sum() == pytest.approx(
+        2.0 * mesh.spec.half_width * t, rel=1e-12
+    )
     edges, edge_of = unique_edges(mesh.triangles[:, :3])
     along = (mesh.points[edges, 1] == t).all(axis=1)
     length = np.abs(np.diff(mesh.points[edges[along], 0])).sum()
@@ -63,14 +49,14 @@ def test_no_element_crosses_the_interface_and_its_edges_follow_all_of_it(mesh):
     assert (np.bincount(edge_of.ravel())[along] == 2).all()
 
 
-def test_one_body_without_holes_stray_or_double_nodes(mesh):
+def test_one_body_without_holes_stray_or_double_nodes(mesh, signed_areas):
     edges, edge_of = unique_edges(mesh.triangles[:, :3])
     vertices = np.unique(mesh.triangles[:, :3])
     assert len(vertices) - len(edges) + len(mesh.triangles) == 1
     assert len(np.unique(mesh.points, axis=0)) == len(mesh.points) == len(vertices) + len(edges)
-    assert areas(mesh).min() > 0.0
+    assert signed_areas(mesh).min() > 0.0
     exact = 2.0 * mesh.spec.half_width * mesh.spec.depth
-    assert areas(mesh).sum() == pytest.approx(exact, rel=1e-12)
+    assert signed_areas(mesh).sum() == pytest.approx(exact, rel=1e-12)
     outer = mesh.points[edges[np.bincount(edge_of.ravel()) == 1]]
     on_side = [
         (outer[:, :, 1] == 0.0).all(axis=1),
@@ -80,22 +66,22 @@ def test_one_body_without_holes_stray_or_double_nodes(mesh):
     assert (np.sum(on_side, axis=0) == 1).all()
 
 
-def test_core_has_elements_across_and_no_more_than_it_takes(mesh):
+def test_core_has_elements_across_and_no_more_than_it_takes(mesh, signed_areas):
     t, (low, high) = mesh.spec.interface, core(mesh.spec)
     corner, layer = corners(mesh), layer_size(mesh.spec)
     centre = corner.mean(axis=1)
     inside = (centre[:, 1] < t) & (centre[:, 0] > low) & (centre[:, 0] < high)
-    size = np.sqrt(4.0 / np.sqrt(3.0) * areas(mesh)[inside])
+    size = np.sqrt(4.0 / np.sqrt(3.0) * signed_areas(mesh)[inside])
     assert size.max() < 1.3 * layer
     wanted = wanted_size(mesh.spec, *centre[inside].T)
     assert 0.8 < np.median(size / wanted) < 1.1
 
 
-def test_layers_beside_the_core_are_stretched_but_not_without_bound(mesh):
+def test_layers_beside_the_core_are_stretched_but_not_without_bound(mesh, signed_areas):
     beside = stretched(mesh)
     t, (low, high) = mesh.spec.interface, core(mesh.spec)
     exact = t * ((low + mesh.spec.half_width) + (mesh.spec.half_width - high))
-    assert areas(mesh)[beside].sum() == pytest.approx(exact, rel=1e-9, abs=1e-12)
+    assert signed_areas(mesh)[beside].sum() == pytest.approx(exact, rel=1e-9, abs=1e-12)
     if beside.any():
         corner = corners(mesh)[beside]
         assert np.ptp(corner[..., 1], axis=1) == pytest.approx(t / LAYERS, rel=1e-9)

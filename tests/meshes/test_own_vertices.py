@@ -34,16 +34,6 @@ SPECS = {
 }
 
 
-@pytest.fixture(scope="module")
-def meshes():
-    return {name: build_block(spec) for name, spec in SPECS.items()}
-
-
-@pytest.fixture(params=SPECS)
-def mesh(request, meshes):
-    return meshes[request.param]
-
-
 def on_top(mesh):
     vertices = np.unique(mesh.triangles[:, :3])
     return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
