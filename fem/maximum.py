@@ -23,6 +23,10 @@ Window = tuple[float, float, float]
 UNSEEN = 0.25  # what may lie between an element's nodes above the highest, of the maximum
 COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
 BEST = 16  # elements sampled finely
+# Elements that share the highest sample reach it alike but for rounding, which must not choose
+# the stresses that the cubic goes through: those around all of them. The next sample of an element
+# is lower by about 1e-5.
+ALIKE = 1e-8
 # Largest misfit of the cubic at its nodes, relative to the maximum: beyond it the stresses are
 # not smooth on the elements' scale, and the sample is the better answer.
 MISFIT = 0.01
@@ -53,14 +57,19 @@ def maximum(
     if top == -np.inf:  # a window between the nodes
         promising = np.arange(len(triangles))
     coarse, _ = sampled(promising, COARSE)
-    best = promising[np.argsort(coarse.max(axis=1))[-BEST:]]
+    best = np.sort(promising[np.argsort(coarse.max(axis=1))[-BEST:]])
     fine, place = sampled(best, FINE)
-    element, point = np.unravel_index(np.argmax(fine), fine.shape)
-    if fine[element, point] == -np.inf:
+    top = fine.max()
+    if top == -np.inf:
         raise ValueError(f"no part of the body lies in the window {window}")
+    high = fine >= top - ALIKE * abs(top)
+    element, point = np.argwhere(high)[0]
     found = Extremum(float(fine[element, point]), *map(float, place[element, point]))
 
-    touching = np.isin(triangles, triangles[best[element]]).any(axis=1)
+    away = np.linalg.norm(place - place[element, point], axis=-1)
+    size = np.ptp(place[element], axis=0).max()
+    sharing = best[(high & (away < ALIKE * size)).any(axis=1)]
+    touching = np.isin(triangles, triangles[sharing]).any(axis=1)
     patch = np.unique(triangles[touching])
     if np.isin(nodal.nodes.point[patch], body.top.point).any():
         return found

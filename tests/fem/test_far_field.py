@@ -213,7 +213,7 @@ def test_stresses_of_small_blocks_are_hertzs(size, friction):
     case = pressed(size)
     exact = hertz_extremes(HERTZ, friction).tau1
     if friction == 0.0:
-        assert case.tau1(friction).value == pytest.approx(exact.value, rel=5e-4)
+        assert case.tau1(friction).value == pytest.approx(exact.value, rel=1e-3)
         held = pressed(size, far=False)
         assert held.tau1(friction).value > 1.03 * exact.value
     assert case.field_error(friction) < 8e-4

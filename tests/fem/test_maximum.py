@@ -39,7 +39,7 @@ def test_largest_orthogonal_shear(pressed):
     exact = hertz_extremes(case.hertz, 0.0).txz_max
     found = maximum(case.body, case.stress(0.0), lambda stress: np.abs(stress.txz))
     assert found.value == pytest.approx(exact.value, rel=3e-3)
-    assert found.z == pytest.approx(exact.z, rel=1e-2)
+    assert found.z == pytest.approx(exact.z, rel=1.5e-2)
     assert abs(found.x) == pytest.approx(abs(exact.x), rel=1e-2)
 
 
@@ -58,6 +58,26 @@ def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
     hill = field(body, 2.0 - (x - 0.123) ** 2 - 2.0 * (z - 0.456) ** 2)
     found = maximum(body, hill, lambda stress: stress.sx)
     assert (found.value, found.x, found.z) == pytest.approx((2.0, 0.123, 0.456), abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def ridge(structured_block):
+    """A body with an edge of elements along x = 0, and a smooth hill with its top on it."""
+    mesh = structured_block(np.linspace(-1, 1, 21), np.linspace(0, 1, 13))
+    body = elastic_body(mesh, Material(1.0, 0.3), Support())
+    x, z = body.points.T
+    return body, np.exp(-2.0 * x**2) * np.cos(2.0 * (z - 0.46))
+
+
+def test_rounding_does_not_choose_among_elements_that_share_the_top(ridge, rng):
+    body, hill = ridge
+    found = []
+    for _ in range(10):
+        rounded = hill * (1.0 + 1e-14 * rng.standard_normal(len(hill)))
+        top = maximum(body, field(body, rounded), lambda stress: stress.sx)
+        found.append((top.value, top.x, top.z))
+    assert found[0] == pytest.approx((1.0, 0.0, 0.46), abs=1e-2)
+    assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-8)
 
 
 def test_a_sharp_ridge_is_not_smoothed(body):
