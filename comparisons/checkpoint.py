@@ -21,6 +21,7 @@ from analytic.gap import HatGrid
 from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.files import ATTEMPTS, unfinished
 from comparisons.level import Level, MeshField, StressResult
+from comparisons.operator_check import Column, Differences, OperatorCheck, Wave
 from comparisons.plan import Plan
 from comparisons.rank import from_first, is_first
 from comparisons.record import digest, versions
@@ -40,6 +41,10 @@ KEPT = {
         MeshField,
         BlockMesh,
         BlockSpec,
+        OperatorCheck,
+        Differences,
+        Column,
+        Wave,
     )
 }
 SOURCES = Path(__file__).resolve().parents[1]

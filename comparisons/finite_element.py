@@ -21,6 +21,7 @@ from comparisons.finite_element_nonlinear import pressed_finitely, pressed_plast
 from comparisons.finite_element_stress import pressed_linearly, stresses_of
 from comparisons.level import Level, Window
 from comparisons.nearest_operator import nearest_operator
+from comparisons.operator_difference import no_check, operator_check
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.stages import Stages, peak_memory
@@ -37,13 +38,15 @@ def finite_element_level(
     stages: Stages,
     approach: float | None = None,
     store: BodyStore | None = None,
+    check: bool = False,
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
     Ground to refine is predicted by the nearest analytic operator on the same pressure elements.
     If contact reaches ground that was not refined it is refined too and the level solved again.
     With `approach` [m], from first touch, it and not the load is prescribed. Levels that are given
-    the same `store` share what meshes and factors they have in common.
+    the same `store` share what meshes and factors they have in common. With `check` the bodies'
+    compliance is compared with the analytic one first.
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
@@ -63,27 +66,33 @@ def finite_element_level(
     refuse_too_large(problem, cost, grid.pitch)
     if approach is not None:
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
+    checked = None
     for _ in range(MOST_MESHES):
         bodies = bodies_of(problem, plan, refinement, ground, stages, store)
+        refined = bodies.rough.mesh.spec.intervals
         with stages.stage("contact", "finite elements: contact"):
             operator = mutual_compliance(problem, bodies, grid)
+        if check and no_check(scene) is None:
+            with stages.stage("check", "finite elements: compliance before contact"):
+                checked = operator_check(problem, operator, model, grid, refined)
+        with stages.stage("contact", "finite elements: contact"):
             solution = solve_mutual(operator, model, average, grid.weights, constraints, start)
         touching = grid.x[solution.pressure > 0.0]
-        refined = bodies.rough.mesh.spec.intervals
         missed = reaches_unrefined(refined, touching, reach=grid.pitch)
         if len(missed) == 0:
             break
         ground, start = merge(np.vstack([ground, missed])), solution.pressure
     else:
         solution = replace(solution, converged=False)  # it touches ground that was not refined
-    with stages.stage("contact", "finite elements: contact"):
-        pressed = pressed_linearly(problem, operator, grid, solution, average)
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
             pressed = pressed_finitely(problem, operator, grid, solution, constraints)
-    if scene.finite_element.plastic:
+    elif scene.finite_element.plastic:
         with stages.stage("plastic flow", "finite elements: plastic flow"):
             pressed = pressed_plastically(problem, operator, grid, solution, average, constraints)
+    else:
+        with stages.stage("contact", "finite elements: contact"):
+            pressed = pressed_linearly(problem, operator, grid, solution, average)
     solution = pressed.solution
     level = Level(
         grid=grid,
@@ -96,6 +105,7 @@ def finite_element_level(
         expected_seconds=cost.seconds,
         expected_memory=cost.memory,
         mesh=bodies.rough.mesh,
+        operator=checked,
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())

@@ -59,6 +59,10 @@ class MutualCompliance:
             part.factor * part.compliance.apply(pressure, part.friction) for part in self.parts
         )
 
+    def apply_all(self, pressures: np.ndarray) -> np.ndarray:
+        """`apply` to the columns of `pressures` (n, m) at once, (n, m) [m^2]."""
+        return sum(p.factor * p.compliance.apply_all(pressures, p.friction) for p in self.parts)
+
     def matrix(self) -> np.ndarray:
         """The same as a matrix (n, n) [m^2/Pa]: one back-substitution a column."""
         return sum(p.factor * p.compliance.matrix(p.friction) for p in self.parts)

@@ -1,7 +1,7 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
 from itertools import count
-from typing import Any
+from typing import TYPE_CHECKING
 
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import discretisations
@@ -11,10 +11,30 @@ from comparisons.problem import Problem
 from comparisons.rank import from_first
 from comparisons.stages import Listener, Stages, machine_memory, silent
 
+if TYPE_CHECKING:
+    from comparisons.finite_element_bodies import BodyStore
+
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 GROWTH_OF_TIME = 3.5  # of a level over the one before, at most
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 HALVED = "finite_element-halved"
+
+
+class CurrentBodies:
+    """The finite elements' bodies of the latest pitch alone, for a second level of it: coarser ones
+    would only fill the memory."""
+
+    def __init__(self) -> None:
+        self._pitch: float | None = None
+        self._store: BodyStore | None = None
+
+    def of(self, pitch: float) -> "BodyStore":
+        """The store of a pitch [m]."""
+        from comparisons.finite_element_bodies import BodyStore
+
+        if self._store is None or pitch != self._pitch:
+            self._pitch, self._store = pitch, BodyStore()
+        return self._store
 
 
 def refined(
@@ -31,13 +51,12 @@ def refined(
     """
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     halved: Level | None = None
-
-    shared: dict[str, Any] = {}
+    bodies = CurrentBodies()
 
     def solved(name: str, kept: str, pitch: float, tell: Listener, **how: bool) -> Level:
         level = checkpoint.load(kept)
         if level is None:
-            level = _solve(name, problem, plan, pitch, window, tell, shared, **how)
+            level = _solve(name, problem, plan, pitch, window, tell, bodies, **how)
             checkpoint.save(kept, level)
         return level
 
@@ -119,23 +138,19 @@ def _solve(
     pitch: float,
     window: Window | None,
     listener: Listener,
-    shared: dict[str, Any],
+    bodies: CurrentBodies,
     halved: bool = False,
 ) -> Level:
-    """One level of one model; what the other model alone needs is not imported.
-
-    `shared` keeps the bodies of one pitch, for a second level of it.
-    """
+    """One level of one model; what the other model alone needs is not imported."""
     if name == "half_plane":
         from comparisons.half_plane import half_plane_level
 
         stages = Stages(listener)
         return from_first(lambda: half_plane_level(problem, plan, pitch, window, stages))
     from comparisons.finite_element import finite_element_level
-    from comparisons.finite_element_bodies import BodyStore
     from comparisons.finite_element_mesh import Refinement
 
-    if shared.get("pitch") != pitch:  # the coarser ones would only fill the memory
-        shared |= {"pitch": pitch, "store": BodyStore()}
-    refinement, stages = Refinement(pitch, halved), Stages(listener)
-    return finite_element_level(problem, plan, refinement, window, stages, store=shared["store"])
+    refinement, stages, store = Refinement(pitch, halved), Stages(listener), bodies.of(pitch)
+    return finite_element_level(
+        problem, plan, refinement, window, stages, store=store, check=not halved
+    )

@@ -7,6 +7,7 @@ import numpy as np
 from analytic.contact import ContactSolution
 from analytic.gap import HatGrid
 from analytic.plane_stress import Extremum, PlaneStress
+from comparisons.operator_check import OperatorCheck
 from meshes.block import BlockMesh
 
 
@@ -82,6 +83,7 @@ class Level:
                   0 without finite elements
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
+    operator      finite elements only: their compliance before the contact, where it was checked
     """
 
     grid: HatGrid
@@ -97,6 +99,7 @@ class Level:
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None
+    operator: OperatorCheck | None = None
 
     @property
     def contact_length(self) -> float:

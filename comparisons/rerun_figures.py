@@ -145,6 +145,8 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return Stated(_pitch(recorded, model, entry), "one pressure element", half_width)
         case ("models", str(model), int(entry), "checks", _):
             return Stated(KKT_TOLERANCE, "convergence", 1.0)
+        case ("models", _, int(_), "operator", *_, "difference" | "beyond"):
+            return Stated(abs(value), "itself", 1.0)  # an error: as sure as its order of size
         case ("models", str(model), int(entry), "uncertainty", quantity, _):
             return Stated(_total(recorded, model, entry, quantity)[0], "itself", 1.0)
         case ("models", str(model), int(entry), "stress", place, _):
