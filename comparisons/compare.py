@@ -61,16 +61,30 @@ def norms(
     level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
     """The compared quantities of a pair of levels on the same pressure elements: relative L2."""
-    found = {"pressure_l2": relative_l2(level.solution.pressure, reference.solution.pressure)}
-    one, other = level.stress(friction), reference.stress(friction)
-    if one is not None and other is not None:
+    stresses = [each.stress(friction) for each in (level, reference)]
+    return pair_norms(
+        (level.solution.pressure, reference.solution.pressure),
+        tuple(None if stress is None else stress.field.tau1 for stress in stresses),
+        problem,
+        window,
+    )
+
+
+def pair_norms(
+    pressures: tuple[np.ndarray, np.ndarray],
+    tau1: tuple[np.ndarray | None, np.ndarray | None],
+    problem: Problem,
+    window: Window | None,
+) -> dict[str, float]:
+    """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k)
+    on the window, the second of each as reference; those of fields where both are there."""
+    found = {"pressure_l2": relative_l2(*pressures)}
+    if all(field is not None for field in tau1):
         weights = layer_thickness(window.z)[:, None]
         depth = window.z[:, None] / problem.hertz.half_width
         for name, part in (("near", depth < NEAR), ("deep", depth > DEEP)):
             if np.any(part):
-                found[f"tau1_field_{name}"] = relative_l2(
-                    one.field.tau1, other.field.tau1, np.where(part, weights, 0.0)
-                )
+                found[f"tau1_field_{name}"] = relative_l2(*tau1, np.where(part, weights, 0.0))
     return found
 
 
@@ -139,6 +153,18 @@ def discretisations(
         pair = norm_uncertainties(*runs.values(), problem, friction, window)
         found |= {name: u.discretisation for name, u in pair.items()}
     return found
+
+
+def compared(
+    problem: Problem, runs: dict[str, ModelRun], window: Window | None
+) -> tuple[Comparison, ...]:
+    """Every quantity at every friction coefficient, of finished runs of both models."""
+    pair = runs["half_plane"], runs["finite_element"]
+    return tuple(
+        row
+        for friction in problem.scene.friction
+        for row in compare(*pair, problem, friction, window)
+    )
 
 
 def compare(

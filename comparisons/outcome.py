@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from comparisons.budget.budget import ErrorBudget
 from comparisons.coupling import Coupling
 from comparisons.exit_status import ExitStatus
 from comparisons.level import ModelRun, Window
@@ -23,6 +24,7 @@ class Outcome:
     directory    where the files are
     couplings    what friction changes on the half-plane by moving the surfaces, one a friction
                  coefficient; empty where it moves nothing
+    budget       of the difference, None for one model
     """
 
     problem: Problem
@@ -34,6 +36,7 @@ class Outcome:
     record: dict
     directory: Path
     couplings: tuple[Coupling, ...] = ()
+    budget: ErrorBudget | None = None
 
     @property
     def converged(self) -> bool:
@@ -48,9 +51,11 @@ class Outcome:
 
     @property
     def exit_status(self) -> ExitStatus:
-        """3: a solver did not converge; 1: a quantity is outside its tolerance; else 0."""
+        """3: a solver did not converge; 1: a quantity is outside its tolerance, between the models
+        or by the half-plane's own error; else 0."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
-        if any(c.verdict == "differ" for c in self.comparisons):
+        fails = self.result["half_space"]["verdict"] == "fails"
+        if fails or any(c.verdict == "differ" for c in self.comparisons):
             return ExitStatus.OUTSIDE_TOLERANCE
         return ExitStatus.DONE

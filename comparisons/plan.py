@@ -7,6 +7,7 @@ leaves nothing out, for the test of that.
 from dataclasses import dataclass, replace
 
 from comparisons.assumptions import assumptions_of
+from comparisons.operator_difference import no_check
 from comparisons.problem import Problem
 from comparisons.scene import ResolvedScene
 
@@ -31,6 +32,7 @@ class Plan:
     tangential      compute the part that friction adds to them
     shared_factor   the roller's block is the body's with another modulus: one factorisation
     coupling        what friction does to the contact by moving the surfaces, on the half-plane
+    effects         compute those that the finite elements lack, where their estimates ask for it
     domain_check    repeat the coarsest finite-element level on a block of half the size
     skipped         what is left out, each with its reason
     assumptions     what the models of this run take for granted
@@ -42,6 +44,7 @@ class Plan:
     tangential: bool
     shared_factor: bool
     coupling: bool
+    effects: bool
     domain_check: bool
     skipped: tuple[Skipped, ...]
     assumptions: tuple[str, ...]
@@ -62,6 +65,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     coupling = "half_plane" in models and not all(uncoupled)
     unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
     domain_check = finite_elements and unbounded
+    effects = set(models) == set(MODELS) and scene.budget.effects and bool(scene.tolerance)
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
     ]
@@ -83,7 +87,14 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
             "factorisation of the roller's block",
             "it is the body's block with another modulus, or the same",
         )
+        skip(
+            not effects,
+            "effects that the finite elements lack",
+            "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged",
+        )
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
+        leans = no_check(scene)
+        skip(leans is not None, "check of the compliance before contact", leans)
     if set(models) != set(MODELS):
         skipped.append(Skipped("comparison", "it takes both models"))
     return Plan(
@@ -93,6 +104,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         tangential=tangential,
         shared_factor=shared,
         coupling=coupling,
+        effects=effects,
         domain_check=domain_check,
         skipped=tuple(skipped),
         assumptions=assumptions_of(problem),

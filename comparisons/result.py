@@ -1,5 +1,7 @@
 """The content of result.json, by the names that other people's scripts rely on."""
 
+from comparisons.budget.budget import ErrorBudget
+from comparisons.budget.content import budget_content
 from comparisons.compare import uncertainties
 from comparisons.coupling import Coupling
 from comparisons.level import Level, ModelRun, StressResult
@@ -7,7 +9,6 @@ from comparisons.plan import Plan, no_coupling
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.running_in import running_in_account
-from comparisons.unshown import unshown_effects
 from comparisons.verdict import Comparison, half_space_verdict
 
 SCHEMA = 1
@@ -20,16 +21,18 @@ def result_of(
     comparisons: tuple[Comparison, ...],
     refinement: str,
     couplings: tuple[Coupling, ...] = (),
+    budget: ErrorBudget | None = None,
 ) -> dict:
     """All figures of a run: SI units, None for what is unknown.
 
     refinement  why it stopped
     couplings   of the half-plane, one a friction coefficient
+    budget      of the comparison, None for one model
     """
     hertz = problem.hertz
     groups = _groups(problem, runs)
-    unshown = unshown_effects(problem, runs, couplings)
-    verdict, why = half_space_verdict(list(comparisons), unshown)
+    standings = [] if budget is None else budget.standings(problem.scene.tolerance)
+    verdict, why = half_space_verdict(standings)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
         by_quantity[row.quantity].append(
@@ -61,7 +64,8 @@ def result_of(
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
-        "half_space": {"verdict": verdict, "why": why, "shared_effects": unshown},
+        "budget": None if budget is None else budget_content(problem, runs, comparisons, budget),
+        "half_space": {"verdict": verdict, "why": why},
         "refinement": refinement,
         "assumptions": list(plan.assumptions),
         "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
@@ -117,7 +121,17 @@ def _model(
             "levels": [_cost_of(level) for level in run.levels],
         },
         **(_coupling(problem, friction, couplings) if run.name == "half_plane" else {}),
+        **(_operator(run) if run.name == "finite_element" else {}),
     }
+
+
+def _operator(run: ModelRun) -> dict:
+    """The compliance before contact: of the finest level, and the verdicts of all."""
+    found = run.finest.operator
+    if found is None:
+        return {"operator": None}
+    checks = [level.operator for level in run.levels]
+    return {"operator": found.as_dict() | {"levels": [c and c.verdict for c in checks]}}
 
 
 def _cost_of(level: Level) -> dict:

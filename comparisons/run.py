@@ -3,8 +3,9 @@
 from pathlib import Path
 
 from analytic.contact import ContactError
+from comparisons.budget.budget import error_budget
 from comparisons.checkpoint import Checkpoint
-from comparisons.compare import compare
+from comparisons.compare import compared
 from comparisons.coupling import couplings
 from comparisons.errors import InputError, SceneError, SolverError
 from comparisons.ladder import refined
@@ -95,21 +96,16 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
     try:
         runs, stop = refined(problem, plan, window, checkpoint, listener)
         moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
+        rows = compared(problem, runs, window) if plan.compares else ()
+        budget = None
+        if plan.compares:
+            budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, listener)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     except (ContactError, FemError, InputError, MeshError):
         checkpoint.discard()
         raise
-    comparisons = ()
-    if plan.compares:
-        comparisons = tuple(
-            row
-            for friction in problem.scene.friction
-            for row in compare(
-                runs["half_plane"], runs["finite_element"], problem, friction, window
-            )
-        )
-    result = result_of(problem, plan, runs, comparisons, stop, moved)
+    result = result_of(problem, plan, runs, rows, stop, moved, budget)
     hashes = {
         f"{name}_pressure": digest(level_run.finest.solution.pressure)
         for name, level_run in runs.items()
@@ -122,11 +118,12 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         plan=plan,
         window=window,
         runs=runs,
-        comparisons=comparisons,
+        comparisons=rows,
         result=result,
         record=record_of(problem.scene, runs, hashes),
         directory=out,
         couplings=moved,
+        budget=budget,
     )
     write_files(outcome, listener)
     checkpoint.discard()

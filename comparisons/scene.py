@@ -182,10 +182,12 @@ class Resolution:
 
 @dataclass(frozen=True)
 class Budget:
-    """What a run may take: `time` [s] and `memory` [bytes]."""
+    """What a run may take: `time` [s] and `memory` [bytes]; and whether it computes the `effects`
+    that the scene's finite elements lack and that may matter."""
 
     time: float
     memory: float
+    effects: bool = True
 
 
 @dataclass(frozen=True)

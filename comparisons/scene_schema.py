@@ -152,6 +152,7 @@ class ResolutionTable(Table):
 class BudgetTable(Table):
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
+    effects: Annotated[bool, Truth()] = True
 
 
 class SceneTables(Table):

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.outcome import Outcome
+from comparisons.report.budget_rows import budget_rows, left_out_line
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.coupling import coupling_line
 from comparisons.report.headline import headline
@@ -66,9 +67,13 @@ def summary(outcome: Outcome) -> "RenderableType":
     verdict = Text()
     verdict.append(said.kind.upper(), style=STYLES.get(said.kind, "bold"))
     verdict.append(f"  {said.sentence.translate(PLAIN)}")
-    table = _comparison(outcome) if outcome.comparisons else _figures(outcome)
     title = Text(outcome.problem.scene.title, style="bold")
-    return Group(title, "", table, "", verdict, "", _facts(outcome))
+    if not outcome.comparisons:
+        return Group(title, "", _figures(outcome), "", verdict, "", _facts(outcome))
+    tables = [_comparison(outcome), ""]
+    if outcome.problem.scene.tolerance:
+        tables += [_own_errors(outcome), ""]
+    return Group(title, "", *tables, verdict, "", _facts(outcome))
 
 
 def _comparison(outcome: Outcome) -> "Table":
@@ -85,6 +90,17 @@ def _comparison(outcome: Outcome) -> "Table":
             row.tolerance,
         )
         table.add_row(*map(_cell, cells), _cell(row.verdict, STYLES.get(row.verdict, "")))
+    return table
+
+
+def _own_errors(outcome: Outcome) -> "Table":
+    """Of the half-plane in what is judged, and what it is made of."""
+    table = _table("mu", "own\nerror %", "uncert.\n%", "tol.\n%")
+    table.columns[0].header = "half-plane alone"
+    table.add_column("of it, %", overflow="fold")
+    for row in budget_rows(outcome, judged=True):
+        cells = (SHORT[row.quantity], row.friction, row.own, row.uncertainty, row.tolerance)
+        table.add_row(*map(_cell, cells), _cell(row.parts.replace(" %", "")))
     return table
 
 
@@ -161,6 +177,8 @@ def _facts(outcome: Outcome) -> "Table":
         facts.add_row("surface", Text(surface.translate(PLAIN)))
     if scene.worn is not None:
         facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
+    if outcome.budget is not None:
+        facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN)))
     moved = coupling_line(outcome)
     if moved is not None:
         facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))

@@ -35,6 +35,7 @@ import numpy as np
 LOWEST_ORDER = 1.0
 FACTOR = 1.25  # of safety, on three grids
 DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
+TWO_GRIDS = 3.0  # of safety, where the order is not observed (Roache 1998)
 SETTLED = 1e-12  # relative differences below this are round-off
 ORDER_MARGIN = 0.25  # an order this little beyond its limits is still regular
 
@@ -91,3 +92,15 @@ def grid_convergence(
         return Convergence(value, value, uncertainty, observed, "diverging")
     limit = fine + last / (2.0**order - 1.0)
     return Convergence(value, limit, uncertainty, observed, "monotone")
+
+
+def two_grids(values: Sequence[float], resolution: float = 0.0) -> float:
+    """Uncertainty of the last of two values of a figure, taken to converge by the lowest order;
+    infinite where there is one.
+
+    resolution  as in `grid_convergence`
+    """
+    if len(values) < 2:
+        return np.inf
+    change = abs(float(values[-1]) - float(values[-2]))
+    return max(TWO_GRIDS * change / (2.0**LOWEST_ORDER - 1.0), resolution)

@@ -1,6 +1,7 @@
 """From differences and uncertainties to verdicts."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -40,54 +41,77 @@ def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
     return "agree" if abs(difference) <= tolerance else "differ"
 
 
-def half_space_verdict(
-    comparisons: list[Comparison], unshown: dict[str, dict[str, float]]
-) -> tuple[Literal["holds", "fails", "undecided"], str]:
-    """Whether the half-plane's assumption holds in this scene, and which figures decide it.
+@dataclass(frozen=True)
+class Standing:
+    """Where the half-plane stands in a judged quantity; all relative.
 
-    unshown   by quantity and name, estimates (relative) of the effects that the finite-element
-              model of this run cannot show; independent of each other, they are added as squares.
-              An agreement within the tolerance proves nothing where they exceed it, nor does a
-              difference that they could explain.
+    value        its own error: half-plane against finite elements with every effect that matters
+    uncertainty  numerical, of that
+    unshown      by name, estimates of the effects that no model has; independent of each other
     """
-    judged = [c for c in comparisons if c.verdict is not None]
-    if not judged:
+
+    quantity: str
+    friction: float
+    value: float
+    uncertainty: float
+    unshown: dict[str, float]
+    tolerance: float
+
+    @property
+    def doubt(self) -> float:
+        """Uncertainty with what no model shows, which is added as squares."""
+        return self.uncertainty + math.hypot(*self.unshown.values())
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether the error is within the tolerance beyond doubt."""
+        return abs(self.value) + self.doubt <= self.tolerance
+
+    @property
+    def is_outside(self) -> bool:
+        """Whether the error exceeds the tolerance beyond doubt."""
+        return abs(self.value) - self.doubt > self.tolerance
+
+
+HalfSpace = Literal["holds", "fails", "undecided"]
+
+
+def half_space_verdict(standings: Sequence[Standing]) -> tuple[HalfSpace, str]:
+    """Whether the half-plane's assumption holds in a scene, and which figures decide it.
+
+    An error within the tolerance, or outside it, counts only where no doubt could move it across.
+    """
+    if not standings:
         return "undecided", "no quantity was judged against a tolerance"
+    outside = [s for s in standings if s.is_outside]
+    if outside:
+        return "fails", f"outside the tolerance: {_named(outside)}"
+    unclear = [s for s in standings if not s.is_inside]
+    if not unclear:
+        worst = max(standings, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+        return "holds", f"every judged error is within its tolerance; nearest: {_named([worst])}"
+    numerical = [s for s in unclear if abs(s.value) + s.uncertainty > s.tolerance]
+    if numerical:
+        return "undecided", f"an error cannot be told from its tolerance: {_named(numerical)}"
+    return "undecided", (
+        f"what no model of this run contains may move an error across its tolerance: "
+        f"{_named(unclear)}, by {_effects(unclear)}"
+    )
 
-    def size(c: Comparison) -> float:
-        return math.hypot(*unshown.get(c.quantity, {}).values())
 
-    def named(items: list[Comparison]) -> str:
-        return ", ".join(
-            f"{c.quantity} {c.difference:+.2%} at friction {c.friction:g} (tolerance "
-            f"{c.tolerance:.2g})"
-            for c in items
-        )
+def _named(standings: Sequence[Standing]) -> str:
+    return ", ".join(
+        f"{s.quantity} {s.value:+.2%} +- {s.uncertainty:.2%} at friction {s.friction:g} "
+        f"(tolerance {s.tolerance:.2g})"
+        for s in standings
+    )
 
-    def effects(items: list[Comparison]) -> str:
-        alike: dict[str, list[str]] = {}
-        for name in dict.fromkeys(c.quantity for c in items):
-            sizes = ", ".join(f"{effect} {s:.1%}" for effect, s in unshown[name].items())
-            alike.setdefault(sizes, []).append(name)
-        return "; ".join(f"{', '.join(names)} by {sizes}" for sizes, names in alike.items())
 
-    differing = [c for c in judged if c.verdict == "differ"]
-    proven = [c for c in differing if abs(c.difference) > size(c)]
-    if proven:
-        return "fails", f"outside the tolerance: {named(proven)}"
-    if differing:
-        return "undecided", (
-            f"outside the tolerance: {named(differing)}, but what this run's finite elements "
-            f"lack may move {effects(differing)}"
-        )
-    unclear = [c for c in judged if c.verdict == "indistinct"]
-    if unclear:
-        return "undecided", f"numerical uncertainty above the tolerance: {named(unclear)}"
-    unproven = [c for c in judged if size(c) > c.tolerance]
-    if unproven:
-        return "undecided", (
-            "both models agree, but what neither contains may exceed the tolerance: "
-            f"it may move {effects(unproven)}"
-        )
-    worst = max(judged, key=lambda c: abs(c.difference) / c.tolerance)
-    return "holds", f"all judged quantities agree; nearest to its tolerance: {named([worst])}"
+def _effects(standings: Sequence[Standing]) -> str:
+    """The largest estimate of each effect."""
+    largest: dict[str, float] = {}
+    for standing in standings:
+        for name, size in standing.unshown.items():
+            largest[name] = max(size, largest.get(name, 0.0))
+    by_size = sorted(largest.items(), key=lambda item: -item[1])
+    return ", ".join(f"{name} {size:.1%}" for name, size in by_size)

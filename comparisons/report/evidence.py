@@ -4,6 +4,7 @@ import shlex
 from dataclasses import dataclass
 
 from analytic.contact import KKT_TOLERANCE
+from comparisons.budget.effects import EFFECTS
 from comparisons.compare import (
     Uncertainty,
     figures,
@@ -16,7 +17,6 @@ from comparisons.outcome import Outcome
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
 from comparisons.report.numbers import (
-    given_percent,
     integer,
     percent,
     plain,
@@ -137,29 +137,22 @@ def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
     )
 
 
-def shared_table(outcome: Outcome) -> Table | None:
-    """Estimates of what neither model contains, by quantity; None without, or with one model."""
-    if not outcome.plan.compares:
+def effects_table(outcome: Outcome) -> Table | None:
+    """What became of each effect that the half-plane lacks; None with one model."""
+    if outcome.budget is None:
         return None
-    estimates = outcome.result["half_space"].get("shared_effects") or {}
-    effects = list(dict.fromkeys(name for sizes in estimates.values() for name in sizes))
-    if not effects:
-        return None
-    tolerance = outcome.problem.scene.tolerance
-    rows = []
-    for name, sizes in estimates.items():
-        cells = [percent(sizes[effect]) if effect in sizes else "" for effect in effects]
-        allowed = tolerance.get(name)
-        rows.append(
-            (
-                label(name),
-                *cells,
-                percent(sum(sizes.values())),
-                "" if allowed is None else given_percent(allowed),
-            )
-        )
-    head = ("", *effects, "together", "tolerance")
-    return Table("What neither model contains (estimates)", head, tuple(rows))
+    judged, rows = set(outcome.problem.scene.tolerance), []
+    for name, effect in outcome.result["budget"]["effects"].items():
+        estimate = effect["estimate"]
+        if effect["status"] == "none":
+            continue
+        largest = ""
+        if estimate is not None:
+            sizes = [estimate[q] for q in judged & set(estimate)] or list(estimate.values())
+            largest = percent(max(sizes))
+        rows.append((name, EFFECTS[name].words, effect["status"], largest, effect["because"]))
+    head = ("effect", "what the half-plane lacks", "", "estimate, at most", "because")
+    return Table("", head, tuple(rows)) if rows else None
 
 
 def check_table(outcome: Outcome) -> Table:

@@ -1,5 +1,6 @@
 """The verdict in one sentence, with the number that decides it."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
@@ -12,11 +13,10 @@ from comparisons.report.numbers import (
     percent,
     plain,
     significant,
-    vanishes,
     with_unit,
 )
-from comparisons.report.words import MODELS, in_words, label
-from comparisons.verdict import Comparison
+from comparisons.report.words import MODELS, label
+from comparisons.verdict import Standing, half_space_verdict
 
 Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
 
@@ -39,74 +39,78 @@ def headline(outcome: Outcome) -> Headline:
         )
     if not outcome.plan.compares:
         return Headline("not compared", _one_model(outcome))
-    verdict, why = outcome.result["half_space"]["verdict"], outcome.result["half_space"]["why"]
-    judged = [row for row in outcome.comparisons if row.verdict is not None]
-    if not judged:
+    standings = outcome.budget.standings(outcome.problem.scene.tolerance)
+    verdict, _ = half_space_verdict(standings)
+    if not standings:
         return Headline(
             "undecided", "The half-plane cannot be judged here: no figure has a tolerance."
         )
     several = len(outcome.problem.scene.friction) > 1
-    if verdict == "fails":
-        outside = _by_distance(row for row in judged if row.verdict == "differ")
-        more = len(outside) - 1
-        others = f"; {more} more of {len(judged)} judged figures" if more else ""
-        are = " are outside their tolerance" if more > 1 else " is outside its tolerance"
-        return Headline(
-            "fails",
-            f"The half-plane fails here: the {_said(outside[0], several)}"
-            f"{others + are if more else ''}.",
-        )
     if verdict == "holds":
         return Headline(
             "holds",
-            f"The half-plane holds here: {_all_judged(judged)}; nearest to its tolerance, the "
-            f"{_said(_by_distance(judged)[0], several)}.",
+            f"The half-plane holds here: {_all_judged(standings)}; nearest to its tolerance, "
+            f"{_said(_nearest(standings), several)}.",
         )
-    unclear = [row for row in judged if row.verdict == "indistinct"]
-    if unclear:
-        row = max(unclear, key=lambda row: (row.uncertainty or float("inf")) / row.tolerance)
+    if verdict == "fails":
+        outside = [s for s in standings if s.is_outside]
+        more = len(outside) - 1
+        are = "are" if more > 1 else "is"
+        others = f"; {more} more of {len(standings)} judged errors {are} outside" if more else ""
+        return Headline(
+            "fails",
+            f"The half-plane fails here: {_said(_nearest(outside), several)}"
+            f"{_made_of(outcome, _nearest(outside))}{others}.",
+        )
+    unclear = [s for s in standings if not s.is_inside]
+    numerical = [s for s in unclear if abs(s.value) + s.uncertainty > s.tolerance]
+    worst = _nearest(numerical or unclear)
+    if numerical:
         return Headline(
             "undecided",
-            f"The half-plane cannot be judged here: the {_said(row, several)}; an uncertainty "
-            "above the tolerance asks for refinement, not for a conclusion.",
+            f"The half-plane cannot be judged here: {_said(worst, several)}, an uncertainty that "
+            "reaches across the tolerance.",
         )
-    nearest = _said(_by_distance(judged)[0], several)
+    missing = max(worst.unshown, key=lambda name: worst.unshown[name])
     return Headline(
         "undecided",
-        f"The half-plane cannot be judged here: {in_words(why)}; nearest to its tolerance, the "
-        f"{nearest}.",
+        f"The half-plane cannot be judged here: {_said(worst, several)}, but what no model of this "
+        f"run contains may move it by {percent(math.hypot(*worst.unshown.values()))}, "
+        f"{missing} most.",
     )
 
 
-def _all_judged(judged: list[Comparison]) -> str:
+def _all_judged(standings: list[Standing]) -> str:
+    if len(standings) == 1:
+        return "the one judged error is within its tolerance"
+    return f"all {len(standings)} judged errors are within their tolerances"
+
+
+def _nearest(standings: Iterable[Standing]) -> Standing:
+    """The one farthest outside, or nearest to, its tolerance, its doubt included."""
+    return max(standings, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+
+
+def _said(standing: Standing, several: bool) -> str:
+    """An error of the half-plane as a clause: what, how much, tolerance, uncertainty."""
+    quantity = QUANTITIES[standing.quantity]
+    where = f" at friction {plain(standing.friction)}" if several and quantity.needs_stress else ""
+    doubt = standing.uncertainty
+    size = percent(standing.value, signed=not quantity.of_pair, uncertainty=doubt)
     return (
-        "the one judged figure agrees"
-        if len(judged) == 1
-        else f"all {len(judged)} judged figures agree"
+        f"its own error in the {label(standing.quantity)}{where} is {size} "
+        f"(tolerance {given_percent(standing.tolerance)}, uncertainty {percent(doubt)})"
     )
 
 
-def _by_distance(rows: Iterable[Comparison]) -> list[Comparison]:
-    """Farthest outside, or nearest to, its tolerance first."""
-    return sorted(rows, key=lambda row: -abs(row.difference) / row.tolerance)
-
-
-def _said(row: Comparison, several: bool) -> str:
-    """A comparison as a clause: what differs, by how much, tolerance, uncertainty."""
-    quantity = QUANTITIES[row.quantity]
-    where = f" at friction {plain(row.friction)}" if several and quantity.needs_stress else ""
-    bounds = f"(tolerance {given_percent(row.tolerance)}, uncertainty {percent(row.uncertainty)})"
-    subject = f"{label(row.quantity)}{where}"
-    if row.difference is None:
-        return f"{subject} has no relative difference {bounds}"
-    size = percent(abs(row.difference), uncertainty=row.uncertainty)
-    if quantity.of_pair:
-        return f"{subject} is {size} {bounds}"
-    if vanishes(row.difference, row.uncertainty):
-        within = " within their uncertainty" if row.difference else ""
-        return f"{subject} is the same in both models{within} {bounds}"
-    side = "above" if row.difference > 0.0 else "below"
-    return f"{subject} is {size} {side} the finite elements' {bounds}"
+def _made_of(outcome: Outcome, standing: Standing) -> str:
+    """The effect that makes most of an error, if one makes more than half."""
+    own = outcome.budget.of(standing.quantity, standing.friction)
+    if not own.effects:
+        return ""
+    name = max(own.effects, key=lambda name: abs(own.effects[name].value))
+    made = abs(own.effects[name].value)
+    return f", most of it {name}" if made > 0.5 * abs(own.value) else ""
 
 
 def _one_model(outcome: Outcome) -> str:

@@ -105,12 +105,6 @@ def percent(
     return f"{sign}{size:.{max(0, decimals)}f} %"
 
 
-def vanishes(value: float, uncertainty: float | None) -> bool:
-    """Whether nothing of a ratio is left in the digits that its uncertainty supports."""
-    last = _last_supported(uncertainty)
-    return value == 0.0 or (last is not None and round(100.0 * abs(value), last) == 0.0)
-
-
 def _last_supported(uncertainty: float | None) -> int | None:
     """Decimals of a percentage down to one beyond its uncertainty's leading digit."""
     if not uncertainty or not math.isfinite(uncertainty):

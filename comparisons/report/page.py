@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons.outcome import Outcome
+from comparisons.report.budget_rows import budget_rows
 from comparisons.report.comparison_rows import comparison_rows, figure_rows
 from comparisons.report.coupling import coupling_table
 from comparisons.report.evidence import (
@@ -12,10 +13,11 @@ from comparisons.report.evidence import (
     commands,
     convergence_tables,
     cost_table,
+    effects_table,
     record_rows,
-    shared_table,
 )
 from comparisons.report.headline import headline
+from comparisons.report.operator import operator_note, operator_table
 from comparisons.report.sheet import problem_sheet
 from comparisons.report.style import Picture, drawing
 from comparisons.report.words import MODELS
@@ -37,6 +39,7 @@ class Pictures:
     near: list[Picture]
     sections: list[Picture]
     mesh: list[Picture]
+    budget: Picture | None
     cost: Picture
 
 
@@ -66,8 +69,11 @@ def render(outcome: Outcome) -> str:
         refinement=outcome.result["refinement"],
         convergence=convergence_tables(outcome),
         coupling=coupling_table(outcome),
-        shared=shared_table(outcome),
+        budget=budget_rows(outcome) if outcome.budget is not None else [],
+        effects=effects_table(outcome),
         checks=check_table(outcome),
+        operator=operator_table(outcome),
+        operator_note=operator_note(outcome),
         cost=cost_table(outcome),
         record=record_rows(outcome),
         commands=commands(outcome),
@@ -77,6 +83,7 @@ def render(outcome: Outcome) -> str:
 
 def draw(outcome: Outcome) -> Pictures:
     """Draw what applies to the run."""
+    from comparisons.report.budget_picture import budget_picture
     from comparisons.report.cost_picture import cost_picture
     from comparisons.report.field_pictures import field_pictures, near_surface_pictures
     from comparisons.report.mesh_picture import mesh_pictures
@@ -98,4 +105,5 @@ def draw(outcome: Outcome) -> Pictures:
             sections=section_pictures(outcome),
             mesh=mesh_pictures(outcome),
             cost=cost_picture(outcome),
+            budget=budget_picture(outcome),
         )

@@ -1,7 +1,5 @@
 """Names of models and quantities as a reader says them, with the symbols of the pictures."""
 
-import re
-
 from comparisons.quantities import QUANTITIES
 
 MODELS = {"half_plane": "half-plane", "finite_element": "finite-element"}  # the … model
@@ -11,7 +9,6 @@ _SYMBOLS = {
     "tau1_max_depth": "depth of the largest τ₁",
     "txz_max_abs": "largest orthogonal shear stress |τxz|",
 }
-_NAMES = re.compile(r"\b(" + "|".join(QUANTITIES) + r")\b")
 
 
 def label(quantity: str) -> str:
@@ -19,8 +16,3 @@ def label(quantity: str) -> str:
     if quantity not in QUANTITIES:
         return quantity.replace("_", " ")
     return _SYMBOLS.get(quantity, QUANTITIES[quantity].label.replace("tau1", "τ₁"))
-
-
-def in_words(text: str) -> str:
-    """A sentence with the names of result.json replaced by their words."""
-    return _NAMES.sub(lambda found: label(found[0]), text)

@@ -5,7 +5,9 @@ with a structured mesh beside it: what shows results needs results, not a factor
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -15,7 +17,9 @@ from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.plane_stress import Extremum, PlaneStress
-from comparisons.compare import compare
+from comparisons.budget.budget import error_budget
+from comparisons.checkpoint import Checkpoint
+from comparisons.compare import compared
 from comparisons.level import Level, MeshField, ModelRun, StressResult, Window
 from comparisons.outcome import Outcome
 from comparisons.plan import make_plan
@@ -23,10 +27,12 @@ from comparisons.problem import Problem, problem_of
 from comparisons.record import digest, record_of
 from comparisons.resolve import resolve_tables
 from comparisons.result import result_of
+from comparisons.stages import silent
 from meshes.block import BlockMesh, BlockSpec
 
 MODELS = ("half_plane", "finite_element")
 STIFFER = 1.01
+SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
     "title": "Smooth roller on a smooth half-plane",
@@ -128,15 +134,14 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         )
         for name in models
     }
-    comparisons = ()
+    comparisons, budget = (), None
     if plan.compares:
-        comparisons = tuple(
-            row
-            for friction in scene.friction
-            for row in compare(
-                runs["half_plane"], runs["finite_element"], problem, friction, window
-            )
-        )
+        plan = replace(plan, effects=False)  # there are no finite elements to show any
+        comparisons = compared(problem, runs, window)
+        kept = Checkpoint(Path("results/made"), scene, plan)
+        rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
+        with patch("comparisons.budget.budget.sampling_changes", lambda *_: rows):
+            budget = error_budget(problem, plan, window, runs, comparisons, (), kept, silent)
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }
@@ -146,9 +151,12 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         window=window,
         runs=runs,
         comparisons=comparisons,
-        result=result_of(problem, plan, runs, comparisons, "every judged quantity is resolved"),
+        result=result_of(
+            problem, plan, runs, comparisons, "every judged quantity is resolved", (), budget
+        ),
         record=record_of(scene, runs, hashes),
         directory=Path("results/made"),
+        budget=budget,
     )
 
 

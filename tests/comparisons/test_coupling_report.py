@@ -1,6 +1,5 @@
 """What friction does by moving the surfaces: measured, told, judged, and left out where nothing."""
 
-import io
 import json
 from dataclasses import replace
 from pathlib import Path
@@ -10,10 +9,9 @@ import numpy as np
 import pytest
 
 import comparisons.coupling
-from analytic.material import Material, combined_modulus, dundurs_constants
+from comparisons.budget.estimates import estimates
 from comparisons.coupling import OFF_THE_GROUND, SHIFT, couplings
 from comparisons.errors import SceneError
-from comparisons.exit_status import ExitStatus
 from comparisons.half_plane import half_plane_level
 from comparisons.level import ModelRun
 from comparisons.outcome import Outcome
@@ -25,8 +23,6 @@ from comparisons.report.numbers import UNKNOWN
 from comparisons.resolve import resolve_tables
 from comparisons.run import run
 from comparisons.stages import Stages, silent
-from comparisons.table import summary
-from comparisons.unshown import unshown_effects
 
 REFERENCES = json.loads(
     (Path(__file__).resolve().parents[1] / "data" / "f_rounded_punch_and_sliding.json").read_text(
@@ -61,6 +57,11 @@ def half_plane_of(problem) -> ModelRun:
         half_plane_level(problem, plan, pitch, None, Stages(silent)) for pitch in problem.pitches
     )
     return ModelRun("half_plane", tuple(levels))
+
+
+def coupling_estimate(problem, couplings) -> dict | None:
+    """How much friction may change by moving the surfaces, by quantity."""
+    return estimates(problem, problem.hertz.peak_pressure, (), couplings).get("coupling")
 
 
 @pytest.fixture(scope="module")
@@ -131,10 +132,7 @@ class TestFigures:
         outcome = replace(rigid, couplings=(told,))
         [row] = [row for row in coupling_table(outcome).rows if "depth" in row[0]]
         assert row[1:] == ("3.000 µm", UNKNOWN)
-        unshown = unshown_effects(problem, rigid.runs, (told,))
-        effect = {
-            name: unshown[name]["friction moving the surfaces"] for name in moved if name in unshown
-        }
+        effect = coupling_estimate(problem, (told,))
         assert effect["peak_pressure"] == pytest.approx(0.5)
         scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
         assert effect["tau1_max_depth"] == pytest.approx(3e-6 / scale)
@@ -283,81 +281,23 @@ class TestRoughGround:
         assert found.as_dict() is None
 
 
-class TestVerdict:
-    def test_measured_effects_replace_the_estimate(self, rigid):
-        effects = unshown_effects(rigid.problem, rigid.runs, rigid.couplings)
+class TestEstimate:
+    def test_measured_changes_take_the_place_of_the_estimate(self, rigid):
+        effect = coupling_estimate(rigid.problem, rigid.couplings)
         last = rigid.couplings[2].changes
         for name in ("peak_pressure", "contact_length", "pressure_l2", "tau1_max_depth"):
-            moved = effects[name]["friction moving the surfaces"]
-            assert moved == abs(last[name].difference)
+            assert effect[name] == abs(last[name].difference)
 
     def test_what_was_not_measured_is_estimated(self, rigid):
-        effects = unshown_effects(rigid.problem, rigid.runs, ())
+        effect = coupling_estimate(rigid.problem, ())
         size = 0.3 * rigid.problem.dundurs_beta
-        moved = effects["pressure_l2"]["friction moving the surfaces"]
-        assert moved == pytest.approx(0.64 * size)
+        assert effect["pressure_l2"] == pytest.approx(0.64 * size)
         without = [replace(c, changes={}, why=OFF_THE_GROUND) for c in rigid.couplings]
-        assert unshown_effects(rigid.problem, rigid.runs, tuple(without)) == effects
+        assert coupling_estimate(rigid.problem, tuple(without)) == effect
 
-    def test_what_is_contained_is_not_missing(self, rigid_coupled):
-        effects = unshown_effects(
-            rigid_coupled.problem, rigid_coupled.runs, rigid_coupled.couplings
-        )
-        assert "friction moving the surfaces" not in str(effects)
+    def test_what_both_models_contain_is_not_missing(self, rigid_coupled):
+        assert coupling_estimate(rigid_coupled.problem, rigid_coupled.couplings) is None
 
     def test_equal_materials_have_no_such_effect(self, wavy_outcome):
         assert wavy_outcome.problem.dundurs_beta == 0.0
-        assert "friction moving" not in str(wavy_outcome.result["half_space"])
-
-    def test_an_unconverged_change_is_told(self, rigid):
-        broken = replace(rigid.couplings[2], converged=False)
-        outcome = replace(rigid, couplings=(broken,))
-        assert outcome.exit_status == ExitStatus.NOT_CONVERGED
-        assert rigid.exit_status == ExitStatus.DONE
-        assert "surfaces moved by friction 0.3" in " ".join(text_of(outcome).split())
-
-
-def text_of(outcome: Outcome, width: int = 100) -> str:
-    from rich.console import Console
-
-    console = Console(width=width, record=True, file=io.StringIO())
-    console.print(summary(outcome))
-    return console.export_text()
-
-
-class TestTelling:
-    def test_terminal_has_one_line(self, rigid, rigid_coupled):
-        line = coupling_line(rigid)
-        assert line.startswith(
-            "friction 0.3 moves the surfaces (left out): the contact by −15.3 µm"
-        )
-        assert "−7.3 % of a" in line and "peak pressure −0.071 %" in line
-        assert "(contained)" in coupling_line(rigid_coupled)
-        shown = " ".join(text_of(rigid).split())
-        assert (
-            "coupling friction 0.3 moves the surfaces (left out): the contact by -15.3 um" in shown
-        )
-
-    def test_report_has_a_table(self, rigid):
-        table = coupling_table(rigid)
-        assert table.head == ("", "friction 0.1", "change", "friction 0.3", "change")
-        rows = {row[0]: row[1:] for row in table.rows}
-        assert rows["peak pressure"][2:] == ("3.028 GPa", "−0.071 %")
-        assert rows["shift of the pressure's centroid"][3] == "−7.3 % of a"
-        assert rows["pressures, relative L2 difference"][0] == ""
-        page = (rigid.directory / "report.html").read_text(encoding="utf-8")
-        assert "Half-plane, surfaces moved by friction" in page
-
-    def test_report_of_equal_materials_has_none(self, wavy_outcome):
-        assert coupling_table(wavy_outcome) is None
-
-    def test_result_file_holds_it(self, rigid):
-        text = (rigid.directory / "result.json").read_text(encoding="utf-8")
-        [_, one, other] = json.loads(text)["models"]["half_plane"]
-        assert one["coupling"][SHIFT]["value"] > other["coupling"][SHIFT]["value"]
-        assert set(other["coupling"]) >= {"peak_pressure", "contact_length", SHIFT}
-
-
-def test_reference_case_is_the_scene_s_material():
-    assert dundurs_constants(Material(**STEEL), None)[1] == pytest.approx(2.0 / 7.0)
-    assert combined_modulus(None, Material(**STEEL)) == pytest.approx(210e9 / 0.91)
+        assert coupling_estimate(wavy_outcome.problem, ()) is None

@@ -15,7 +15,6 @@ from comparisons.outcome import Outcome
 from comparisons.report.comparison_rows import comparison_rows
 from comparisons.report.headline import headline
 from comparisons.report.page import render
-from comparisons.verdict import Comparison
 
 VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
@@ -145,8 +144,8 @@ def count(page: Page, word: str) -> int:
 
 def test_a_rough_run_with_friction_has_all_pictures(wavy_page: Page):
     # problem, pressure, close-up, surfaces; two fields and a near-surface one for each of the two
-    # friction coefficients; two sections; three meshes; cost
-    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1
+    # friction coefficients; two sections; three meshes; cost; error budget
+    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1
     assert count(wavy_page, "next to the surface") == 2
     assert count(wavy_page, "Orthogonal shear stress") == 2
     assert count(wavy_page, "over depth") == 2
@@ -155,7 +154,7 @@ def test_a_rough_run_with_friction_has_all_pictures(wavy_page: Page):
 
 
 def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page: Page):
-    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1
+    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1
     assert count(smooth_page, "next to the surface") == 0
     assert count(smooth_page, "right-hand edge") == 1
     assert "Ra, Rq" not in smooth_page.text
@@ -165,6 +164,7 @@ def test_sections_come_in_the_order_of_a_verification_report(wavy_page: Page):
     assert wavy_page.sections == [
         "problem",
         "comparison",
+        "budget",
         "contact",
         "stresses",
         "convergence",
@@ -305,29 +305,6 @@ def test_peaks_that_the_hardness_holds_are_no_evidence(
     assert cell not in render(smooth_outcome)  # without a hardness
 
 
-def test_what_neither_model_contains_stands_with_its_size(wavy_outcome: Outcome):
-    def shared(estimates: dict) -> list[list[list[str]]]:
-        said = {**wavy_outcome.result["half_space"], "shared_effects": estimates}
-        page = Page(
-            render(replace(wavy_outcome, result={**wavy_outcome.result, "half_space": said}))
-        )
-        assert ("What neither model contains" in page.text) == bool(estimates)
-        return [table for table in page.tables if table[0][-2:] == ["together", "tolerance"]]
-
-    [table] = shared(
-        {
-            "peak_pressure": {"finite rotation": 0.0012, "finite strain": 0.004},
-            "txz_max_abs": {"finite strain": 0.0035, "the real boundary": 0.08},
-        }
-    )
-    assert table == [
-        ["", "finite rotation", "finite strain", "the real boundary", "together", "tolerance"],
-        ["peak pressure", "0.12 %", "0.40 %", "", "0.52 %", "2 %"],
-        ["largest orthogonal shear stress |τxz|", "", "0.35 %", "8.0 %", "8.3 %", ""],
-    ]
-    assert shared({}) == []
-
-
 def test_words_never_carry_the_names_of_result_files(wavy_page: Page):
     assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Left out")[0])
 
@@ -400,59 +377,6 @@ def test_the_page_of_a_field_of_full_size_stays_small(finish: Callable[..., Outc
         "stress": {"points": [600, 200], "depth": 1.0},
     }
     assert len(render(finish(tables))) < 4_000_000
-
-
-def row(quantity: str, difference: float | None, uncertainty: float, verdict: str) -> Comparison:
-    return Comparison(quantity, 0.0, 1.0, 1.0, difference, uncertainty, 0.02, verdict)
-
-
-def judged(outcome: Outcome, verdict: str, why: str, *rows: Comparison) -> Outcome:
-    said = {"verdict": verdict, "why": why}
-    return replace(outcome, comparisons=rows, result={**outcome.result, "half_space": said})
-
-
-def test_the_headline_of_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Outcome):
-    rows = (row("peak_pressure", 1e-3, 1e-4, "agree"), row("tau1_max", -0.0123, 1e-3, "agree"))
-    said = headline(judged(smooth_outcome, "holds", "", *rows))
-    assert said.kind == "holds"
-    assert "principal shear stress τ₁ is 1.2 % below the finite elements'" in said.sentence
-    assert "(tolerance 2 %, uncertainty 0.10 %)" in said.sentence
-
-
-def test_the_headline_says_no_more_than_the_uncertainty_supports(smooth_outcome: Outcome):
-    for difference, uncertainty, words in (
-        (0.01234, 0.0138, "is 1.2 % above"),
-        (0.0014, 0.0138, "is 0.1 % above"),
-        (-0.0004, 0.0138, "is the same in both models within their uncertainty (tol"),
-        (0.0, 0.0138, "is the same in both models (tol"),
-    ):
-        agrees = row("peak_pressure", difference, uncertainty, "agree")
-        assert words in headline(judged(smooth_outcome, "holds", "", agrees)).sentence
-
-
-def test_the_headline_of_failure_names_what_is_farthest_outside(smooth_outcome: Outcome):
-    rows = (
-        row("peak_pressure", 0.5, 1e-3, "differ"),
-        row("contact_length", -0.7, 1e-3, "differ"),
-        row("tau1_max", 0.0, 1e-3, "agree"),
-    )
-    said = headline(judged(smooth_outcome, "fails", "", *rows))
-    assert said.kind == "fails"
-    assert "contact length is 70 % below" in said.sentence
-    assert "1 more of 3 judged figures is outside its tolerance" in said.sentence
-
-
-def test_the_headline_of_doubt_tells_uncertainty_from_shared_effects(smooth_outcome: Outcome):
-    unclear = row("contact_length", None, math.inf, "indistinct")
-    said = headline(judged(smooth_outcome, "undecided", "", unclear))
-    assert said.kind == "undecided"
-    assert "asks for refinement" in said.sentence
-    agrees = row("peak_pressure", 1e-3, 1e-4, "agree")
-    why = "both share finite strain: tau1_max_depth by 3 %"
-    said = headline(judged(smooth_outcome, "undecided", why, agrees))
-    assert said.kind == "undecided"
-    assert "both share finite strain: depth of the largest τ₁ by 3 %" in said.sentence
-    assert "0.10 % above" in said.sentence
 
 
 def test_the_headline_owns_up_to_a_solver_that_failed(smooth_outcome: Outcome):

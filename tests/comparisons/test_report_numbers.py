@@ -13,7 +13,6 @@ from comparisons.report.numbers import (
     plain,
     scale_of,
     significant,
-    vanishes,
     with_unit,
 )
 
@@ -103,7 +102,6 @@ def test_percentages_keep_two_digits(value, signed, text):
 )
 def test_a_difference_ends_where_its_uncertainty_does(value, uncertainty, text):
     assert percent(value, signed=True, uncertainty=uncertainty) == text
-    assert vanishes(value, uncertainty) == (not text.strip("0. %"))
 
 
 def test_figures_of_the_scene_come_back_as_they_were_typed():

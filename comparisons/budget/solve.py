@@ -1,0 +1,110 @@
+"""Levels of the bodies that a budget takes apart, each solved once."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from analytic.contact import ContactError
+from comparisons.budget.answers import Answer, answer_of
+from comparisons.budget.bodies import Body, problem_with
+from comparisons.budget.effects import contained, is_taken_apart
+from comparisons.checkpoint import Checkpoint
+from comparisons.errors import InputError, one_line
+from comparisons.level import Level, ModelRun, Window
+from comparisons.plan import MODELS, make_plan
+from comparisons.problem import Problem
+from comparisons.stages import Listener, Stages
+from fem.mumps import FemError
+from meshes.errors import MeshError
+
+CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
+
+
+class NotComputedError(Exception):
+    """A body of the budget has no answer; the message says why."""
+
+    def __init__(self, body: Body, why: str) -> None:
+        super().__init__(one_line(why))
+        self.body = body
+
+
+@dataclass
+class Bodies:
+    """Answers of bodies on the levels of a problem.
+
+    own      the scene's own finite elements, already solved
+    levels   what was solved beside, by body and number of the level from 1
+    """
+
+    problem: Problem
+    window: Window | None
+    own: ModelRun
+    checkpoint: Checkpoint
+    listener: Listener
+    levels: dict[tuple[Body, int], Level] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._store = None  # of meshes and factors that bodies of one level have in common
+        scene = self.problem.scene
+        self._own_effects = contained(scene) if is_taken_apart(scene) else None
+
+    def own_answer(self, number: int, friction: float) -> Answer:
+        """Of the scene's own finite elements."""
+        return answer_of(self.own.levels[number - 1], self.problem, friction)
+
+    def answer(self, body: Body, number: int, friction: float) -> Answer:
+        """Of a body on a level; raises NotComputedError."""
+        if self._is_own(body):
+            return self.own_answer(number, friction)
+        return answer_of(self.level(body, number), problem_with(self.problem, body), friction)
+
+    def level(self, body: Body, number: int) -> Level:
+        """A body's level, solved where it is new; raises NotComputedError."""
+        if (body, number) not in self.levels:
+            kept = f"{body.name}-{number}"
+            level = self.checkpoint.load(kept)
+            if level is None:
+                level = self._solved(body, number)
+                self.checkpoint.save(kept, level)
+            self.levels[body, number] = level
+        return self.levels[body, number]
+
+    @property
+    def seconds(self) -> float:
+        """That all of them took."""
+        return sum(sum(level.seconds.values()) for level in self.levels.values())
+
+    def seconds_of(self, number: int) -> float:
+        """That those of one level took."""
+        return sum(
+            sum(level.seconds.values()) for (_, n), level in self.levels.items() if n == number
+        )
+
+    def _is_own(self, body: Body) -> bool:
+        plain = not (body.stand_in or body.held)
+        frictions = self.problem.scene.friction
+        shaped = body.friction is None or frictions == (body.friction,)
+        return plain and shaped and body.effects == self._own_effects
+
+    def _solved(self, body: Body, number: int) -> Level:
+        from comparisons.finite_element import finite_element_level
+        from comparisons.finite_element_bodies import BodyStore
+        from comparisons.finite_element_mesh import Refinement
+
+        self._store = self._store or BodyStore()
+        problem = problem_with(self.problem, body)
+        plan, pitch = make_plan(problem, MODELS), self.problem.pitches[0] / 2.0 ** (number - 1)
+        words = ", ".join(sorted(body.effects)) or "no effect"
+        self.listener(f"error budget: finite elements with {words}, level {number}")
+        try:
+            level = finite_element_level(
+                problem, plan, Refinement(pitch), self.window, Stages(), store=self._store
+            )
+        except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
+            raise NotComputedError(body, str(error)) from error
+        if not level.solution.converged:
+            raise NotComputedError(body, f"the contact did not converge on level {number}")
+        low, high = problem.extent
+        if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:
+            raise NotComputedError(body, "the contact reaches the end of the pressures")
+        return level
