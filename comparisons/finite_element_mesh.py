@@ -21,7 +21,10 @@ COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
 STEEPEST_GROWTH = 0.5
 THICKEST_COATING = 0.9  # of the body: what is left below must hold elements
 LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
-TAPER_HATS = 40.0  # surface edges over which real roughness fades outside the refined ground
+# Over this length at least real roughness fades beside the ground that pressure may reach: pressure
+# elements of the first level, four of the shortest waves; largest heights of the profile, which
+# keeps the fading's own slope below 0.4. Peak pressures do not change by 3e-6 from 10 to 160.
+FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
 DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
 
 
@@ -53,8 +56,9 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     intervals = refined_intervals(
         patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
     )
-    if scene.finite_element.geometry == "rough":
-        intervals = np.array([[intervals[0, 0], intervals[-1, 1]]])
+    if is_rough(problem):  # real wherever pressure may come to act
+        ground = np.array([problem.extent])
+        intervals = refined_intervals(ground, edge, margin=0.0, half_width=reach)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
         raise SceneError(
             f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "
@@ -81,10 +85,12 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
 
 def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     """The body's mesh from the flat one: with the trace as its boundary where that is asked for."""
-    scene = problem.scene
-    if scene.finite_element.geometry == "flat" or scene.profile is None:
-        return flat
-    return roughen(flat, _boundary(problem, flat.spec))
+    return roughen(flat, _boundary(problem)) if is_rough(problem) else flat
+
+
+def is_rough(problem: Problem) -> bool:
+    """Whether the trace is the body's boundary, and not in the gap alone."""
+    return problem.scene.finite_element.geometry == "rough" and problem.scene.profile is not None
 
 
 def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
@@ -121,16 +127,17 @@ def expected_unknowns(
     return round(unknowns * {1: 0.25, 2: 1.0, 3: 2.25}[problem.scene.finite_element.degree])
 
 
-def _boundary(problem: Problem, spec: BlockSpec) -> Callable[[np.ndarray], np.ndarray]:
-    """Heights [m] of the real boundary anywhere on the block's top.
+def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
+    """Heights [m] of the real boundary anywhere on the block's top, the same on every level.
 
-    The profile on the refined ground; beyond it the roughness fades, so that elements which grow
-    there need not follow waves that they cannot resolve.
+    The profile wherever pressure may come to act; beyond it the roughness fades, so that elements
+    which grow there need not follow waves that they cannot resolve.
     """
     curve = problem.scene.profile.spline()
     first, last = problem.scene.profile.x[[0, -1]]
-    start, stop = spec.intervals[0, 0], spec.intervals[-1, 1]
-    fade = TAPER_HATS * spec.surface_size
+    start, stop = problem.extent
+    highest = np.abs(problem.scene.profile.height).max()
+    fade = max(FADE_HATS * problem.pitches[0], FADE_HEIGHTS * highest)
 
     def height(x: np.ndarray) -> np.ndarray:
         outside = np.maximum(0.0, np.maximum(start - x, x - stop)) / fade

@@ -17,6 +17,7 @@ from comparisons.finite_element_cost import flow_increments
 from comparisons.finite_element_stress import DeformedSurface, Pressed
 from comparisons.problem import Problem
 from fem.finite_deformation import press_finitely
+from fem.mumps import FemError
 from fem.plastic_fields import plastic_fields
 from fem.press_plastic import press_plastically
 from fem.return_mapping import ElasticPlastic
@@ -35,7 +36,8 @@ def pressed_finitely(
 ) -> Pressed:
     """The body at finite strains, met by the roller where its surface has come to.
 
-    Pressures are those on the deformed surface, where it has come to along x.
+    Pressures are those on the deformed surface, where it has come to along x. Raises FemError
+    where it finds none, and where only at finite deformation contact reaches the grid's ends.
     """
     scene, rough = problem.scene, operator.rough
     found = press_finitely(
@@ -48,6 +50,9 @@ def pressed_finitely(
         friction=scene.friction[0],
         hardness=constraints.hardness,
     )
+    ends = [0, -1]  # on few elements the linear contact may reach them, too
+    if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
+        raise FemError("the contact at finite deformation reaches beyond the pressure elements")
     counts = {
         "increments": len(found.solution.parts),
         "newton_steps": found.solution.iterations,
