@@ -14,11 +14,13 @@ from analytic.stress_potential import Element
 Quantity = Callable[[PlaneStress], np.ndarray]
 
 # The search around a point of the grid: nine points, half a cell apart at first; the parabola
-# through them gives the next centre, and the spacing shrinks. A parabola's top errs by the square
-# of the spacing, and the last one is 5e-3 of a cell.
+# through them gives the next centre. The spacing shrinks when that lies among them or nothing
+# higher was met: a top far along a flat ridge is walked to first. A parabola's top errs by the
+# square of the spacing, and the last one is 5e-3 of a cell.
 _STENCIL = np.array([[i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)])
-_FIRST_STEP, _SHRINKAGE, _ROUNDS = 0.5, 0.4, 6
+_FIRST_STEP, _SHRINKAGE, _SPACINGS = 0.5, 0.4, 6
 _FARTHEST = 1.5  # steps that a centre may move in a round
+_MOST_ROUNDS = 30  # 6 where no ridge is walked along, up to 11 where one is
 
 
 @dataclass(frozen=True)
@@ -135,8 +137,8 @@ def _climb(
     # values on the stencil to the coefficients of 1, u, v, u^2, uv, v^2 by least squares
     u, v = _STENCIL.T
     fit = np.linalg.pinv(np.column_stack([np.ones(9), u, v, u**2, u * v, v**2]))
-    going = np.arange(len(centre))
-    for _ in range(_ROUNDS):
+    going, left = np.arange(len(centre)), np.full(len(centre), _SPACINGS)
+    for _ in range(_MOST_ROUNDS):
         at, h = centre[going], step[going]
         # a stencil across the window's side is moved in as a whole
         middle = np.clip(at, np.minimum(low + h, high), np.maximum(high - h, low))
@@ -154,9 +156,14 @@ def _climb(
         move = move / np.where(peaked, bend, 1.0)[:, None]
         vertex = middle + np.clip(move, -_FARTHEST, _FARTHEST) * h
         centre[going] = np.clip(np.where(peaked[:, None], vertex, best[going]), low, high)
-        step *= _SHRINKAGE
+        walks = better & (np.abs(centre[going] - middle) > h).any(axis=1)
+        step[going[~walks]] *= _SHRINKAGE
+        left[going[~walks]] -= 1
         leader = np.array([top[owner == mine].max() for mine in owner[going]])
-        going = going[top[going] + 0.25 * np.ptp(value, axis=1) >= leader]
+        hopeful = top[going] + 0.25 * np.ptp(value, axis=1) >= leader
+        going = going[hopeful & (left[going] > 0)]
+        if not len(going):
+            break
     return top, best
 
 

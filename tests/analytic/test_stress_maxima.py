@@ -154,6 +154,56 @@ def test_rough_pressure_against_a_much_finer_search():
         assert found.tau1.value == pytest.approx(float(there.tau1), rel=1e-13)
 
 
+def highest_by_brute_force(x, pressure, friction, quantity):
+    """Zooms on the five highest points of a fine field, each by 20 grids of 11 x 11 points."""
+    levels, steps = np.linspace(0.0, 1.5, 121), 4
+    field = stress_field(x, pressure, friction, (x[0], x[-1]), levels, steps)
+    values = quantity(field.stress)
+    ways = np.linspace(-1.0, 1.0, 11)
+    highest = []
+    for index in np.argsort(-values, axis=None)[:5]:
+        row, column = np.unravel_index(index, values.shape)
+        centre = np.array([field.x[column], levels[row]])
+        reach = 6.0 * np.array([(x[1] - x[0]) / steps, levels[1]])
+        for _ in range(20):
+            at_x, at_z = np.meshgrid(centre[0] + reach[0] * ways, centre[1] + reach[1] * ways)
+            at_x, at_z = np.clip(at_x, x[0], x[-1]), np.clip(at_z, 0.0, levels[-1])
+            found = quantity(stress_at(x, pressure, friction, at_x, at_z))
+            place = np.unravel_index(np.argmax(found), found.shape)
+            centre, reach = np.array([at_x[place], at_z[place]]), 0.6 * reach
+        highest.append(found.max())
+    return max(highest)
+
+
+def smooth_wavy_rough(name: str) -> tuple[np.ndarray, np.ndarray]:
+    if name == "smooth":
+        return elements(64, "hat")
+    if name == "wavy":
+        x = np.arange(-80, 81) / 64.0
+        return x, UNIT.pressure(x) * (1.0 + 0.5 * np.cos(14.0 * x))
+    x = 0.02 * np.arange(-60, 60)
+    noise = np.random.default_rng(21).standard_normal(140)
+    return x, np.maximum(np.convolve(noise, np.hanning(21), "same")[10:130], 0.0)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.01, 0.05, 0.1, 0.3])
+@pytest.mark.parametrize("surface", ["smooth", "wavy", "rough"])
+def test_flat_ridges_under_little_friction_are_climbed_to_their_top(surface, friction):
+    """A little friction draws the maximum into a ridge along x: far from the grid's best point.
+
+    At the surface, where friction leaves kinks, the top is good to 1e-6.
+    """
+    x, pressure = smooth_wavy_rough(surface)
+    field = stress_field(x, pressure, friction, (x[0], x[-1]), graded_depths(1.5, 24, 0.01))
+    found = stress_maxima(x, pressure, friction, field, 0.3)
+    for extremum, quantity in (
+        (found.tau1, lambda stress: stress.tau1),
+        (found.von_mises, lambda stress: stress.von_mises(0.3)),
+    ):
+        exact = highest_by_brute_force(x, pressure, friction, quantity)
+        assert extremum.value == pytest.approx(exact, rel=1e-6 if extremum.z == 0.0 else 1e-8)
+
+
 def test_the_higher_peak_wins_though_the_grid_shows_the_lower_one():
     """The peak of the second contact lies between two levels, that of the first on one."""
     x = np.arange(-30, 840) * 0.05
