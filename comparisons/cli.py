@@ -135,6 +135,19 @@ def map_of(
 
 
 @app.command()
+def paper(
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the page.", show_default="results/paper")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print paper.json instead of the table.")
+    ] = False,
+) -> Job:
+    """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
+    return partial(_paper, out, as_json)
+
+
+@app.command()
 def scenes() -> Job:
     """List the scenes that come with crosscheck."""
     return _scenes
@@ -273,6 +286,20 @@ def _map(
 
         _show(map_table(content, directory))
     return exit_status(content)
+
+
+def _paper(out: Path | None, as_json: bool) -> int:
+    from comparisons.paper.reproduce import paper as reproduced
+
+    with _progress() as progress:
+        found = reproduced(out or RESULTS / "paper", listener=progress)
+    if as_json:
+        print(json.dumps(found.as_dict(), indent=2, ensure_ascii=False, allow_nan=False))
+    else:
+        from comparisons.paper.table import paper_table
+
+        _show(paper_table(found))
+    return found.exit_status
 
 
 def _scenes() -> int:
