@@ -20,7 +20,8 @@ Path = tuple[str | int, ...]
 # Relative: what two solutions may differ by that both count as converged. It is what other
 # processors and libraries leave; the same machine gives the same bits.
 ROUNDING = KKT_TOLERANCE
-NO_FIGURES = frozenset({"cost", "seconds", "iterations"})
+# Observed orders jump where a sequence is not regular, and clocks decide how many levels there are.
+NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
 HANGS_ON = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",
@@ -167,7 +168,9 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             rows = recorded["comparison"][quantity]
             own = _number(rows[entry].get("uncertainty"))
             return Stated(own, "itself" if name == "uncertainty" else quantity, 1.0)
-        case ("half_space", "shared_effects", *_) | ("groups", "peak_pressure_over_hardness"):
+        case ("budget", "quantities", quantity, int(entry), *_):
+            return _in_budget(recorded["budget"]["quantities"][quantity][entry], path[4:], value)
+        case ("budget" | "half_space", *_) | ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):
             return _largest(recorded, abs(value) or 1.0)
@@ -183,6 +186,20 @@ def _relative(recorded: dict, model: str, entry: int, figure: str, scale: float)
     """By the total uncertainty of a figure of a model, or of what it hangs on."""
     total, by = _total(recorded, model, entry, HANGS_ON.get(figure, figure))
     return Stated(total * scale, "itself" if by == figure else by, scale)
+
+
+def _in_budget(entry: dict, place: Path, value: Value | list) -> Stated:
+    """What a row of the error budget states: of its parts each its own uncertainty, else that of
+    the whole; of uncertainties and estimates their own size."""
+    match place:
+        case ("numerical", model, "limit"):
+            doubt = _number(entry["numerical"][model]["discretisation"])
+            return Stated(doubt * abs(value), "itself", abs(value) or 1.0)
+        case ("effects", effect, "value"):
+            return Stated(_number(entry["effects"][effect]["uncertainty"]), "itself", 1.0)
+        case ("own_error", "value") | ("interaction",):
+            return Stated(_number(entry["own_error"]["uncertainty"]), "own_error", 1.0)
+    return Stated(abs(value), "itself", 1.0)
 
 
 def _total(recorded: dict, model: str, entry: int, quantity: str) -> tuple[float, str]:
