@@ -25,22 +25,12 @@ RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 3.55e6
 HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
 
 
-def pressed(grid: HatGrid, gap, constraints=None, knots=None):
-    """Solution on a grid, load prescribed unless said otherwise."""
-    return solve_contact(
-        HalfPlane(grid.count, grid.pitch, MODULUS),
-        grid.average(gap, knots),
-        grid.weights,
-        constraints or Constraints(load=LOAD),
-    )
-
-
-def smooth(elements: int, offset: float = 0.0):
+def smooth(roller, elements: int, offset: float = 0.0):
     """Cylinder on a flat: `elements` across |x| < 1.5 a; the crest `offset` pitches off a node."""
     reach = 1.5 * HERTZ.half_width
     grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
     shift = offset * grid.pitch
-    return grid, pressed(grid, lambda x: roller_gap(RADIUS)(x - shift)), shift
+    return grid, roller.pressed(grid, lambda x: roller_gap(RADIUS)(x - shift)), shift
 
 
 def observed_orders(errors: list[float]) -> np.ndarray:
@@ -48,8 +38,8 @@ def observed_orders(errors: list[float]) -> np.ndarray:
 
 
 class TestHertz:
-    def test_two_thousand_elements(self):
-        grid, solution, _ = smooth(2000)
+    def test_two_thousand_elements(self, roller):
+        grid, solution, _ = smooth(roller, 2000)
         patch = contact_patches(grid.x, solution.pressure, solution.gap)
         assert solution.converged
         assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
@@ -57,38 +47,41 @@ class TestHertz:
         assert len(patch) == 1
 
     @pytest.mark.parametrize("offset", [0.0, 0.3, 0.5, 0.8])
-    def test_edges_lie_between_the_nodes_where_they_should(self, offset):
-        grid, solution, shift = smooth(500, offset)
+    def test_edges_lie_between_the_nodes_where_they_should(self, roller, offset):
+        grid, solution, shift = smooth(roller, 500, offset)
         edges = contact_patches(grid.x, solution.pressure, solution.gap)[0] - shift
         error = (edges - HERTZ.half_width * np.array([-1.0, 1.0])) / grid.pitch
         assert np.abs(error).max() < 0.1
 
-    def test_peak_pressure_is_of_second_order(self):
+    def test_peak_pressure_is_of_second_order(self, roller):
         # offsets averaged: the error depends on where the edge falls between two nodes
         errors = []
         for elements in (120, 240, 480, 960):
             found = [
-                smooth(elements, offset)[1].pressure.max() for offset in (0.0, 0.25, 0.5, 0.75)
+                smooth(roller, elements, offset)[1].pressure.max()
+                for offset in (0.0, 0.25, 0.5, 0.75)
             ]
             errors.append(np.mean(np.abs(np.array(found) / HERTZ.peak_pressure - 1.0)))
         orders = observed_orders(errors)
         assert orders.mean() == pytest.approx(2.0, abs=0.25)
         assert errors[-1] < 1e-5
 
-    def test_pressure_l2_is_of_the_order_of_its_square_root_edge(self):
+    def test_pressure_l2_is_of_the_order_of_its_square_root_edge(self, roller):
         errors = []
         for elements in (120, 240, 480, 960):
             square = []
             for offset in (0.0, 0.25, 0.5, 0.75):
-                grid, solution, shift = smooth(elements, offset)
+                grid, solution, shift = smooth(roller, elements, offset)
                 exact = HERTZ.pressure(grid.x - shift)
                 square.append(np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2))
             errors.append(np.sqrt(np.mean(square)))
         assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.15)
 
-    def test_prescribed_approach_returns_the_load(self):
-        grid, by_load, _ = smooth(400)
-        by_approach = pressed(grid, roller_gap(RADIUS), Constraints(approach=by_load.approach))
+    def test_prescribed_approach_returns_the_load(self, roller):
+        grid, by_load, _ = smooth(roller, 400)
+        by_approach = roller.pressed(
+            grid, roller_gap(RADIUS), Constraints(approach=by_load.approach)
+        )
         assert by_approach.load == pytest.approx(LOAD, rel=1e-9)
         assert by_approach.pressure == pytest.approx(
             by_load.pressure, abs=1e-8 * HERTZ.peak_pressure
@@ -110,19 +103,6 @@ def test_uniform_strips_converge_to_hertz():
     assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.1)
     assert errors[-1] < 1e-3
     assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
-
-
-def rough_gap(seed: int, amplitude: float = 0.4e-6):
-    """Roller over a seeded sum of waves from 20 um to 200 um."""
-    rng = np.random.default_rng(seed)
-    waves = 2.0 * np.pi / np.geomspace(20e-6, 200e-6, 12)
-    phases, heights = rng.uniform(0, 2 * np.pi, 12), rng.normal(0, amplitude / 3, 12)
-
-    def gap(x):
-        ripple = np.cos(np.multiply.outer(x, waves) + phases) @ heights
-        return roller_gap(RADIUS)(x) - ripple
-
-    return gap
 
 
 ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
@@ -148,31 +128,31 @@ def dense_oracle(grid, gap, load):
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_rough_contact_agrees_with_non_negative_least_squares(seed):
+def test_rough_contact_agrees_with_non_negative_least_squares(roller, seed):
     grid = HatGrid.within(-0.8e-3, 0.8e-3, 10e-6)
-    solution = pressed(grid, rough_gap(seed))
-    oracle = dense_oracle(grid, rough_gap(seed), LOAD)
+    solution = roller.pressed(grid, roller.rough(seed))
+    oracle = dense_oracle(grid, roller.rough(seed), LOAD)
     assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 3
     assert solution.pressure == pytest.approx(oracle, abs=1e-6 * oracle.max())
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_the_primal_method_reaches_the_same_solution(seed, monkeypatch):
+def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
     """The method that ends the cycles of the fast one must solve every problem by itself."""
-    gap = rough_gap(seed)
+    gap = roller.rough(seed)
     constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 8e-6)
-    fast = pressed(grid, gap, constraints)
+    fast = roller.pressed(grid, gap, constraints)
     monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
-    slow = pressed(grid, gap, constraints)
+    slow = roller.pressed(grid, gap, constraints)
     assert slow.converged
     assert slow.iterations["exchanges"] < 8 * fast.iterations["exchanges"]
     assert slow.pressure == pytest.approx(fast.pressure, abs=1e-7 * fast.pressure.max())
 
 
-def test_the_primal_method_lowers_the_energy_at_every_step(monkeypatch):
+def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
     monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
-    grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), rough_gap(5)
+    grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), roller.rough(5)
     operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(gap)
     energies = []
     original = EquilibriumProblem.equilibrium
@@ -193,28 +173,30 @@ def test_the_primal_method_lowers_the_energy_at_every_step(monkeypatch):
 class TestHardness:
     HARDNESS = 4e9
 
-    def test_capped_contact(self):
-        solution = pressed(ROUGH_GRID, rough_gap(7), Constraints(load=LOAD, hardness=self.HARDNESS))
+    def test_capped_contact(self, roller):
+        solution = roller.pressed(
+            ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=self.HARDNESS)
+        )
         capped = solution.pressure >= self.HARDNESS
         assert solution.converged and capped.any()
         assert solution.pressure.max() <= self.HARDNESS
         assert solution.gap[capped].max() <= 1e-9 * np.ptp(solution.gap)
         assert solution.load == pytest.approx(LOAD, rel=1e-12)
 
-    def test_a_cap_above_the_peak_changes_nothing(self):
-        free = pressed(ROUGH_GRID, rough_gap(7))
-        capped = pressed(
-            ROUGH_GRID, rough_gap(7), Constraints(load=LOAD, hardness=1.01 * free.pressure.max())
+    def test_a_cap_above_the_peak_changes_nothing(self, roller):
+        free = roller.pressed(ROUGH_GRID, roller.rough(7))
+        capped = roller.pressed(
+            ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=1.01 * free.pressure.max())
         )
         assert capped.pressure == pytest.approx(free.pressure, abs=1e-9 * free.pressure.max())
 
-    def test_a_load_beyond_the_hardness_is_refused(self):
+    def test_a_load_beyond_the_hardness_is_refused(self, roller):
         with pytest.raises(ContactError, match="exceeds what the surface can carry"):
-            pressed(ROUGH_GRID, rough_gap(7), Constraints(load=LOAD, hardness=1e9))
+            roller.pressed(ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=1e9))
 
     @pytest.mark.parametrize("count", [1023, 4095, 16383])
     @pytest.mark.parametrize("above_mean", [1.05, 1.5])
-    def test_a_plateau_costs_few_exchanges(self, count, above_mean):
+    def test_a_plateau_costs_few_exchanges(self, roller, count, above_mean):
         """Nearly every node at the hardness, where block exchanges may come round in a circle."""
         grid = HatGrid.within(
             -2.0 * HERTZ.half_width,
@@ -222,46 +204,48 @@ class TestHardness:
             4.0 * HERTZ.half_width / (count + 1),
         )
         hardness = above_mean * LOAD / grid.weights.sum()
-        solution = pressed(grid, roller_gap(RADIUS), Constraints(load=LOAD, hardness=hardness))
+        solution = roller.pressed(
+            grid, roller_gap(RADIUS), Constraints(load=LOAD, hardness=hardness)
+        )
         assert solution.converged
         assert solution.iterations["applications"] < 200
         assert np.mean(solution.pressure >= hardness) == pytest.approx(1.0 / above_mean, abs=5e-3)
 
 
 class TestLimits:
-    def test_one_touching_node_at_vanishing_load(self):
-        solution = pressed(ROUGH_GRID, rough_gap(1), Constraints(load=1e-6))
+    def test_one_touching_node_at_vanishing_load(self, roller):
+        solution = roller.pressed(ROUGH_GRID, roller.rough(1), Constraints(load=1e-6))
         assert solution.converged
         assert np.count_nonzero(solution.pressure) == 1
 
     @pytest.mark.parametrize("load", [1e-2, 1e-6])
-    def test_a_light_load_under_a_far_surface_costs_no_more(self, load):
+    def test_a_light_load_under_a_far_surface_costs_no_more(self, roller, load):
         """A common gap a million times the compression must not drown it in rounding."""
         half_width = hertz_from_load(load, RADIUS, MODULUS).half_width
         grid = HatGrid.within(-3.0 * half_width, 3.0 * half_width, half_width / 150.0)
         near, far = (
-            pressed(grid, lambda x, c=c: roller_gap(RADIUS)(x) + c, Constraints(load=load))
+            roller.pressed(grid, lambda x, c=c: roller_gap(RADIUS)(x) + c, Constraints(load=load))
             for c in (0.0, 1e6 * half_width**2 / RADIUS)
         )
         assert far.converged
         assert far.iterations["applications"] < 3 * near.iterations["applications"]
         assert far.pressure == pytest.approx(near.pressure, abs=1e-4 * near.pressure.max())
 
-    def test_full_contact_of_a_shallow_wave(self):
+    def test_full_contact_of_a_shallow_wave(self, roller):
         """All gaps closed: p - p_smooth is E* times slope amplitude over two, in phase."""
         grid = HatGrid.within(-2e-3, 2e-3, 2e-6)
         wavelength, height = 100e-6, 0.01e-6
         wave = 2.0 * np.pi / wavelength
-        plain = pressed(grid, roller_gap(RADIUS))
-        rough = pressed(grid, lambda x: roller_gap(RADIUS)(x) - height * np.cos(wave * x))
+        plain = roller.pressed(grid, roller_gap(RADIUS))
+        rough = roller.pressed(grid, lambda x: roller_gap(RADIUS)(x) - height * np.cos(wave * x))
         inside = np.abs(grid.x) < 0.5 * HERTZ.half_width
         expected = 0.5 * MODULUS * height * wave * np.cos(wave * grid.x)
         assert (rough.pressure - plain.pressure)[inside] == pytest.approx(
             expected[inside], abs=0.02 * expected.max()
         )
 
-    def test_no_contact_below_the_first_touch(self):
-        solution = pressed(ROUGH_GRID, roller_gap(RADIUS), Constraints(approach=-1e-6))
+    def test_no_contact_below_the_first_touch(self, roller):
+        solution = roller.pressed(ROUGH_GRID, roller_gap(RADIUS), Constraints(approach=-1e-6))
         assert solution.converged
         assert not solution.pressure.any() and solution.load == 0.0
 
@@ -280,51 +264,55 @@ class TestProperties:
         hardness=st.one_of(st.none(), st.floats(0.5, 5.0)),
     )
     @settings(max_examples=40, deadline=None, derandomize=True)
-    def test_contact_conditions_hold(self, seed, load, hardness):
+    def test_contact_conditions_hold(self, roller, seed, load, hardness):
         cap = np.inf if hardness is None else hardness * 1e10
-        solution = pressed(ROUGH_GRID, rough_gap(seed), Constraints(load=load * LOAD, hardness=cap))
+        solution = roller.pressed(
+            ROUGH_GRID, roller.rough(seed), Constraints(load=load * LOAD, hardness=cap)
+        )
         assert solution.converged, solution.residuals
 
     @given(seed=st.integers(0, 10**6), scale=st.floats(1e-9, 1e9))
     @settings(max_examples=15, deadline=None, derandomize=True)
-    def test_results_scale_exactly_with_the_unit_of_length(self, seed, scale):
-        gap = rough_gap(seed)
-        here = pressed(ROUGH_GRID, gap)
+    def test_results_scale_exactly_with_the_unit_of_length(self, roller, seed, scale):
+        gap = roller.rough(seed)
+        here = roller.pressed(ROUGH_GRID, gap)
         grid = HatGrid(ROUGH_GRID.pitch * scale, ROUGH_GRID.first, ROUGH_GRID.last)
-        there = pressed(grid, lambda x: scale * gap(x / scale), Constraints(load=LOAD * scale))
+        there = roller.pressed(
+            grid, lambda x: scale * gap(x / scale), Constraints(load=LOAD * scale)
+        )
         assert there.pressure == pytest.approx(here.pressure, abs=1e-8 * here.pressure.max())
 
     @pytest.mark.parametrize("seed", range(3))
-    def test_mirrored_profile_gives_the_mirrored_pressure(self, seed):
-        gap = rough_gap(seed)
-        here, there = pressed(ROUGH_GRID, gap), pressed(ROUGH_GRID, lambda x: gap(-x))
+    def test_mirrored_profile_gives_the_mirrored_pressure(self, roller, seed):
+        gap = roller.rough(seed)
+        here, there = roller.pressed(ROUGH_GRID, gap), roller.pressed(ROUGH_GRID, lambda x: gap(-x))
         assert there.pressure[::-1] == pytest.approx(here.pressure, abs=1e-8 * here.pressure.max())
 
-    def test_load_grows_with_approach(self):
-        gap = rough_gap(11)
+    def test_load_grows_with_approach(self, roller):
+        gap = roller.rough(11)
         first = ROUGH_GRID.average(gap).min() / ROUGH_GRID.pitch
         loads = [
-            pressed(ROUGH_GRID, gap, Constraints(approach=first + depth)).load
+            roller.pressed(ROUGH_GRID, gap, Constraints(approach=first + depth)).load
             for depth in np.linspace(0.05e-6, 6e-6, 12)
         ]
         assert np.all(np.diff(loads) > 0.0)
 
 
-def test_several_loads_in_one_call_share_the_operators():
+def test_several_loads_in_one_call_share_the_operators(roller):
     operator = HalfPlane(ROUGH_GRID.count, ROUGH_GRID.pitch, MODULUS)
-    average = ROUGH_GRID.average(rough_gap(4))
+    average = ROUGH_GRID.average(roller.rough(4))
     loads = [Constraints(load=share * LOAD) for share in (0.1, 0.7, 0.4)]
     together = solve_contacts(operator, average, ROUGH_GRID.weights, loads)
     coarser = operator.coarsened()
     for each, solution in zip(loads, together, strict=True):
-        alone = pressed(ROUGH_GRID, rough_gap(4), each)
+        alone = roller.pressed(ROUGH_GRID, roller.rough(4), each)
         assert solution.converged
         assert solution.pressure == pytest.approx(alone.pressure, abs=1e-10 * alone.pressure.max())
     assert operator.coarsened() is coarser
 
 
-def test_residuals_see_each_kind_of_error():
-    grid, solution, _ = smooth(200)
+def test_residuals_see_each_kind_of_error(roller):
+    grid, solution, _ = smooth(roller, 200)
     operator = HalfPlane(grid.count, grid.pitch, MODULUS)
     average = grid.average(roller_gap(RADIUS))
 

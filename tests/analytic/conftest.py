@@ -1,0 +1,81 @@
+"""A roller over rough ground, alike for plain and for sliding contact."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from analytic.contact import ContactSolution, solve_contact
+from analytic.coupled_contact import solve_coupled
+from analytic.coupling import CoupledHalfPlane
+from analytic.equilibrium import Constraints
+from analytic.exact.hertz import HertzContact, hertz_from_load
+from analytic.gap import HatGrid, roller_gap
+from analytic.operators import HalfPlane
+
+Gap = Callable[[np.ndarray], np.ndarray]
+
+
+class Roller:
+    """Radius [m], combined modulus [Pa] and load [N/m] of a contact, and its solutions."""
+
+    radius, modulus, load = 7.5706e-3, 115.385e9, 3.55e6
+    grid = HatGrid.within(-1.1e-3, 1.1e-3, 4e-6)
+
+    @property
+    def hertz(self) -> HertzContact:
+        return hertz_from_load(self.load, self.radius, self.modulus)
+
+    def smooth(self) -> Gap:
+        return roller_gap(self.radius)
+
+    def rough(self, seed: int, amplitude: float = 0.4e-6) -> Gap:
+        """Over a seeded sum of waves from 20 um to 200 um."""
+        rng = np.random.default_rng(seed)
+        waves = 2.0 * np.pi / np.geomspace(20e-6, 200e-6, 12)
+        phases, heights = rng.uniform(0, 2 * np.pi, 12), rng.normal(0, amplitude / 3, 12)
+
+        def gap(x):
+            ripple = np.cos(np.multiply.outer(x, waves) + phases) @ heights
+            return roller_gap(self.radius)(x) - ripple
+
+        return gap
+
+    def pressed(
+        self, grid: HatGrid, gap: Gap, constraints: Constraints | None = None, knots=None
+    ) -> ContactSolution:
+        """Solution on a grid, load prescribed unless said otherwise."""
+        return solve_contact(
+            HalfPlane(grid.count, grid.pitch, self.modulus),
+            grid.average(gap, knots),
+            grid.weights,
+            constraints or Constraints(load=self.load),
+        )
+
+    def sliding(
+        self,
+        grid: HatGrid,
+        gap: Gap,
+        friction_dundurs: float,
+        constraints: Constraints | None = None,
+        start: np.ndarray | None = None,
+    ) -> ContactSolution:
+        """The same while it slides, with friction times Dundurs' beta."""
+        return solve_coupled(
+            CoupledHalfPlane(grid.count, grid.pitch, self.modulus, friction_dundurs),
+            grid.average(gap),
+            grid.weights,
+            constraints or Constraints(load=self.load),
+            start,
+        )
+
+
+@pytest.fixture(scope="session")
+def roller() -> Roller:
+    return Roller()
+
+
+@pytest.fixture(params=[0.05, 0.3, 0.75])
+def friction_dundurs(request) -> float:
+    """mu beta; the last is friction 1.5 at the largest beta."""
+    return request.param
