@@ -120,22 +120,22 @@ class TestFigures:
         """At friction 0.3 the largest shear stands on the surface, by a touch of the pressure."""
         problem, level = rigid.problem, rigid.runs["half_plane"].finest
         still = {"tau1_max_depth": 0.0, "contact_ratio": 0.0, "peak_pressure": 2.0}
-        moved = {"tau1_max_depth": 3e-6, "contact_ratio": 0.0, "peak_pressure": 3.0}
+        moved = {"tau1_max_depth": 3e-5, "contact_ratio": 0.0, "peak_pressure": 3.0}
         answers = iter([moved, still])
         with patch("comparisons.coupling.figures", lambda *_: next(answers)):
             changes = comparisons.coupling._changes(problem, level, level, 0.3, rigid.window)
-        assert changes["tau1_max_depth"] == comparisons.coupling.Change(3e-6, None)
+        assert changes["tau1_max_depth"] == comparisons.coupling.Change(3e-5, None)
         assert changes["contact_ratio"] == comparisons.coupling.Change(0.0, 0.0)
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
         told = replace(rigid.couplings[2], changes=changes)
-        assert told.as_dict()["tau1_max_depth"] == {"value": 3e-6, "difference": None}
+        assert told.as_dict()["tau1_max_depth"] == {"value": 3e-5, "difference": None}
         outcome = replace(rigid, couplings=(told,))
         [row] = [row for row in coupling_table(outcome).rows if "depth" in row[0]]
-        assert row[1:] == ("3.000 µm", UNKNOWN)
+        assert row[1:] == ("30.00 µm", UNKNOWN)
         effect = coupling_estimate(problem, (told,))
         assert effect["peak_pressure"] == pytest.approx(0.5)
         scale = QUANTITIES["tau1_max_depth"].scale(problem.hertz)
-        assert effect["tau1_max_depth"] == pytest.approx(3e-6 / scale)
+        assert effect["tau1_max_depth"] == pytest.approx(3e-5 / scale)
 
     @pytest.mark.parametrize("friction", [0.0, 0.3])
     def test_equal_materials_skip_it(self, friction):
