@@ -1,0 +1,102 @@
+"""The report's page taken apart: its text, tags, tables and pictures, not how it is made."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from html.parser import HTMLParser
+
+import pytest
+
+from comparisons.outcome import Outcome
+from comparisons.report.page import render
+
+VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+WAVY_WITHOUT_FIELD = {
+    "title": "Wavy",
+    "roller": {"radius": 10e-3, "rigid": True},
+    "body": {**STEEL, "thickness": 2e-3, "base": "frictionless"},
+    "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.2e-6},
+    "load": {"hertz_peak_pressure": 1e9},
+}
+
+
+@dataclass
+class Page(HTMLParser):
+    """A page taken apart; raises ValueError where a tag is closed that is not the last opened."""
+
+    source: str = field(repr=False)
+    open_tags: list[str] = field(default_factory=list)
+    attributes: list[tuple[str, str, str | None]] = field(default_factory=list)
+    images: list[dict] = field(default_factory=list)
+    sections: list[str] = field(default_factory=list)
+    headings: list[str] = field(default_factory=list)
+    text: str = ""
+    tables: list[list[list[str]]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.feed(self.source)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list) -> None:
+        self.attributes += [(tag, name, value) for name, value in attrs]
+        if tag == "img":
+            self.images.append(dict(attrs))
+        if tag == "section":
+            self.sections.append(dict(attrs)["id"])
+        if tag in ("h1", "h2", "h3"):
+            self.headings.append("")
+        if tag == "table":
+            self.tables.append([])
+        if tag == "tr":
+            self.tables[-1].append([])
+        if tag in ("td", "th"):
+            self.tables[-1][-1].append("")
+        if tag not in VOID:
+            self.open_tags.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open_tags or self.open_tags.pop() != tag:
+            raise ValueError(f"</{tag}> closes nothing")
+
+    def handle_data(self, data: str) -> None:
+        if self.open_tags[-1:] == ["style"]:
+            return
+        self.text += data
+        if self.open_tags[-1:] and self.open_tags[-1] in ("h1", "h2", "h3"):
+            self.headings[-1] += data
+        if self.open_tags[-1:] and self.open_tags[-1] in ("td", "th"):
+            self.tables[-1][-1][-1] += data
+        if "td" in self.open_tags and self.open_tags[-1] == "span":
+            self.tables[-1][-1][-1] += f" | {data}"
+
+    def count(self, word: str) -> int:
+        """Of the pictures whose words for them hold this one."""
+        return sum(word in image["alt"] for image in self.images)
+
+
+@pytest.fixture(scope="session")
+def page_of() -> type[Page]:
+    """`page_of(source)`: a page taken apart."""
+    return Page
+
+
+@pytest.fixture(scope="session")
+def without_field() -> dict:
+    """A wavy layer without stresses, as tables."""
+    return WAVY_WITHOUT_FIELD
+
+
+@pytest.fixture(scope="session")
+def wavy_page(wavy_outcome: Outcome) -> Page:
+    return Page(render(wavy_outcome))
+
+
+@pytest.fixture(scope="session")
+def smooth_page(smooth_outcome: Outcome) -> Page:
+    return Page(render(smooth_outcome))
+
+
+@pytest.fixture(scope="session")
+def half_plane_page(finish: Callable[..., Outcome], without_field: dict) -> Page:
+    return Page(render(finish(without_field, ("half_plane",))))

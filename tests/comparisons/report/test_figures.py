@@ -1,0 +1,152 @@
+"""Every figure of a run is on the page, with its unit, and says what supports it."""
+
+import math
+import re
+from dataclasses import replace
+
+import pytest
+
+from comparisons.cli import app
+from comparisons.outcome import Outcome
+from comparisons.report.comparison_rows import comparison_rows
+from comparisons.report.headline import headline
+from comparisons.report.page import render
+
+UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
+UNITS |= {"nm": 1e-9, "%": 1e-2, "": 1.0}
+
+
+def number(text: str) -> float:
+    """A figure with its unit as printed, in SI."""
+    text = text.replace("−", "-").replace("\u202f", "").replace("\u00a0", " ")
+    value, _, unit = text.partition(" ")
+    return float(value) * UNITS[unit]
+
+
+def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: Outcome):
+    labels = {
+        "peak_pressure": "peak pressure",
+        "contact_length": "contact length",
+        "contact_ratio": "contact length over Hertz 2a",
+        "tau1_max": "largest principal shear stress τ₁",
+        "txz_max_abs": "largest orthogonal shear stress |τxz|",
+        "tau1_max_depth": "depth of the largest τ₁",
+        "pressure_l2": "pressures, relative L2 difference",
+        "tau1_field_near": "τ₁ down to 0.1 a, relative L2 difference",
+        "tau1_field_deep": "τ₁ deeper than 0.5 a, relative L2 difference",
+    }
+    [table] = [table for table in wavy_page.tables if table[0][-1] == "verdict"]
+    shown = {}
+    for label, frictions, *cells in table[1:]:
+        for friction in frictions.split(", "):
+            assert (label, float(friction)) not in shown
+            shown[label, float(friction)] = [cell.partition(" | ")[0] for cell in cells[:-1]] + [
+                cells[-1].removeprefix(" | ")
+            ]
+    compared = wavy_outcome.result["comparison"]
+    assert len(shown) == sum(len(rows) for rows in compared.values())
+    for quantity, rows in compared.items():
+        for row in rows:
+            one, other, difference, uncertainty, tolerance, verdict = shown[
+                labels[quantity], row["friction"]
+            ]
+            for text, value, digits in (
+                (one, row["half_plane"], 4),
+                (other, row["finite_element"], 4),
+                (uncertainty, row["uncertainty"], 2),
+                (tolerance, row["tolerance"], 6),
+            ):
+                if value is None:
+                    assert text == ""
+                elif abs(value) < 1e-6 and text.startswith("<"):
+                    assert text == "< 0.0001 %"
+                else:
+                    assert number(text) == pytest.approx(value, rel=0.51 * 10.0 ** (1 - digits))
+            supported = 0.51 * 10.0 ** (math.floor(math.log10(row["uncertainty"])) - 1)
+            shown_to = max(supported, 0.051 * abs(row["difference"]))
+            assert number(difference) == pytest.approx(row["difference"], abs=shown_to)
+            assert verdict == (row["verdict"] or "")
+
+
+def test_rows_are_joined_only_where_every_figure_is_the_same(wavy_outcome: Outcome):
+    def frictions(outcome: Outcome) -> list[str]:
+        return [row.friction for row in comparison_rows(outcome) if row.quantity == "peak_pressure"]
+
+    assert frictions(wavy_outcome) == ["0, 0.1"]
+    for change in ({"uncertainty": 0.5}, {"verdict": "differ"}, {"difference": 0.4}):
+        last = replace(wavy_outcome.comparisons[-9], **change)
+        assert (last.quantity, last.friction) == ("peak_pressure", 0.1)
+        rows = (*wavy_outcome.comparisons[:-9], last, *wavy_outcome.comparisons[-8:])
+        assert frictions(replace(wavy_outcome, comparisons=rows)) == ["0", "0.1"]
+
+
+def test_figures_are_also_given_over_those_of_hertz(wavy_page, wavy_outcome: Outcome):
+    peak = wavy_outcome.result["comparison"]["peak_pressure"][0]["half_plane"]
+    p0 = wavy_outcome.result["hertz"]["peak_pressure"]
+    [table] = [table for table in wavy_page.tables if table[0][-1] == "verdict"]
+    relative = table[1][2].partition(" | ")[2]
+    assert relative.endswith(" p₀")
+    assert float(relative.split()[0]) == pytest.approx(peak / p0, rel=1e-3)
+
+
+def capped(outcome: Outcome, one: float, other: float) -> str:
+    """The page with these peaks over the hardness."""
+    hardness = outcome.problem.scene.hardness
+    peak = replace(
+        outcome.comparisons[0], half_plane=one * hardness, finite_element=other * hardness
+    )
+    assert peak.quantity == "peak_pressure"
+    return render(replace(outcome, comparisons=(peak, *outcome.comparisons[1:])))
+
+
+def test_peaks_that_the_hardness_holds_are_no_evidence(
+    wavy_outcome: Outcome, smooth_outcome: Outcome
+):
+    cell = '<span class="relative">capped in both</span></th>'
+    assert capped(wavy_outcome, 1.0, 1.0 - 1e-12).count(cell) == 1
+    assert cell not in capped(wavy_outcome, 1.0, 0.999)
+    assert cell not in capped(wavy_outcome, 0.999, 1.0)
+    assert cell not in render(smooth_outcome)  # without a hardness
+
+
+def test_convergence_shows_every_level_of_every_model(wavy_page, wavy_outcome: Outcome):
+    tables = [table for table in wavy_page.tables if "order" in table[0]]
+    assert len(tables) == 3  # one a model, one of the norms of the difference
+    for table, run in zip(tables, wavy_outcome.runs.values(), strict=False):
+        rows = {row[0]: row[1:] for row in table[1:]}
+        for k, level in enumerate(run.levels):
+            pitch = number(rows["pitch of the pressure elements"][k])
+            assert pitch == pytest.approx(level.grid.pitch, rel=1e-3)
+            assert int(number(rows["unknowns"][k])) == level.unknowns
+            peak = number(rows["peak pressure"][k])
+            assert peak == pytest.approx(level.solution.pressure.max(), rel=1e-4)
+
+
+def test_what_was_left_out_stands_with_its_reason(wavy_page, wavy_outcome: Outcome):
+    assert wavy_outcome.plan.skipped
+    for item in wavy_outcome.plan.skipped:
+        assert [item.step, item.because] in [row for table in wavy_page.tables for row in table]
+    for assumption in wavy_outcome.plan.assumptions:
+        assert assumption in wavy_page.text
+
+
+def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcome: Outcome):
+    assert f"numpy {wavy_outcome.record['versions']['numpy']}" in wavy_page.text
+    for value in wavy_outcome.record["hashes"].values():
+        assert value in wavy_page.text
+    assert "crosscheck run made.toml" in wavy_page.text
+    commands = [command.callback.__name__.strip("_") for command in app.registered_commands]
+    for named in re.findall(r"crosscheck (\w+) [^ ]*\.toml", wavy_page.text):
+        assert named in commands
+    assert "crosscheck rerun" not in wavy_page.text
+
+
+def test_the_headline_owns_up_to_a_solver_that_failed(smooth_outcome: Outcome, page_of):
+    run = smooth_outcome.runs["half_plane"]
+    bad = replace(run.finest, solution=replace(run.finest.solution, converged=False))
+    runs = {**smooth_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], bad))}
+    said = headline(replace(smooth_outcome, runs=runs))
+    assert said.kind == "not converged"
+    assert "half-plane" in said.sentence
+    page = page_of(render(replace(smooth_outcome, runs=runs)))
+    assert "no conclusion rests on it" in page.text

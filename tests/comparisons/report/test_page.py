@@ -1,0 +1,170 @@
+"""The page as a reader, a browser and a printer meet it: whole, self-contained, in order."""
+
+import base64
+import re
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from comparisons.outcome import Outcome
+from comparisons.report.page import render
+
+ROOT = "{http://www.w3.org/2000/svg}"
+LINK = "{http://www.w3.org/1999/xlink}href"
+
+
+def test_every_tag_is_closed_in_order(wavy_page, smooth_page, half_plane_page, page_of):
+    for page in (wavy_page, smooth_page, half_plane_page):
+        assert page.open_tags == []
+    with pytest.raises(ValueError, match="closes nothing"):
+        page_of("<p><b>wrong</p></b>")
+
+
+def test_nothing_is_loaded_from_anywhere(wavy_page):
+    loading = {"src", "srcset", "href", "data", "action", "poster", "background"}
+    for tag, name, value in wavy_page.attributes:
+        if name in loading:
+            assert value.startswith("data:image/svg+xml;base64,"), (tag, name)
+        assert not name.startswith("on"), (tag, name)
+    assert not re.search(r"https?:|<script|<link|<iframe|@import|url\(", wavy_page.source)
+
+
+def test_pictures_are_whole_and_load_nothing_either(wavy_page):
+    for image in wavy_page.images:
+        drawing = ElementTree.fromstring(base64.b64decode(image["src"].partition(",")[2]))
+        assert drawing.tag == f"{ROOT}svg"
+        assert drawing.find(f".//{ROOT}path") is not None
+        for element in drawing.iter():
+            target = element.get(LINK) or element.get("href") or "#"
+            assert target.startswith(("#", "data:image/png;base64,")), target
+
+
+def test_every_picture_says_in_words_what_it_shows(wavy_page):
+    alternatives = [image["alt"] for image in wavy_page.images]
+    assert all(len(text) > 40 for text in alternatives)
+    assert len(set(alternatives)) == len(alternatives)
+
+
+def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
+    # problem, pressure, close-up, surfaces; two fields and a near-surface one for each of the two
+    # friction coefficients; two sections; three meshes; cost; error budget
+    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1
+    assert wavy_page.count("next to the surface") == 2
+    assert wavy_page.count("Orthogonal shear stress") == 2
+    assert wavy_page.count("over depth") == 2
+    assert wavy_page.count("Finite-element mesh") == 3
+    assert {"Friction 0", "Friction 0.1"} <= set(wavy_page.headings)
+
+
+def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page):
+    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1
+    assert smooth_page.count("next to the surface") == 0
+    assert smooth_page.count("right-hand edge") == 1
+    assert "Ra, Rq" not in smooth_page.text
+
+
+def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
+    assert wavy_page.sections == [
+        "problem",
+        "comparison",
+        "budget",
+        "contact",
+        "stresses",
+        "convergence",
+        "mesh",
+        "skipped",
+        "cost",
+        "checks",
+        "record",
+    ]
+
+
+def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page):
+    assert half_plane_page.sections == [
+        "problem",
+        "comparison",
+        "contact",
+        "convergence",
+        "skipped",
+        "cost",
+        "checks",
+        "record",
+    ]
+    assert len(half_plane_page.images) == 5
+    assert "Only the half-plane model was run" in half_plane_page.text
+    assert "finite elements" not in half_plane_page.text
+    assert "neither model" not in half_plane_page.text
+    assert "free to slide on a rigid base" in half_plane_page.text
+    assert "--models half-plane" in half_plane_page.text
+
+
+def test_the_finite_element_model_alone_has_its_mesh(
+    finish: Callable[..., Outcome], without_field: dict, page_of
+):
+    page = page_of(render(finish(without_field, ("finite_element",))))
+    assert "mesh" in page.sections
+    assert "Only the finite-element model was run" in page.text
+
+
+def test_fields_of_one_model_stand_without_a_difference(
+    finish: Callable[..., Outcome], smooth_tables, page_of
+):
+    page = page_of(render(finish(smooth_tables, ("half_plane",))))
+    assert page.count("Principal shear stress") == page.count("Orthogonal shear stress") == 1
+    assert page.count("over depth") == 2
+    assert "largest difference" not in page.text
+    [table] = [table for table in page.tables if "over Hertz" in table[0]]
+    assert [row[0] for row in table[1:]] == [
+        "peak pressure",
+        "contact length",
+        "contact length over Hertz 2a",
+        "largest principal shear stress τ₁",
+        "depth of the largest τ₁",
+        "largest orthogonal shear stress |τxz|",
+    ]
+
+
+def test_words_never_carry_the_names_of_result_files(wavy_page):
+    assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Left out")[0])
+
+
+def test_what_scrolls_sideways_can_be_reached_by_keyboard(wavy_page):
+    places = re.findall(r'<div class="scroll[^>]*>', wavy_page.source)
+    pictures = [place for place in places if "picture" in place.partition(" role")[0]]
+    assert len(pictures) == len(wavy_page.images)
+    assert all('tabindex="0"' in place and "aria-label=" in place for place in pictures)
+    assert wavy_page.text.count("Scroll sideways to see the whole picture") == len(pictures)
+
+
+def test_equal_runs_give_equal_pages_whatever_the_settings_of_matplotlib(
+    smooth_outcome: Outcome, smooth_page
+):
+    import matplotlib
+
+    with matplotlib.rc_context({"font.size": 31.0, "axes.grid": False, "lines.linewidth": 9.0}):
+        again = render(smooth_outcome)
+        assert matplotlib.rcParams["font.size"] == 31.0
+    assert again == smooth_page.source
+
+
+def test_a_title_cannot_add_markup(smooth_outcome: Outcome, page_of):
+    title = '<script>alert("x")</script> & <b>more'
+    scene = replace(smooth_outcome.problem.scene, title=title)
+    outcome = replace(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
+    page = page_of(render(outcome))
+    assert title in page.headings
+    assert not {"script", "b"} & {tag for tag, _, _ in page.attributes} and "<b>" not in page.source
+    assert page.open_tags == []
+
+
+def test_the_page_of_a_field_of_full_size_stays_small(
+    finish: Callable[..., Outcome], without_field: dict
+):
+    tables = {
+        **without_field,
+        "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+        "stress": {"points": [600, 200], "depth": 1.0},
+    }
+    assert len(render(finish(tables))) < 4_000_000
