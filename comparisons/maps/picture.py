@@ -46,13 +46,13 @@ def map_figure(content: dict) -> "Figure":
     axes.set_ylim(edges[1][[0, -1]])
     axes.grid(False)
     kinds = _cells(axes, content, edges)
-    _lines(axes, content, x, y)
+    lines = _lines(axes, content, x, y)
     _ticks(axes.xaxis, content["x"], x)
     _ticks(axes.yaxis, content["y"], y)
     _bar(drawn)
     label = QUANTITIES[content["quantity"]].label
     axes.set_title(f"The half-plane's own error: {label}, per cent\n{content['scene']['title']}")
-    _legend(axes, content, kinds)
+    _legend(axes, content, kinds, lines)
     return drawn
 
 
@@ -95,9 +95,10 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             if columns <= LETTERED:
                 ink = "white" if share > LIGHT else "black"
                 text = f"{100.0 * error:+.2g}".replace("-", "−")
-                axes.text(
+                letters = axes.text(
                     *middle, text, color=ink, fontsize=7.0, ha="center", va="center", zorder=4
                 )
+                letters.set(path_effects=_halo(2.0, look["facecolor"]))
         else:
             kinds.add(point["error"])
             look |= {"hatch": HATCHES[point["error"] == BELOW], "edgecolor": "#777777"}
@@ -110,17 +111,22 @@ def _share(error: float) -> float:
     return (np.searchsorted(BANDS, error, side="right") - 1) / (len(BANDS) - 1)
 
 
-def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> None:
-    """Where the error is at each tolerance, either sign, straight between points on its scale."""
+def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[float, object]:
+    """Where the error is at each tolerance, either sign, straight between points on its scale.
+
+    Returns the style of the line of every tolerance that the map reaches.
+    """
     error = np.full((len(y), len(x)), np.nan)
     for number, point in enumerate(content["points"]):
         own = point.get("quantities", {}).get(content["quantity"])
         if own is not None:
             error.flat[number] = own["difference"]
+    drawn = {}
     for tolerance, style in zip(content["tolerances"], STYLES, strict=True):
         for side in (-1.0, 1.0):
             if np.nanmax(side * error, initial=-np.inf) <= tolerance:
                 continue
+            drawn[tolerance] = style
             found = axes.contour(
                 x,
                 y,
@@ -130,7 +136,8 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> None:
                 linewidths=1.3,
                 linestyles=[style],
             )
-            found.set(path_effects=_halo())
+            found.set(path_effects=_halo(2.6, "white"))
+    return drawn
 
 
 def _scaled(error: np.ndarray | float) -> np.ndarray | float:
@@ -138,10 +145,11 @@ def _scaled(error: np.ndarray | float) -> np.ndarray | float:
     return np.arcsinh(np.asarray(error) / SMALLEST)
 
 
-def _halo() -> list:
+def _halo(width: float, colour: "str | tuple") -> list:
+    """What sets lines and letters off from what they lie on; width in points."""
     from matplotlib.patheffects import Normal, Stroke
 
-    return [Stroke(linewidth=2.6, foreground="white"), Normal()]
+    return [Stroke(linewidth=width, foreground=colour), Normal()]
 
 
 def _ticks(side: object, axis: dict, places: np.ndarray) -> None:
@@ -176,13 +184,15 @@ def _bar(drawn: "Figure") -> None:
         spine.set_visible(False)
 
 
-def _legend(axes: "Axes", content: dict, kinds: set[str]) -> None:
+def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, object]) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     entries = [
-        Line2D([], [], color="#D55E00", linewidth=1.3, linestyle=style, label=f"{100 * t:g} %")
-        for t, style in zip(content["tolerances"], STYLES, strict=True)
+        Line2D(
+            [], [], color="#D55E00", linewidth=1.3, linestyle=style, label=f"error of {100 * t:g} %"
+        )
+        for t, style in lines.items()
     ]
     first = f"{100.0 * content['tolerances'][0]:g} %"
     words = {
@@ -198,6 +208,8 @@ def _legend(axes: "Axes", content: dict, kinds: set[str]) -> None:
         entries.append(Line2D([], [], label="failed", **cross))
     if MISSING in kinds:
         entries.append(Patch(facecolor="none", edgecolor="none", label="blank: not computed"))
+    if not entries:
+        return
     axes.legend(
         handles=entries,
         loc="upper left",

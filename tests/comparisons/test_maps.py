@@ -366,6 +366,13 @@ class TestPicture:
         ]
         assert np.allclose(10.0 ** np.array(sorted(found)), [0.2, 0.4, 1.0, 2.0], rtol=0.02)
 
+    @pytest.mark.parametrize(("largest", "count"), [(0.009, None), (0.03, 2), (0.2, 4)])
+    def test_the_legend_names_the_lines_that_are_drawn(self, smooth_map, largest, count):
+        legend = self.drawn(smooth_map(lambda x, y: -largest * x / 4.0)).get_legend()
+        words = None if legend is None else [text.get_text() for text in legend.get_texts()]
+        lines = [f"error of {share} %" for share in (1, 2, 5, 10)]
+        assert words == (None if count is None else lines[:count])
+
     def test_equal_maps_give_equal_pictures(self, made):
         text = map_picture(made)
         assert text == map_picture(made) and text.startswith("<?xml")
