@@ -24,7 +24,7 @@ def map_content(request: MapRequest, store: PointStore) -> dict:
     content = {
         "schema": SCHEMA,
         "command": request.command,
-        "scene": request.tables,
+        "scene": described(request),
         "finite_element": request.removed,
         "quantity": request.quantity,
         "x": _axis(request.x),
@@ -34,6 +34,11 @@ def map_content(request: MapRequest, store: PointStore) -> dict:
         "versions": versions(),
     }
     return content | {"rules": rules_of(content)}
+
+
+def described(request: MapRequest) -> dict:
+    """The scene as the map tells it: without [budget], which says what a run may cost."""
+    return {name: fields for name, fields in request.tables.items() if name != "budget"}
 
 
 def _axis(axis: Axis) -> dict:

@@ -5,6 +5,7 @@ import shlex
 
 import pytest
 
+from comparisons.maps.content import described
 from comparisons.maps.make import read_map
 from comparisons.maps.picture import map_picture
 from comparisons.maps.point import FAILED, SOLVED, TOLERANCES, solve_point
@@ -41,7 +42,8 @@ def test_the_command_asks_for_the_same_points(finished):
     name, content = finished
     request = asked_for(content)
     assert request.scene == name
-    assert request.tables == content["scene"] and request.removed == content["finite_element"]
+    assert described(request) == content["scene"]
+    assert request.removed == content["finite_element"]
     assert [(p.x, p.y) for p in request.points] == [(p["x"], p["y"]) for p in content["points"]]
     assert content["x"]["values"] == list(request.x.values)
     assert content["y"]["values"] == list(request.y.values)
