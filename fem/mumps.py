@@ -68,17 +68,7 @@ class SymmetricFactor:
         matrix.setOption(PETSc.Mat.Option.SPD, True)
         self._matrix = matrix
         self._right, self._left = matrix.createVecs()
-        spare = SPARE_ROOM
-        while True:
-            self._ksp, self._factor, info = _factorised(matrix, spare)
-            if info not in TOO_LITTLE_ROOM or spare > MOST_SPARE_ROOM:
-                break
-            spare *= 2
-        if info < 0:
-            reason = REASONS.get(info, "see the MUMPS users' guide")
-            raise FemError(
-                f"MUMPS could not factor {matrix.size[0]} unknowns: {reason} (INFOG(1) = {info})"
-            )
+        self._ksp, self._factor = factorised(matrix)
         release_with(self, self._ksp.getPC(), self._factor, self._ksp, self._right, self._left)
         self.seconds = perf_counter() - start
         self.bytes = 1_000_000 * self._factor.getMumpsInfog(22)
@@ -108,8 +98,33 @@ class SymmetricFactor:
         return solution
 
 
-def _factorised(matrix, spare: int):
-    """KSP that owns the factor, the factor, and MUMPS' INFOG(1)."""
+def factorised(matrix, symmetric: bool = True):
+    """KSP that owns MUMPS' factor of a PETSc matrix, and the factor: LDL^T, or LU without symmetry.
+
+    Raises FemError if MUMPS cannot factor it.
+    """
+    spare = SPARE_ROOM
+    while True:
+        ksp, factor, info = _attempt(matrix, symmetric, spare)
+        if info >= 0:
+            return ksp, factor
+        let_go(factor, ksp)
+        if info not in TOO_LITTLE_ROOM or spare > MOST_SPARE_ROOM:
+            reason = REASONS.get(info, "see the MUMPS users' guide")
+            raise FemError(
+                f"MUMPS could not factor {matrix.size[0]} unknowns: {reason} (INFOG(1) = {info})"
+            )
+        spare *= 2
+
+
+def let_go(factor, ksp) -> None:
+    """PETSc keeps what Python lets go of, from 3.18 on, until it is told."""
+    for used in (factor, ksp.getPC(), ksp):
+        used.destroy()
+
+
+def _attempt(matrix, symmetric: bool, spare: int):
+    """KSP, factor, and MUMPS' INFOG(1), negative where it failed."""
     from petsc4py import PETSc
 
     options = PETSc.Options(PREFIX)
@@ -119,7 +134,7 @@ def _factorised(matrix, spare: int):
     ksp.setOperators(matrix)
     ksp.setType(PETSc.KSP.Type.PREONLY)
     pc = ksp.getPC()
-    pc.setType(PETSc.PC.Type.CHOLESKY)
+    pc.setType(PETSc.PC.Type.CHOLESKY if symmetric else PETSc.PC.Type.LU)
     pc.setFactorSolverType(PETSc.Mat.SolverType.MUMPS)
     pc.setFactorSetUpSolverType()
     factor = pc.getFactorMatrix()

@@ -42,24 +42,32 @@ def test_a_singular_matrix_is_refused_in_one_line(positive):
 
 
 def test_too_little_room_is_answered_by_more(positive, monkeypatch):
-    given, factorise = [], mumps._factorised
+    given, attempt = [], mumps._attempt
 
-    def short_of_room(matrix, spare):
+    def short_of_room(matrix, symmetric, spare):
         given.append(spare)
-        solver, factor, info = factorise(matrix, spare)
+        solver, factor, info = attempt(matrix, symmetric, spare)
         return solver, factor, -9 if spare < 4 * mumps.SPARE_ROOM else info
 
-    monkeypatch.setattr(mumps, "_factorised", short_of_room)
+    monkeypatch.setattr(mumps, "_attempt", short_of_room)
     factor = SymmetricFactor(petsc(positive))
     assert given == [mumps.SPARE_ROOM, 2 * mumps.SPARE_ROOM, 4 * mumps.SPARE_ROOM]
     np.testing.assert_allclose(positive @ factor.solve(np.ones(30)), 1.0, atol=1e-10)
 
 
 def test_never_enough_room_ends_in_an_error(positive, monkeypatch):
-    factorise = mumps._factorised
-    monkeypatch.setattr(mumps, "_factorised", lambda m, spare: (*factorise(m, spare)[:2], -9))
+    attempt, made = mumps._attempt, []
+
+    def in_vain(*given):
+        solver, factor, _ = attempt(*given)
+        made.extend([solver, factor])
+        return solver, factor, -9
+
+    monkeypatch.setattr(mumps, "_attempt", in_vain)
     with pytest.raises(FemError, match=r"INFOG\(1\) = -9"):
         SymmetricFactor(petsc(positive))
+    assert len(made) > 4
+    assert not any(made)  # no attempt's factor stays
 
 
 def test_what_petsc_holds_goes_with_its_owner(positive):
