@@ -79,3 +79,19 @@ def roller() -> Roller:
 def friction_dundurs(request) -> float:
     """mu beta; the last is friction 1.5 at the largest beta."""
     return request.param
+
+
+@pytest.fixture(scope="session")
+def wave_rule() -> Callable[[float, int], tuple[np.ndarray, np.ndarray]]:
+    """`wave_rule(pitch, offset)`: wave numbers k and weights of the integral of hats' spectrum
+    times cos or sin of k times the offset: panels that halve towards k = 0, then half waves."""
+    points, weights = np.polynomial.legendre.leggauss(20)
+
+    def rule(pitch: float, offset: int) -> tuple[np.ndarray, np.ndarray]:
+        waves = np.arange(1, 200 * offset) * np.pi / (offset * pitch)
+        edges = np.concatenate([[0.0], waves[0] * 0.5 ** np.arange(90, 0, -1.0), waves])
+        width = np.diff(edges)[:, None]
+        k = edges[:-1, None] + 0.5 * (1.0 + points) * width
+        return k, 0.5 * width * weights * np.sinc(0.5 * k * pitch / np.pi) ** 4
+
+    return rule
