@@ -37,19 +37,19 @@ def zone(field: np.ndarray, level: float, seed: tuple[int, int]) -> np.ndarray:
 def top_of_zone(z: np.ndarray, field: np.ndarray, level: float, seed: tuple[int, int]) -> float:
     """Least depth, in the unit of z (m,), of what is joined with `seed` at a level.
 
-    Above the first row of the zone the field is taken as linear down to the row before, below
-    which the zone ends; the last depth where there is no zone.
+    The field is taken as linear between the first row of the zone and the one above it. The last
+    depth where there is no zone.
     """
     inside = zone(field, level, seed)
     rows = np.flatnonzero(inside.any(axis=1))
     if len(rows) == 0:
         return float(z[-1])
     row = rows[0]
-    column = int(np.argmax(np.where(inside[row], field[row], -np.inf)))
     if row == 0:
         return float(z[0])
-    here, above = field[row, column], field[row - 1, column]
-    return float(z[row] - (here - level) / (here - above) * (z[row] - z[row - 1]))
+    here, above = field[row, inside[row]], field[row - 1, inside[row]]
+    share = np.max((here - level) / (here - above))
+    return float(z[row] - share * (z[row] - z[row - 1]))
 
 
 def joining_level(field: np.ndarray, seed: tuple[int, int], target: np.ndarray) -> float:

@@ -43,7 +43,7 @@ def trace_picture(outcome: Outcome, scales: Scales) -> Picture:
     x, body, roller = trace_surfaces(outcome)
     heights = [(part - body.max()) / MICRO for part in (body, roller)]
     _bodies(below, origin + x / MICRO, *heights)
-    start, stop = origin + x[[0, -1]] / MICRO
+    start, stop = origin + scene.profile.x[[0, -1]] / MICRO
     bar_at = start + 0.93 * (stop - start)
     low = below.get_ylim()[0] + 0.1 * BAR / MICRO
     below.plot([bar_at, bar_at], [low, low + BAR / MICRO], color="black", linewidth=2.2)

@@ -28,7 +28,8 @@ def isometric_picture(outcome: Outcome, component: Component, scales: Scales, of
     field = layered(outcome)
     values = component.of(field.stress)
     floor, ceiling = scales.floors[component.name], scales.ceilings[component.name]
-    left, right, bottom, top = bounds(field.x, field.z, floor, ceiling)
+    ends = np.array([-RANGE, RANGE])  # which the columns of each surface come near to
+    left, right, bottom, top = bounds(ends, field.z, floor, ceiling)
     drawn = figure(COLUMN, COLUMN * (top - bottom) / (right - left))
     axes = drawn.add_axes((0.0, 0.0, 1.0, 1.0))
     colours = matplotlib.colormaps[component.colours]
@@ -38,7 +39,7 @@ def isometric_picture(outcome: Outcome, component: Component, scales: Scales, of
     draw_isometric(axes, field.x, field.z, values, floor, colours, norm)
     heights = np.arange(floor, ceiling + 0.5 * STEP, STEP)
     draw_scales(axes, field.x, field.z, floor, heights, component.symbol)
-    frame(axes, field.x, field.z, floor, ceiling)
+    frame(axes, ends, field.z, floor, ceiling)
     row, column = np.unravel_index(np.argmax(np.abs(values)), values.shape)
     largest = (
         f"highest on the lines drawn: {significant(abs(values[row, column]), 3)} p₀ at "

@@ -25,7 +25,7 @@ class Row:
     confirmed: str
     half_plane: str
     finite_element: str
-    number: str
+    numbers: tuple[str, ...]
     besides: tuple[str, ...]
     outcome: str
     kind: str
@@ -45,10 +45,10 @@ def row_of(judged: Judged) -> Row:
         confirmed=claim.criterion.removeprefix("Confirmed ").split(", ")[0],
         half_plane=numbers.get("half_plane", ""),
         finite_element=numbers.get("finite_element", ""),
-        number=_by_model(numbers),
+        numbers=_by_model(numbers),
         besides=tuple(
             f"{words[0].upper()}{words[1:]}: "
-            + _by_model({m: significant(v, 3) for m, v in values.items()})
+            + "; ".join(_by_model({m: significant(v, 3) for m, v in values.items()}))
             for words, values in judged.besides.items()
         ),
         outcome=judged.outcome,
@@ -87,7 +87,7 @@ def summary(judged: tuple[Judged, ...]) -> str:
     )
 
 
-def _by_model(texts: dict[str, str]) -> str:
+def _by_model(texts: dict[str, str]) -> tuple[str, ...]:
     if len(set(texts.values())) == 1 and len(texts) > 1:
-        return f"{next(iter(texts.values()))} (both models)"
-    return "; ".join(f"{LABELS[model]} {text}" for model, text in texts.items())
+        return (f"{next(iter(texts.values()))} (both models)",)
+    return tuple(f"{LABELS[model]} {text}" for model, text in texts.items())
