@@ -18,7 +18,8 @@ import pytest
 
 from comparisons import run as run_module
 from comparisons.budget.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
-from comparisons.cli import RESULTS, main
+from comparisons.cli import main
+from comparisons.commands.arguments import RESULTS
 from comparisons.compare import figures
 from comparisons.exit_status import ExitStatus
 from comparisons.files import OWN_FILES

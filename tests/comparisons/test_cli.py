@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.cli import MODELS, main
+from comparisons.cli import main
+from comparisons.commands.run import MODELS
 from comparisons.errors import InputError
 from comparisons.exit_status import ExitStatus
 from comparisons.scene_file import scene_titles

@@ -1,0 +1,1 @@
+"""The commands of `crosscheck`, one module each; `comparisons.cli` puts them together."""

@@ -1,0 +1,37 @@
+"""`crosscheck cost`: error against time of every method that applies to a scene."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, Job, Scene
+from comparisons.commands.output import progress, show
+from comparisons.exit_status import ExitStatus
+
+
+def cost(
+    scene: Scene,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Folder for the results.", show_default="results/<name>-cost"),
+    ] = None,
+    repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
+) -> Job:
+    """Measure error against time of every method; name the cheapest for each tolerance."""
+    return partial(_cost, scene, out, repeats)
+
+
+def _cost(scene: str, out: Path | None, repeats: int) -> int:
+    from comparisons.cost import cost as measured_cost
+    from comparisons.cost_table import cost_summary
+    from comparisons.resolve import load_scene
+
+    resolved = load_scene(scene)
+    directory = out or RESULTS / f"{resolved.name}-cost"
+    with progress() as listener:
+        found = measured_cost(resolved, directory, repeats, listener)
+    show(cost_summary(found))
+    print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
+    return ExitStatus.DONE

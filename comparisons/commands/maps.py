@@ -1,0 +1,57 @@
+"""`crosscheck map`: where the half-plane holds, over two dimensionless groups."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.output import progress, show, show_json
+from comparisons.exit_status import ExitStatus
+from comparisons.rank import from_first
+
+
+def map_of(
+    scene: Annotated[str, typer.Argument(help="As for `run`, or the name of a finished map.")],
+    points: Annotated[str, typer.Option(help="Values along x and y, as NxM.")] = "8x8",
+    x: Annotated[
+        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
+    ] = None,
+    y: Annotated[
+        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
+    ] = None,
+    quantity: Annotated[str, typer.Option(help="The quantity to show.")] = "peak_pressure",
+    workers: Annotated[
+        str | None,
+        typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the map.", show_default="results/<name>")
+    ] = None,
+    as_json: Annotated[bool, json_option("map.json")] = False,
+) -> Job:
+    """Map where the half-plane holds, over two dimensionless groups."""
+    return partial(_map, (scene, points, x, y, quantity), workers, out, as_json)
+
+
+def _map(
+    asked: tuple[str | None, ...], workers: str | None, out: Path | None, as_json: bool
+) -> int:
+    from comparisons.maps.request import request_of
+
+    request = from_first(lambda: request_of(*asked))
+    directory = out or RESULTS / request.name
+    from comparisons.maps.command import exit_status, mapped
+
+    with progress() as listener:
+        content = mapped(request, directory, workers, listener)
+    if content is None:  # it worked for the first process
+        return ExitStatus.DONE
+    if as_json:
+        show_json(content)
+    else:
+        from comparisons.maps.table import map_table
+
+        show(map_table(content, directory))
+    return exit_status(content)

@@ -1,0 +1,40 @@
+"""What commands print, and where: results to standard output, progress to a terminal alone."""
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from comparisons.rank import is_several
+from comparisons.stages import Listener, silent
+
+UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
+
+
+@contextmanager
+def progress() -> Iterator[Listener]:
+    """A listener that shows the stage at work, if anybody watches standard error."""
+    if not sys.stderr.isatty():
+        yield silent
+        return
+    from rich.console import Console
+    from rich.text import Text
+
+    with Console(stderr=True).status("") as status:
+        yield lambda stage: status.update(Text(stage))
+
+
+def show(renderable: object) -> None:
+    """Print a table, as wide as the terminal if there is one."""
+    from rich.console import Console
+
+    # Open MPI hands its processes a terminal, whatever its own output goes to
+    if sys.stdout.isatty() and not is_several():
+        Console().print(renderable)
+    else:
+        Console(width=UNSEEN_WIDTH, force_terminal=False).print(renderable)
+
+
+def show_json(content: object) -> None:
+    """Print what `--json` asks for."""
+    print(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))

@@ -1,0 +1,34 @@
+"""`crosscheck paper`: Bailey and Sayles' figures computed anew."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.output import progress, show, show_json
+
+
+def paper(
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the page.", show_default="results/paper")
+    ] = None,
+    as_json: Annotated[bool, json_option("paper.json")] = False,
+) -> Job:
+    """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
+    return partial(_paper, out, as_json)
+
+
+def _paper(out: Path | None, as_json: bool) -> int:
+    from comparisons.paper.reproduce import paper as reproduced
+
+    with progress() as listener:
+        found = reproduced(out or RESULTS / "paper", listener=listener)
+    if as_json:
+        show_json(found.as_dict())
+    else:
+        from comparisons.paper.table import paper_table
+
+        show(paper_table(found))
+    return found.exit_status

@@ -1,0 +1,73 @@
+"""`crosscheck run`: one scene by both models, compared and judged."""
+
+import difflib
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
+from comparisons.commands.output import progress, show, show_json
+from comparisons.errors import InputError
+from comparisons.rank import from_first
+
+MODELS = {"half-plane": "half_plane", "finite-element": "finite_element"}
+
+
+def run(
+    scene: Scene,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the results.", show_default="results/<name>")
+    ] = None,
+    models: Annotated[
+        str, typer.Option(help="Models to solve with, separated by commas.")
+    ] = ",".join(MODELS),
+    tolerance: Annotated[
+        float | None,
+        typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
+    ] = None,
+    as_json: Annotated[bool, json_option("result.json")] = False,
+) -> Job:
+    """Solve a scene with both models, compare them and judge."""
+    return partial(_run, scene, out, models, tolerance, as_json)
+
+
+def _run(scene: str, out: Path | None, models: str, tolerance: float | None, as_json: bool) -> int:
+    chosen = _models(models)
+    from comparisons.files import check_writable
+    from comparisons.resolve import load_scene
+
+    resolved = from_first(lambda: load_scene(scene))
+    if tolerance is not None:
+        from comparisons.tolerance import with_tolerance
+
+        resolved = with_tolerance(resolved, tolerance)
+    directory = out or RESULTS / resolved.name
+    from_first(lambda: check_writable(directory))
+    from comparisons.run import run as run_scene
+
+    with progress() as listener:
+        outcome = run_scene(resolved, directory, chosen, listener)
+    if as_json:
+        show_json(outcome.result)
+    else:
+        from comparisons.table import summary
+
+        show(summary(outcome))
+    return outcome.exit_status
+
+
+def _models(given: str) -> tuple[str, ...]:
+    """The models' names in results, in the order of `MODELS`."""
+    named = [name.strip() for name in given.split(",") if name.strip()]
+    for name in named:
+        if name not in MODELS:
+            near = difflib.get_close_matches(name, MODELS, n=1, cutoff=0.0)[0]
+            raise InputError(
+                f"--models: there is no model {name}; the nearest is {near}; "
+                f"allowed are {', '.join(MODELS)}"
+            )
+    if not named:
+        raise InputError(f"--models: is empty; allowed are {', '.join(MODELS)}")
+    return tuple(MODELS[name] for name in MODELS if name in named)
