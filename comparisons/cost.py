@@ -6,14 +6,16 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.cost_choice import Assessed, Choice, choices, followed, pareto
 from comparisons.cost_methods import METHODS, Method
+from comparisons.cost_process import ProcessEnded, fresh_process
 from comparisons.cost_reference import Reference, error_of, references
+from comparisons.cost_store import CostStore, measuring_machine
 from comparisons.cost_study import Row, Study, measured_study
-from comparisons.errors import InputError, SceneError
+from comparisons.errors import InputError, SceneError, SolverError
 from comparisons.files import check_writable, published
 from comparisons.problem import Problem, problem_of
 from comparisons.quantities import QUANTITIES
 from comparisons.rank import is_several
-from comparisons.record import as_json, machine, versions
+from comparisons.record import as_json, versions
 from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, silent
 from comparisons.window import window_of
@@ -21,7 +23,7 @@ from meshes.errors import MeshError
 
 SCHEMA = 1
 FILES = ("cost.json", "cost.html")
-THREADS = 1  # of a measuring process
+GOES_ON = "measured settings are kept, the same command goes on from there"
 
 
 @dataclass(frozen=True)
@@ -56,35 +58,58 @@ def cost(
 ) -> Cost:
     """Measure, judge, and leave cost.json and cost.html in `out`, whole or not at all.
 
-    Raises InputError for a scene that cannot be solved, or a folder that cannot be written.
+    What was measured stays beside them (`comparisons.cost_store`): the same study goes on from
+    there, or has it all. Raises InputError for a scene that cannot be solved, or a folder that
+    cannot be written, KeyboardInterrupt with how to go on.
     """
     if is_several():
         raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
     check_writable(out)
-    problem = _problem(scene, listener)
-    found = judged(problem, measured_study(problem, repeats, listener, methods))
-    listener("drawing the diagrams")
-    from comparisons.cost_page import cost_page
+    store = CostStore(out, scene, repeats)
+    store.tidy()
+    try:
+        problem = _problem(scene, store, listener)
+        found = judged(problem, measured_study(problem, repeats, store, listener, methods))
+        listener("drawing the diagrams")
+        from comparisons.cost_page import cost_page
 
-    with published(out, FILES) as folder:
-        (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
-        (folder / "cost.html").write_text(cost_page(found), encoding="utf-8")
+        with published(out, FILES) as folder:
+            (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
+            (folder / "cost.html").write_text(cost_page(found), encoding="utf-8")
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(GOES_ON) from None
     return found
 
 
-def _problem(scene: ResolvedScene, listener: Listener) -> Problem:
+def _problem(scene: ResolvedScene, store: CostStore, listener: Listener) -> Problem:
     """The scene's problem; a prescribed approach is turned into its load."""
     listener("finding the reach of the contact")
     try:
         if scene.load.kind != "approach":
             return problem_of(scene)
-        from comparisons.approach import problem_of_approach
-
-        return problem_of_approach(scene, listener)
+        load = store.load_per_length()
+        if load is None:
+            listener("finite elements: load of the prescribed approach")
+            with fresh_process() as call:
+                load = call(_load_of_approach, scene)
+            store.save_load_per_length(load)
+        return problem_of(scene, load)
+    except ProcessEnded as error:
+        raise SolverError(
+            f"{scene.source}: load.approach: the process that looked for its load ended; allowed "
+            "is a load (per_length) instead"
+        ) from error
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
+
+
+def _load_of_approach(scene: ResolvedScene) -> float:
+    """[N/m]; in a process of its own, which an interrupt ends at once."""
+    from comparisons.approach import problem_of_approach
+
+    return problem_of_approach(scene, silent).hertz.load_per_length
 
 
 def judged(problem: Problem, study: Study) -> Cost:
@@ -116,7 +141,7 @@ def judged(problem: Problem, study: Study) -> Cost:
         fronts={name: pareto(assessed, name, known[name].floor) for name in known},
         choices=choices(study, assessed, known, scene.tolerance),
         versions=versions(),
-        machine=machine() | {"threads": THREADS},
+        machine=measuring_machine(),
     )
 
 

@@ -1,7 +1,6 @@
 """All methods at all their settings, measured one after the other; what fails is a row as well."""
 
-from concurrent.futures import Executor
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from comparisons.cost_measure import Measured, Refused, Task, measure
@@ -12,7 +11,8 @@ from comparisons.cost_methods import (
     is_half_plane_problem,
     why_not,
 )
-from comparisons.maps.executors import processes
+from comparisons.cost_process import Call, ProcessEnded, fresh_process
+from comparisons.cost_store import CostStore
 from comparisons.problem import Problem
 from comparisons.report.numbers import with_unit
 from comparisons.stages import Listener
@@ -25,6 +25,9 @@ DENSE_GROWTH = 8.0
 SHARES = (0.03, 0.08, 0.15, 0.2, 0.35, 0.55, 0.75, 0.9)
 MOST_OF_REST = 0.25  # that the goes of one setting may take before they are enough
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
+
+# What a task gives; None where its process ended.
+Ask = Callable[[Task], Measured | Refused | None]
 
 
 @dataclass(frozen=True)
@@ -70,9 +73,14 @@ class Study:
 
 
 def measured_study(
-    problem: Problem, repeats: int, listener: Listener, methods: tuple[Method, ...] = METHODS
+    problem: Problem,
+    repeats: int,
+    store: CostStore,
+    listener: Listener,
+    methods: tuple[Method, ...] = METHODS,
 ) -> Study:
-    """Measure; in a fresh process for each method, whose memory is its own, on one thread."""
+    """Measure what `store` lacks, and keep it there; in a fresh process for each method, whose
+    memory is its own, on one thread."""
     spent, rows, halved = 0.0, [], {}
     for share, method in zip(SHARES[-len(methods) :], methods, strict=True):
         because = why_not(method, problem)
@@ -80,11 +88,12 @@ def measured_study(
             rows.append(Row(method, None, SKIPPED, because))
             continue
         left = share * problem.scene.budget.time - spent
-        with processes(1) as executor:
-            found = _series(method, problem, repeats, left, executor, listener)
+        with fresh_process() as call:
+            ask = _asked(store, call)
+            found = _series(method, problem, repeats, left, ask, listener)
             if _wants_halved(method, problem) and found[0].status == OK:
                 task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
-                again = _carried_out(executor, task)
+                again = ask(task)
                 if isinstance(again, Measured):
                     halved[method.name] = again
         rows += found
@@ -97,7 +106,7 @@ def _series(
     problem: Problem,
     repeats: int,
     left: float,
-    executor: Executor,
+    ask: Ask,
     listener: Listener,
 ) -> list[Row]:
     """The rows of a method, in the seconds of the processor that are left for it."""
@@ -121,7 +130,7 @@ def _series(
             rows.append(Row(method, setting, SKIPPED, because))
         else:
             limit = MOST_OF_REST * max(left, 0.0)
-            found = _carried_out(executor, _task(problem, method, setting, repeats, limit))
+            found = ask(_task(problem, method, setting, repeats, limit))
             rows.append(_row(method, setting, found))
             if found is None:
                 lost = "the process that measured had ended"
@@ -141,11 +150,24 @@ def _row(method: Method, setting: float, found: Measured | Refused | None) -> Ro
     return Row(method, setting, OK, None, found)
 
 
-def _carried_out(executor: Executor, task: Task) -> Measured | Refused | None:
-    """What a task gives; None where its process ended."""
+def _asked(store: CostStore, call: Call) -> Ask:
+    """What the store has of a task, else measured by the process that is called, and kept."""
+
+    def ask(task: Task) -> Measured | Refused | None:
+        found = store.load(task)
+        if found is None:
+            found = _carried_out(call, task)
+            if isinstance(found, Measured):
+                store.save(task, found)
+        return found
+
+    return ask
+
+
+def _carried_out(call: Call, task: Task) -> Measured | Refused | None:
     try:
-        return executor.submit(measure, task).result()
-    except BrokenProcessPool:
+        return call(measure, task)
+    except ProcessEnded:
         return None
 
 

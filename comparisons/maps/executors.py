@@ -32,8 +32,8 @@ def processes(count: int) -> Iterator[Executor]:
     """A pool of fresh processes; what ends the block, or this process, ends them at once."""
     context = multiprocessing.get_context("spawn")
     alive, held = context.Pipe(duplex=False)
-    with _environment(ONE_THREAD), alive, held:
-        pool = ProcessPoolExecutor(count, context, initializer=_begin, initargs=(alive,))
+    with environment(ONE_THREAD), alive, held:
+        pool = ProcessPoolExecutor(count, context, initializer=begin, initargs=(alive,))
         try:
             yield pool
         except BaseException:
@@ -43,7 +43,7 @@ def processes(count: int) -> Iterator[Executor]:
             pool.shutdown(cancel_futures=True)
 
 
-def _begin(alive: Connection) -> None:
+def begin(alive: Connection) -> None:
     """Leave Ctrl-C to the process that started this one, and end with it or when it says so."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
@@ -90,7 +90,7 @@ def cluster(scheduler: str) -> Iterator[Workers]:
 
 
 @contextmanager
-def _environment(wanted: dict[str, str]) -> Iterator[None]:
+def environment(wanted: dict[str, str]) -> Iterator[None]:
     """Variables for processes that are started inside: numpy reads them as it is imported."""
     before = {name: os.environ.get(name) for name in wanted}
     os.environ.update(wanted)

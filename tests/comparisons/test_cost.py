@@ -5,8 +5,6 @@ import json
 import sys
 import time
 import types
-from concurrent.futures import Future
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,9 +26,11 @@ from comparisons.cost_methods import (
     why_not,
 )
 from comparisons.cost_page import cost_page
+from comparisons.cost_process import ProcessEnded
 from comparisons.cost_reference import error_of, is_exact, references
 from comparisons.cost_solve import Answer, touching_strips
-from comparisons.cost_study import FAILED, OK, SKIPPED, Row, Study, _series
+from comparisons.cost_store import FOLDER
+from comparisons.cost_study import FAILED, OK, SKIPPED, Row, Study, _asked, _series
 from comparisons.cost_table import cells, cost_summary, notes_of, refusals, shown
 from comparisons.errors import SceneError
 from comparisons.plan import MODELS
@@ -150,7 +150,7 @@ class TestWholeStudy:
 
     def test_files(self, small):
         found, folder = small
-        assert {p.name for p in folder.iterdir()} == {"cost.json", "cost.html"}
+        assert {p.name for p in folder.iterdir()} == {"cost.json", "cost.html", FOLDER}
         content = json.loads((folder / "cost.json").read_text())
         assert content == json.loads(json.dumps(content_of(found)))
         assert len(content["rows"]) == 5 and content["machine"]["threads"] == 1
@@ -182,25 +182,25 @@ class TestWholeStudy:
 class TestRows:
     """What fails or would take too long is a row, told apart."""
 
-    class Executor:
+    class Process:
         """Gives the answers, or raises them."""
 
         def __init__(self, *answers):
             self.answers, self.tasks = list(answers), []
 
-        def submit(self, work, task):
+        def __call__(self, work, task):
             self.tasks.append(task)
-            future, answer = Future(), self.answers.pop(0)
+            answer = self.answers.pop(0)
             if isinstance(answer, Exception):
-                future.set_exception(answer)
-            else:
-                future.set_result(answer)
-            return future
+                raise answer
+            return answer
 
     def rows(self, *answers, name="P2", left=1e9):
-        executor = self.Executor(*answers)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, executor, silent)
-        return found, executor
+        process = self.Process(*answers)
+        store = types.SimpleNamespace(load=lambda task: None, save=lambda task, found: None)
+        ask = _asked(store, process)
+        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, ask, silent)
+        return found, process
 
     def test_refused_and_failed(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
@@ -213,15 +213,15 @@ class TestRows:
 
     def test_a_lost_process_is_a_failure_and_the_finer_settings_are_skipped(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
-        found, executor = self.rows(good, BrokenProcessPool())
+        found, process = self.rows(good, ProcessEnded())
         assert [r.status for r in found] == [OK, FAILED, SKIPPED, SKIPPED]
-        assert len(executor.tasks) == 2
+        assert len(process.tasks) == 2
 
     def test_what_would_not_end_in_time_is_skipped(self):
         """After a second the next one takes 3.5, and there are 3 left."""
-        found, executor = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=4.0)
+        found, process = self.rows(row("P2", 1.0, 1.0, 0.0).measured, left=4.0)
         assert [r.status for r in found] == [OK, SKIPPED, SKIPPED, SKIPPED]
-        assert "budget.time" in found[1].because and executor.tasks[0].limit <= 1.0
+        assert "budget.time" in found[1].because and process.tasks[0].limit <= 1.0
 
     def test_a_dense_matrix_that_is_too_large_is_skipped(self, monkeypatch):
         monkeypatch.setattr("comparisons.cost_study.MOST_DENSE", 100)
@@ -531,7 +531,7 @@ class TestCommand:
             raise KeyboardInterrupt
 
         monkeypatch.setattr("comparisons.cost.measured_study", stopped)
-        with pytest.raises(KeyboardInterrupt):
+        with pytest.raises(KeyboardInterrupt, match="the same command goes on from there"):
             cost(scene(SMOOTH), tmp_path / "out", 1)
         assert list(tmp_path.iterdir()) == []
 

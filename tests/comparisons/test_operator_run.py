@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from comparisons import finite_element
-from comparisons.checkpoint import _decoded, _encoded
+from comparisons.checkpoint import KINDS
 from comparisons.finite_element import finite_element_level
 from comparisons.finite_element_mesh import Refinement
+from comparisons.kept import keep, kept
 from comparisons.ladder import CurrentBodies
 from comparisons.plan import make_plan
 from comparisons.problem import problem_of
@@ -80,11 +81,11 @@ def test_table_and_how_to_read_it(outcome):
     assert note.startswith("Mesh and body are right") and "a constant removed" in note
 
 
-def test_it_survives_an_interrupt(outcome):
+def test_it_survives_an_interrupt(outcome, tmp_path):
     found = outcome.runs["finite_element"].finest.operator
-    arrays = {}
-    text = json.dumps(_encoded(found, arrays))
-    assert _decoded(json.loads(text), arrays) == found
+    keep(tmp_path / "level.npz", "key", found)
+    assert kept(tmp_path / "level.npz", "key", KINDS) == found
+    assert kept(tmp_path / "level.npz", "another", KINDS) is None
 
 
 def test_bodies_of_a_pitch_are_kept_while_it_lasts():
