@@ -25,6 +25,7 @@ from comparisons.paper.views import Reading, View
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other
 ALIKE = 0.05  # of the smooth maximum: fields nearer to each other than that are alike
 HALF, CORE = 0.5, 0.8  # of the smooth maximum: what counts as highly sheared; as the core of it
+ACROSS = np.array([0.0, 0.25, 0.48, 0.5, 0.52, 0.75])  # elements: both sides of their edges, too
 SHALLOWEST = 0.02  # sampling intervals: depth from which the sum of elements is looked at
 EDGE = 0.9  # a: farther out the elements' own edge of the contact shows
 SLIDING = 0.1  # friction of the paper's sliding contacts
@@ -195,8 +196,8 @@ def error_on_rough_ground(
 ) -> Reading:
     """Error of sx and sz at depths less than a sampling interval of the trace, sliding [p0].
 
-    Of the sum over elements one sampling interval wide, at their middles and edges, against the
-    level's own, finer pressures joined linearly.
+    Of the sum over elements one sampling interval wide, all across them, against the level's own,
+    finer pressures joined linearly.
     size  of the errors (2, m, k), as one number
     """
 
@@ -206,7 +207,7 @@ def error_on_rough_ground(
         nodes = slice(grid.count // 2 % coarser, None, coarser)
         pitch, reach = coarser * grid.pitch, EDGE * view.problem.hertz.half_width
         x = grid.x[nodes]
-        places = np.concatenate([x, x + 0.5 * pitch])
+        places = (x[:, None] + pitch * ACROSS).ravel()
         places = places[np.abs(places) <= reach]
         z = _below(pitch)
         found = stress_at(x, pressure[nodes], SLIDING, places, z, element)
@@ -217,8 +218,8 @@ def error_on_rough_ground(
 
 
 def _below(pitch: float) -> np.ndarray:
-    """Depths (12, 1) [m] less than a pitch [m]."""
-    return np.geomspace(SHALLOWEST, 1.0, 12)[:, None] * pitch
+    """Depths (8, 1) [m] less than a pitch [m]."""
+    return np.geomspace(SHALLOWEST, 1.0, 8)[:, None] * pitch
 
 
 def _normal_errors(view: View, found: PlaneStress, reference: PlaneStress) -> np.ndarray:

@@ -1,5 +1,6 @@
 """The numbers that judge the paper's claims, on fields made for it."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from analytic.contact import ContactSolution, Residuals
 from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.gap import HatGrid
-from analytic.plane_stress import PlaneStress
+from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.level import Level, StressResult, Window
 from comparisons.paper import readings as r
 from comparisons.paper.measures import (
@@ -75,10 +76,13 @@ class TestMeasures:
         assert valley(column, 3, 4) == 1.0
 
 
-def hertz_level(pitch: float, fields) -> Level:
-    """Hertz's pressure on hats; `fields` by friction, of any shear field [p0] (m, k)."""
+def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
+    """Hertz's pressure on hats; `fields` by friction, of any shear field [p0] (m, k).
+
+    wave  relative, from one hat to the next of the pressure
+    """
     grid = HatGrid.within(-1.5 * A, 1.5 * A, pitch)
-    pressure = HERTZ.pressure(grid.x)
+    pressure = HERTZ.pressure(grid.x) * (1.0 + wave * (-1.0) ** np.arange(grid.count))
     solution = ContactSolution(
         pressure=pressure,
         gap=np.where(pressure > 0.0, 0.0, 1e-6),
@@ -89,8 +93,14 @@ def hertz_level(pitch: float, fields) -> Level:
         iterations={},
     )
     stresses = tuple(
-        StressResult(mu, {}, PlaneStress(np.zeros_like(f), np.zeros_like(f), f * P0))
-        for mu, f in fields.items()
+        StressResult(
+            mu,
+            {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)},
+            field
+            if isinstance(field, PlaneStress)
+            else PlaneStress(np.zeros_like(field), np.zeros_like(field), field * P0),
+        )
+        for mu, field in fields.items()
     )
     return Level(
         grid=grid,
@@ -103,14 +113,10 @@ def hertz_level(pitch: float, fields) -> Level:
     )
 
 
-def view_of(fields, every: int = 1) -> View:
-    return View(
-        "half_plane",
-        SimpleNamespace(hertz=HERTZ),
-        hertz_level(A / 64.0, fields),
-        WINDOW,
-        every,
-    )
+def view_of(fields=None, every: int = 1, wave: float = 0.0, model: str = "half_plane") -> View:
+    scene = SimpleNamespace(profile_info=SimpleNamespace(spacing=A / 16.0))
+    problem = SimpleNamespace(hertz=HERTZ, scene=scene)
+    return View(model, problem, hertz_level(A / 64.0, fields or {}, wave), WINDOW, every)
 
 
 def smooth_tau1(friction: float = 0.0) -> np.ndarray:
@@ -180,3 +186,65 @@ class TestReadings:
         view = view_of({0.0: smooth_tau1()}, every=2)
         assert np.min(np.abs(view.x)) == 0.0 and view.z[0] == 0.0
         assert view.stress(0.0).tau1.shape == (len(view.z), len(view.x)) == (51, 61)
+
+    def test_extremes_are_in_units_of_the_smooth_contact(self):
+        view = view_of({0.0: smooth_tau1()})
+        assert r.largest("tau1")(view) == pytest.approx(0.4)
+        assert r.largest_over_smooth(view) == pytest.approx(0.4 / 0.300283, rel=1e-5)
+        assert r.depth_of_largest(view) == pytest.approx(0.6)
+
+    def test_section_agreement_looks_below_the_peak_alone(self):
+        hills = asperity(0.2, 0.02, 0.7) + asperity(-0.8, 0.6, 0.4)
+        view = view_of({0.0: smooth_tau1() + hills})
+        assert 0.02 < r.section_agreement(view) < 0.1
+        assert r.depth_of_agreement(view) > 0.6
+
+    def test_contact_ratio_adds_the_patches_and_the_load_the_pressures(self):
+        view = view_of()
+        two = replace(view.level, patches=np.array([[-0.5 * A, 0.0], [0.25 * A, 0.5 * A]]))
+        assert r.contact_ratio(replace(view, level=two)) == pytest.approx(0.375)
+        solution = replace(view.level.solution, pressure=1.02 * view.level.solution.pressure)
+        assert r.carried(replace(view, level=replace(two, solution=solution))) == pytest.approx(
+            1.02, abs=3e-3
+        )
+
+
+class TestErrors:
+    """Errors against exact stresses are none on those, and what was put into them elsewhere."""
+
+    def exact(self, x: float = 0.0, shift: float = 0.0) -> PlaneStress:
+        found = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
+        here = (np.abs(WINDOW.x / A - x) < 0.01) & (np.abs(WINDOW.z[:, None] / A - 0.25) < 0.005)
+        return PlaneStress(found.sx + shift * P0 * here, found.sz, found.txz)
+
+    def test_on_the_axis(self):
+        assert r.axis_error(view_of({0.0: self.exact()})) == pytest.approx(0.0, abs=1e-12)
+        assert r.axis_error(view_of({0.0: self.exact(0.0, 0.03)})) == pytest.approx(0.03)
+        assert r.axis_error(view_of({0.0: self.exact(0.5, 0.03)})) == pytest.approx(0.0, abs=1e-12)
+
+    def test_below_the_sampling_interval_only_what_lies_there_counts(self):
+        for shift in (0.0, 0.03):
+            view = view_of({0.0: self.exact(0.0, shift)}, model="finite_element")
+            assert r.error_below_sampling(view) == pytest.approx(0.0, abs=1e-12)
+        shallow = self.exact()
+        shallow.sz[1] += 0.02 * P0
+        view = view_of({0.0: shallow}, model="finite_element")
+        assert r.error_below_sampling(view) == pytest.approx(0.02)
+
+    def test_strips_are_right_on_the_axis_of_smooth_pressures_alone(self):
+        smooth, rough = view_of(), view_of(wave=0.1)
+        assert r.error_below_sampling(smooth) < 1e-3
+        assert 0.05 < r.error_below_sampling(rough) < 0.15
+
+    def test_strips_on_sampled_pressures(self):
+        """Next to their edges half the step from one to the next."""
+        smooth = view_of()
+        largest, mean = (
+            r.error_on_rough_ground("strip", size)(smooth) for size in (np.max, r.root_mean_square)
+        )
+        step = np.diff(HERTZ.pressure(np.arange(0.0, r.EDGE, 1.0 / 16.0) * A)) / P0
+        assert largest == pytest.approx(0.5 * np.abs(step).max(), rel=0.25)
+        assert mean < 0.3 * largest
+        assert r.error_on_rough_ground("hat", np.max)(smooth) < 0.3 * largest
+        # sampled each fourth, the wave looks like a larger pressure: that is what is seen
+        assert r.error_on_rough_ground("hat", np.max)(view_of(wave=0.2)) > 0.15
