@@ -29,7 +29,8 @@ _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"
 class Record:
     """A recorded run.
 
-    scene    as resolved, with as many levels as the run had and no end to its time
+    scene    as resolved, with as many levels as the run and its error budget had and no end to
+             its time
     models   of half_plane, finite_element
     levels   of each model
     figures  the content of result.json
@@ -66,7 +67,7 @@ def read_record(folder: Path) -> Record:
     if levels < 1:
         raise InputError(f"{path}: levels: is {levels}; allowed is 1 or more")
     return Record(
-        scene=_scene(path, content, levels),
+        scene=_scene(path, content, levels, figures),
         models=tuple(name for name in MODELS if name in models),
         levels=levels,
         figures=figures,
@@ -76,8 +77,9 @@ def read_record(folder: Path) -> Record:
     )
 
 
-def _scene(path: Path, content: dict, levels: int) -> ResolvedScene:
-    """The scene, to be solved on so many levels however long that takes here."""
+def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedScene:
+    """The scene, to be solved on so many levels however long that takes here, and its effects on
+    as many as they were."""
     tables = _part(path, content, "scene", dict)
     kept = None
     if tables.get("profile") is not None:
@@ -89,10 +91,11 @@ def _scene(path: Path, content: dict, levels: int) -> ResolvedScene:
         source=str(path),
         kept=kept,
     )
+    effects = figures.get("budget") or {}
     return replace(
         scene,
         resolution=Resolution(scene.resolution.pitch, levels, most=levels),
-        budget=replace(scene.budget, time=inf),
+        budget=replace(scene.budget, time=inf, levels=effects.get("levels")),
     )
 
 

@@ -183,11 +183,13 @@ class Resolution:
 @dataclass(frozen=True)
 class Budget:
     """What a run may take: `time` [s] and `memory` [bytes]; and whether it computes the `effects`
-    that the scene's finite elements lack and that may matter."""
+    that the scene's finite elements lack and that may matter, on how many `levels` at most (None:
+    as the time allows)."""
 
     time: float
     memory: float
     effects: bool = True
+    levels: int | None = None
 
 
 @dataclass(frozen=True)

@@ -167,6 +167,16 @@ def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
     assert [row.path for row in repetition.movement.moved] == ["scene.budget.time"]
 
 
+def test_the_effects_on_as_many_levels_as_recorded(both, figures, monkeypatch):
+    """Where time ends a run's effects, it does not end those of its repetition."""
+    monkeypatch.setattr("comparisons.budget.budget._settled", lambda *_: False)
+    assert figures["budget"]["levels"] == 2
+    repetition = rerun(both)
+    assert repetition.levels[1] > 2
+    assert repetition.outcome.result["budget"]["levels"] == 2
+    assert repetition.movement.moved == ()
+
+
 class TestTrace:
     @pytest.fixture
     def folder(self, tmp_path):
