@@ -117,7 +117,8 @@ def _refined(
     """
     history: dict[float, list[Parts]] = {mu: [] for mu in problem.scene.friction}
     own: list[OwnError] = []
-    most = min(MOST_LEVELS, len(runs["finite_element"].levels))
+    asked = problem.scene.budget.levels or MOST_LEVELS
+    most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
         try:
             new = {mu: parts_of(problem, bodies, choice, mu, number) for mu in history}
