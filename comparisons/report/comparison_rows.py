@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from comparisons.budget.effects import EFFECTS
 from comparisons.compare import figures, uncertainties
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
@@ -10,6 +11,7 @@ from comparisons.report.numbers import Scale, given_percent, percent, plain, sca
 from comparisons.report.words import label
 from comparisons.verdict import Comparison
 
+SAME_PROBLEM = "the same problem"
 AT_HARDNESS = 1e-9  # relative: a pressure so close to the hardness is held there
 
 
@@ -21,6 +23,7 @@ class ComparisonRow:
     in_hertz                     the same two in units of the Hertz contact's
     difference                   in the digits that the uncertainty supports
     verdict                      "" where nothing was judged
+    reference                    what problem the finite elements' figure is one of
     note                         what to know before the figures are taken for evidence
     """
 
@@ -34,6 +37,7 @@ class ComparisonRow:
     uncertainty: str
     tolerance: str
     verdict: str
+    reference: str = ""
     note: str = ""
 
 
@@ -57,8 +61,22 @@ def comparison_rows(outcome: Outcome) -> list[ComparisonRow]:
         for row in outcome.comparisons:
             if row.quantity == name:
                 alike.setdefault(_figures(row), []).append(row)
-        rows += [_row(outcome.problem, same) for same in alike.values()]
+        rows += [
+            _row(outcome.problem, same, reference_of(outcome, name)) for same in alike.values()
+        ]
     return rows
+
+
+def reference_of(outcome: Outcome, quantity: str) -> str:
+    """What the finite elements solve: the half-plane's problem, or that with effects that bear on
+    the quantity; those without an estimate bear on all."""
+    choice = outcome.budget.choice
+    named = [
+        name
+        for name in EFFECTS
+        if name in choice.contained and quantity in choice.estimates.get(name, [quantity])
+    ]
+    return ", ".join(named) or SAME_PROBLEM
 
 
 def figure_rows(outcome: Outcome) -> list[FigureRow]:
@@ -99,7 +117,7 @@ def _figures(row: Comparison) -> tuple:
     )
 
 
-def _row(problem: Problem, same: list[Comparison]) -> ComparisonRow:
+def _row(problem: Problem, same: list[Comparison], reference: str) -> ComparisonRow:
     row, quantity = same[0], QUANTITIES[same[0].quantity]
     scale = scale_of([row.half_plane, row.finite_element], quantity.unit)
     return ComparisonRow(
@@ -118,6 +136,7 @@ def _row(problem: Problem, same: list[Comparison]) -> ComparisonRow:
         uncertainty=percent(row.uncertainty),
         tolerance="" if row.tolerance is None else given_percent(row.tolerance),
         verdict=row.verdict or "",
+        reference=reference,
         note="capped in both" if _capped(problem, row) else "",
     )
 

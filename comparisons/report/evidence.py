@@ -219,4 +219,7 @@ def commands(outcome: Outcome) -> list[tuple[str, str]]:
     """What to type to get this again."""
     scene, plan = outcome.problem.scene, outcome.plan
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
-    return [("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}")]
+    return [
+        ("repeats this run, in the folder of this page", "crosscheck rerun ."),
+        ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
+    ]

@@ -35,9 +35,9 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: 
         "tau1_field_near": "τ₁ down to 0.1 a, relative L2 difference",
         "tau1_field_deep": "τ₁ deeper than 0.5 a, relative L2 difference",
     }
-    [table] = [table for table in wavy_page.tables if table[0][-1] == "verdict"]
+    [table] = [table for table in wavy_page.tables if table[0][-1] == "reference"]
     shown = {}
-    for label, frictions, *cells in table[1:]:
+    for label, frictions, *cells, _ in table[1:]:
         for friction in frictions.split(", "):
             assert (label, float(friction)) not in shown
             shown[label, float(friction)] = [cell.partition(" | ")[0] for cell in cells[:-1]] + [
@@ -83,10 +83,28 @@ def test_rows_are_joined_only_where_every_figure_is_the_same(wavy_outcome: Outco
 def test_figures_are_also_given_over_those_of_hertz(wavy_page, wavy_outcome: Outcome):
     peak = wavy_outcome.result["comparison"]["peak_pressure"][0]["half_plane"]
     p0 = wavy_outcome.result["hertz"]["peak_pressure"]
-    [table] = [table for table in wavy_page.tables if table[0][-1] == "verdict"]
+    [table] = [table for table in wavy_page.tables if table[0][-1] == "reference"]
     relative = table[1][2].partition(" | ")[2]
     assert relative.endswith(" p₀")
     assert float(relative.split()[0]) == pytest.approx(peak / p0, rel=1e-3)
+
+
+def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Outcome):
+    choice = wavy_outcome.budget.choice
+
+    def references(**changed) -> dict[str, str]:
+        budget = replace(wavy_outcome.budget, choice=replace(choice, **changed))
+        rows = comparison_rows(replace(wavy_outcome, budget=budget))
+        return {row.quantity: row.reference for row in rows}
+
+    assert set(references().values()) == {"the same problem"}
+    both = frozenset({"real boundary", "finite body"})
+    assert set(references(contained=both).values()) == {"finite body, real boundary"}
+    sizes = {"finite body": {"peak_pressure": 0.1}, "real boundary": {"pressure_l2": 0.1}}
+    found = references(contained=both, estimates=sizes)
+    assert found["peak_pressure"] == "finite body"
+    assert found["pressure_l2"] == "real boundary"
+    assert found["contact_length"] == "the same problem"
 
 
 def capped(outcome: Outcome, one: float, other: float) -> str:
@@ -138,7 +156,7 @@ def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcom
     commands = [command.callback.__name__.strip("_") for command in app.registered_commands]
     for named in re.findall(r"crosscheck (\w+) [^ ]*\.toml", wavy_page.text):
         assert named in commands
-    assert "crosscheck rerun" not in wavy_page.text
+    assert "crosscheck rerun ." in wavy_page.text
 
 
 def test_the_headline_owns_up_to_a_solver_that_failed(smooth_outcome: Outcome, page_of):

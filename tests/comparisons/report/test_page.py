@@ -74,9 +74,9 @@ def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
         "stresses",
         "convergence",
         "mesh",
-        "skipped",
         "cost",
         "checks",
+        "skipped",
         "record",
     ]
 
@@ -87,9 +87,9 @@ def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page
         "comparison",
         "contact",
         "convergence",
-        "skipped",
         "cost",
         "checks",
+        "skipped",
         "record",
     ]
     assert len(half_plane_page.images) == 5
