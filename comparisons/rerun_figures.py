@@ -20,8 +20,10 @@ Path = tuple[str | int, ...]
 # Relative: what two solutions may differ by that both count as converged. It is what other
 # processors and libraries leave; the same machine gives the same bits.
 ROUNDING = KKT_TOLERANCE
-# Observed orders jump where a sequence is not regular, and clocks decide how many levels there are.
+# Observed orders jump where a sequence is not regular, clocks decide how many levels there are, and
+# estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
+NO_FIGURES |= {"estimate", "unshown", "shared_effects"}
 HANGS_ON = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",
@@ -170,7 +172,7 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return Stated(own, "itself" if name == "uncertainty" else quantity, 1.0)
         case ("budget", "quantities", quantity, int(entry), *_):
             return _in_budget(recorded["budget"]["quantities"][quantity][entry], path[4:], value)
-        case ("budget" | "half_space", *_) | ("groups", "peak_pressure_over_hardness"):
+        case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):
             return _largest(recorded, abs(value) or 1.0)

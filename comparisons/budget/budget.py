@@ -18,7 +18,7 @@ from comparisons.rank import from_first
 from comparisons.stages import Listener
 from comparisons.verdict import Comparison, Standing
 
-LEAST_LEVELS, MOST_LEVELS = 2, 4  # of the effects
+LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
 GROWTH_OF_TIME = 3.5  # from one level to the next, at most
 
@@ -99,7 +99,7 @@ def error_budget(
         sampling = from_first(
             lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
         )
-    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, bodies.seconds)
+    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, sum(bodies.seconds.values()))
 
 
 def _refined(
@@ -142,7 +142,9 @@ def _refined(
         ]
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
-        finer = spent + bodies.seconds + GROWTH_OF_TIME * bodies.seconds_of(number)
+        finer = (
+            spent + sum(bodies.seconds.values()) + GROWTH_OF_TIME * bodies.seconds.get(number, 0.0)
+        )
         if number >= LEAST_LEVELS and _is_beyond(finer, problem):
             break
     return len(next(iter(history.values()))), own

@@ -39,7 +39,7 @@ def budget_content(
         "effects": {name: _effect(name, budget) for name in EFFECTS},
         "levels": budget.levels,
         "unsplit": budget.unsplit,
-        "seconds": budget.seconds,
+        "cost": {"seconds": budget.seconds},
         "quantities": quantities,
     }
 

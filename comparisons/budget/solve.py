@@ -1,6 +1,6 @@
 """Levels of the bodies that a budget takes apart, each solved once."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,10 +30,11 @@ class NotComputedError(Exception):
 
 @dataclass
 class Bodies:
-    """Answers of bodies on the levels of a problem.
+    """Answers of bodies on the levels of a problem; meshes and fields are not kept.
 
     own      the scene's own finite elements, already solved
-    levels   what was solved beside, by body and number of the level from 1
+    answers  by body, number of the level from 1, and friction coefficient
+    seconds  that the bodies took, by number of the level
     """
 
     problem: Problem
@@ -41,7 +42,8 @@ class Bodies:
     own: ModelRun
     checkpoint: Checkpoint
     listener: Listener
-    levels: dict[tuple[Body, int], Level] = field(default_factory=dict)
+    answers: dict[tuple[Body, int, float], Answer] = field(default_factory=dict)
+    seconds: dict[int, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._store = None  # of meshes and factors that bodies of one level have in common
@@ -53,32 +55,25 @@ class Bodies:
         return answer_of(self.own.levels[number - 1], self.problem, friction)
 
     def answer(self, body: Body, number: int, friction: float) -> Answer:
-        """Of a body on a level; raises NotComputedError."""
+        """Of a body on a level, solved where it is new; raises NotComputedError."""
         if self._is_own(body):
             return self.own_answer(number, friction)
-        return answer_of(self.level(body, number), problem_with(self.problem, body), friction)
+        if (body, number, friction) not in self.answers:
+            problem = problem_with(self.problem, body)
+            level = self._level(body, problem, number)
+            for each in problem.scene.friction:
+                self.answers[body, number, each] = answer_of(level, problem, each)
+        return self.answers[body, number, friction]
 
-    def level(self, body: Body, number: int) -> Level:
-        """A body's level, solved where it is new; raises NotComputedError."""
-        if (body, number) not in self.levels:
-            kept = f"{body.name}-{number}"
-            level = self.checkpoint.load(kept)
-            if level is None:
-                level = self._solved(body, number)
-                self.checkpoint.save(kept, level)
-            self.levels[body, number] = level
-        return self.levels[body, number]
-
-    @property
-    def seconds(self) -> float:
-        """That all of them took."""
-        return sum(sum(level.seconds.values()) for level in self.levels.values())
-
-    def seconds_of(self, number: int) -> float:
-        """That those of one level took."""
-        return sum(
-            sum(level.seconds.values()) for (_, n), level in self.levels.items() if n == number
-        )
+    def _level(self, body: Body, problem: Problem, number: int) -> Level:
+        kept = f"{body.name}-{number}"
+        level = self.checkpoint.load(kept)
+        if level is None:
+            level = replace(self._solved(body, problem, number), mesh_field=None)
+            self.checkpoint.save(kept, level)
+        spent = sum(level.seconds.values())
+        self.seconds[number] = self.seconds.get(number, 0.0) + spent
+        return level
 
     def _is_own(self, body: Body) -> bool:
         plain = not (body.stand_in or body.held)
@@ -86,13 +81,12 @@ class Bodies:
         shaped = body.friction is None or frictions == (body.friction,)
         return plain and shaped and body.effects == self._own_effects
 
-    def _solved(self, body: Body, number: int) -> Level:
+    def _solved(self, body: Body, problem: Problem, number: int) -> Level:
         from comparisons.finite_element import finite_element_level
         from comparisons.finite_element_bodies import BodyStore
         from comparisons.finite_element_mesh import Refinement
 
         self._store = self._store or BodyStore()
-        problem = problem_with(self.problem, body)
         plan, pitch = make_plan(problem, MODELS), self.problem.pitches[0] / 2.0 ** (number - 1)
         words = ", ".join(sorted(body.effects)) or "no effect"
         self.listener(f"error budget: finite elements with {words}, level {number}")
