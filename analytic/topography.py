@@ -16,6 +16,14 @@ STENCIL = 4  # samples each way that a height between samples comes from
 ROUNDING = 1e-9  # of a pitch, by which the ends of a line may pass the map's
 
 
+class UnchosenLineError(ProfileError):
+    """The file is a map of `rows` rows, and no line of it was chosen."""
+
+    def __init__(self, path: object, rows: int, message: str) -> None:
+        self.rows = rows
+        super().__init__(path, message)
+
+
 @dataclass(frozen=True)
 class Topography:
     """Heights of one channel of a file.
@@ -88,8 +96,9 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
             return topography.x, topography.heights
         return np.arange(len(topography.heights)) * topography.pitch[0], topography.heights
     if chosen is None:
-        raise ProfileError(
+        raise UnchosenLineError(
             topography.path,
+            topography.heights.shape[0],
             f"is a map of {topography.size()}, and a profile is one line of it; allowed is "
             "row, column (counted from 0) or line (from one point to another)",
         )

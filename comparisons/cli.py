@@ -18,6 +18,7 @@ import typer
 from comparisons.commands import (
     cost,
     doctor,
+    init,
     maps,
     paper,
     rerun,
@@ -52,6 +53,7 @@ for name, command in {
     "verify": verify.verify,
     "paper": paper.paper,
     "scenes": scenes.scenes,
+    "init": init.init,
     "doctor": doctor.doctor,
 }.items():
     app.command(name)(command)

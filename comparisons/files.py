@@ -77,6 +77,16 @@ def _check_folder(out: Path, place: Path) -> None:
             ) from error
 
 
+def write_whole(path: Path, text: str) -> None:
+    """Write a text file that is there whole or not at all."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
 @contextmanager
 def published(out: Path, own: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.

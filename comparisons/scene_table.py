@@ -28,11 +28,13 @@ class Table(BaseModel):
 
 def allowed(table: type[Table], name: str) -> str:
     """What a field may hold, in words."""
-    return next(
-        note.allowed()
-        for note in _annotations(table.model_fields[name])
-        if isinstance(note, FieldType)
-    )
+    return field_type(table, name).allowed()
+
+
+def field_type(table: type[Table], name: str) -> FieldType:
+    """What reads a field."""
+    notes = _annotations(table.model_fields[name])
+    return next(note for note in notes if isinstance(note, FieldType))
 
 
 def _annotations(info: FieldInfo) -> tuple:

@@ -24,12 +24,17 @@ def progress() -> Iterator[Listener]:
         yield lambda stage: status.update(Text(stage))
 
 
+def is_watched() -> bool:
+    """Whether results go to a terminal that somebody reads."""
+    # Open MPI hands its processes a terminal, whatever its own output goes to
+    return sys.stdout.isatty() and not is_several()
+
+
 def show(renderable: object) -> None:
     """Print a table, as wide as the terminal if there is one."""
     from rich.console import Console
 
-    # Open MPI hands its processes a terminal, whatever its own output goes to
-    if sys.stdout.isatty() and not is_several():
+    if is_watched():
         Console().print(renderable)
     else:
         Console(width=UNSEEN_WIDTH, force_terminal=False).print(renderable)

@@ -1,0 +1,51 @@
+"""`crosscheck init`: a look at a measured profile, and a scene to start from."""
+
+import sys
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.output import is_watched, show, show_json
+from comparisons.exit_status import ExitStatus
+
+
+def init(
+    profile: Annotated[Path, typer.Argument(help="A file with a measured profile.")],
+    out: Annotated[
+        Path | None, typer.Option(help="The scene's file.", show_default="PROFILE.toml")
+    ] = None,
+    x_unit: Annotated[str | None, typer.Option(help="Unit of positions, such as um.")] = None,
+    z_unit: Annotated[str | None, typer.Option(help="Unit of heights, such as um.")] = None,
+    spacing: Annotated[
+        str | None, typer.Option(help='Of samples of heights alone, such as "0.5 um".')
+    ] = None,
+    row: Annotated[int | None, typer.Option(help="Of an areal map, counted from 0.")] = None,
+    column: Annotated[int | None, typer.Option(help="Of an areal map instead.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the scene's file.")] = False,
+    as_json: Annotated[bool, json_option("what was found as JSON")] = False,
+) -> Job:
+    """Look at a measured profile and write a commented scene for it."""
+    asked = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
+    return partial(_init, profile, out, asked, force, as_json)
+
+
+def _init(
+    profile: Path, out: Path | None, asked: dict[str, str | int | None], force: bool, as_json: bool
+) -> int:
+    from comparisons.init.asked import asked_fields
+    from comparisons.init.begin import begin
+
+    begun = begin(profile, out, asked_fields(asked), force)
+    if as_json:
+        show_json(begun.as_dict())
+        return ExitStatus.DONE
+    from rich.console import Console
+
+    from comparisons.init.table import init_table
+
+    unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
+    show(init_table(begun, Console().width - 1 if is_watched() else None, unicode))
+    return ExitStatus.DONE
