@@ -7,8 +7,8 @@ import numpy as np
 from analytic.exact.hertz import hertz_stress
 from analytic.stress_sections import depth_profile
 from comparisons.outcome import Outcome
-from comparisons.paper.claim_list import POLISHED, SMOOTH, UNRUN
 from comparisons.paper.readings import NEAR, SLIDING, peak_column
+from comparisons.paper.surfaces import POLISHED, SMOOTH, UNRUN
 from comparisons.paper.views import View
 from comparisons.report.numbers import decimal, significant
 from comparisons.report.style import COLUMN, REFERENCE, Picture, data_uri, figure
@@ -137,9 +137,9 @@ def edge_section_picture(outcomes: dict[str, Outcome]) -> Picture:
             [NEAR * hertz.half_width],
         ).stress
         value = significant(float(stress.tau1[0] / hertz.peak_pressure), 3)
-        found.append(f"{words} {value} p₀")
+        found.append(f"{words}: {value} p₀")
     _finish(whole, near)
-    said = f"At z = {NEAR:g} a: {', '.join(found)}."
+    said = f"At z = {NEAR:g} a, {'; '.join(found)}."
     return Picture(
         source=data_uri(drawn),
         alternative=f"Principal shear over depth below x = +a. {said}",

@@ -4,14 +4,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.paper.claim_list import SURFACES
 from comparisons.paper.sections import Section
+from comparisons.paper.surfaces import SURFACES
 from comparisons.paper.words import row_of, summary
 from comparisons.report.numbers import UNKNOWN, given, integer, percent, significant, with_unit
 from comparisons.report.page import FOLDER as REPORT
 from comparisons.report.page import UNIT
 from comparisons.report.sheet import load_text
 from comparisons.report.words import label
+from comparisons.verdict import Comparison
 
 if TYPE_CHECKING:
     from comparisons.paper.reproduce import Paper
@@ -93,15 +94,17 @@ def _models(paper: "Paper") -> Table:
         for friction in outcome.problem.scene.friction:
             found = {c.quantity: c for c in outcome.comparisons if c.friction == friction}
             cells = [
-                f"{percent(row.difference, signed=row.half_plane is not None)} "
-                f"({percent(row.uncertainty, digits=1)})"
-                if (row := found.get(quantity))
-                else UNKNOWN
-                for quantity in SHOWN
+                _difference(found[quantity]) if quantity in found else UNKNOWN for quantity in SHOWN
             ]
-            rows.append((SURFACES[name], f"{friction:g}", *cells))
+            rows.append((SURFACES[name].removesuffix(" surface"), f"{friction:g}", *cells))
     head = ("surface", "friction", *map(label, SHOWN))
     return Table("How far the two models are apart", head, tuple(rows))
+
+
+def _difference(row: Comparison) -> str:
+    signed = row.half_plane is not None
+    found = percent(row.difference, signed=signed, uncertainty=row.uncertainty)
+    return f"{found} ({percent(row.uncertainty)})"
 
 
 def _surfaces(paper: "Paper") -> Table:
@@ -119,7 +122,7 @@ def _surfaces(paper: "Paper") -> Table:
             )
         rows.append(
             (
-                SURFACES[name],
+                SURFACES[name].removesuffix(" surface"),
                 *profile,
                 with_unit(half_plane.grid.pitch, "m", 3),
                 integer(half_plane.unknowns),
@@ -139,15 +142,14 @@ def _surfaces(paper: "Paper") -> Table:
     return Table("Surfaces, and how finely they were solved", head, tuple(rows))
 
 
-def _conditions(paper: "Paper") -> Table:
+def _conditions(paper: "Paper") -> list[tuple[str, str]]:
     problem = next(iter(paper.outcomes.values())).problem
     scene = problem.scene
-    rows = (
+    return [
         ("load", load_text(problem)),
         ("radius of relative curvature (assumed)", given(scene.roller_radius, "m")),
         ("Young's modulus of both bodies (assumed)", given(scene.body.youngs_modulus, "Pa")),
         ("Poisson's ratio of both bodies (assumed)", f"{scene.body.poissons_ratio:g}"),
         ("friction coefficients", ", ".join(f"{mu:g}" for mu in scene.friction)),
         ("time taken", with_unit(paper.seconds, "s", 2)),
-    )
-    return Table("Conditions", ("", "value"), rows)
+    ]

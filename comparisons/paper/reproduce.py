@@ -8,13 +8,14 @@ from comparisons.errors import InputError
 from comparisons.exit_status import ExitStatus
 from comparisons.files import check_writable, published
 from comparisons.outcome import Outcome
-from comparisons.paper.claim_list import SURFACES, claims
+from comparisons.paper.claim_list import claims
 from comparisons.paper.claims import OUTCOMES, Judged, judge
 from comparisons.paper.page import paper_page
 from comparisons.paper.sections import sections_of
 from comparisons.paper.solve import Fineness, solve_surfaces
 from comparisons.paper.subsurf import write_subsurf
 from comparisons.paper.subsurf_mesh import subsurf_files
+from comparisons.paper.surfaces import SURFACES
 from comparisons.rank import is_several
 from comparisons.record import as_json, versions
 from comparisons.stages import Listener, silent

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 from comparisons.outcome import Outcome
-from comparisons.paper.claim_list import FIGURES, SCENES, SMOOTH, SURFACES, UNRUN
 from comparisons.paper.claims import Judged
 from comparisons.paper.depth_pictures import (
     axis_pictures,
@@ -13,6 +12,7 @@ from comparisons.paper.depth_pictures import (
 from comparisons.paper.pressure_pictures import pressure_picture, trace_picture
 from comparisons.paper.scales import scales_of
 from comparisons.paper.shear_pictures import contour_picture, isometric_picture
+from comparisons.paper.surfaces import FIGURES, SCENES, SMOOTH, SURFACES, UNRUN
 from comparisons.paper.words import Row, row_of
 from comparisons.report.field_pictures import COMPONENTS
 from comparisons.report.style import Picture, drawing

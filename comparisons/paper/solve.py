@@ -10,8 +10,8 @@ from comparisons.compare import compare
 from comparisons.errors import SolverError
 from comparisons.ladder import refined
 from comparisons.outcome import Outcome
-from comparisons.paper.claim_list import SCENES
 from comparisons.paper.readings import SLIDING
+from comparisons.paper.surfaces import SCENES
 from comparisons.plan import MODELS, make_plan
 from comparisons.problem import problem_of
 from comparisons.record import record_of

@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from comparisons.paper.claim_list import FIGURES, SCENES, claims
+from comparisons.paper.claim_list import claims
 from comparisons.paper.claims import CONFIRMED, DENIED, UNTOLD, Claim, told
+from comparisons.paper.surfaces import FIGURES, SCENES
 from comparisons.paper.views import Measured, measured
 
 
@@ -100,6 +101,8 @@ class TestMeasured:
         plain = measured(self.outcome([1.04, 1.02, 1.01]), "m", lambda view: view.level.value)
         assert plain.value == 1.01
         assert plain.uncertainty == pytest.approx(1.25 * 0.01)  # order 1: 1.25 times the last step
+        fast = measured(self.outcome([1.05, 1.01, 1.0]), "m", lambda view: view.level.value)
+        assert fast.uncertainty == pytest.approx(0.02)  # half the step before: no order is trusted
         read = measured(self.outcome([1.04, 1.02, 1.01]), "m", reading)
         assert read.uncertainty == pytest.approx(plain.uncertainty + 0.01)
         bound = measured(self.outcome([1.04, 1.02, 1.01], halved=1.05), "m", reading)

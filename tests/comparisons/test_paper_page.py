@@ -13,10 +13,11 @@ from comparisons import cli
 from comparisons.errors import InputError
 from comparisons.exit_status import ExitStatus
 from comparisons.paper import depth_pictures, pressure_pictures, reproduce, scales, shear_pictures
-from comparisons.paper.claim_list import FIGURES, SCENES, claims
+from comparisons.paper.claim_list import claims
 from comparisons.paper.claims import OUTCOMES
 from comparisons.paper.solve import FRICTIONS, Fineness
 from comparisons.paper.subsurf import read_subsurf
+from comparisons.paper.surfaces import FIGURES, SCENES
 from comparisons.report.words import LABELS
 
 COARSE = Fineness(pitch=40e-6, points=(60, 30))
