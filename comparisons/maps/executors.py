@@ -32,12 +32,16 @@ def processes(count: int) -> Iterator[Executor]:
     """A pool of fresh processes; what ends the block, or this process, ends them at once."""
     context = multiprocessing.get_context("spawn")
     alive, held = context.Pipe(duplex=False)
+    others = multiprocessing.active_children()
     with environment(ONE_THREAD), alive, held:
         pool = ProcessPoolExecutor(count, context, initializer=begin, initargs=(alive,))
         try:
             yield pool
         except BaseException:
             held.close()
+            for process in multiprocessing.active_children():
+                if process not in others:
+                    process.kill()  # within a long factorisation it hears of nothing else
             raise
         finally:
             pool.shutdown(cancel_futures=True)
