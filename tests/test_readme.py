@@ -301,9 +301,9 @@ def test_a_bound_that_no_test_has_is_seen():
 
 
 def test_effects_have_the_estimates_that_are_named():
-    assert "(a quarter of a/R" in README and TILT == 1 / 4
-    assert "(three tenths of peak pressure over E)" in README and STRAIN == 3 / 10
-    assert "(its mean square)" in README and BOUNDARY_PER_SLOPE_SQUARED == 1
+    assert "a quarter of a/R" in README and TILT == 1 / 4
+    assert "three tenths of peak pressure over E" in README and STRAIN == 3 / 10
+    assert "the slope's mean square" in README and BOUNDARY_PER_SLOPE_SQUARED == 1
 
 
 def size_of(picture: Path) -> tuple[int, int]:
