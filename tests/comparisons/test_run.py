@@ -328,6 +328,7 @@ def test_approach_prescribed_on_a_layer(tmp_path):
         "roller": {"radius": 10e-3, "rigid": True},
         "body": {"youngs_modulus": 3e9, "poissons_ratio": 0.35, "thickness": 4e-4},
         "load": {"approach": 10e-6},
+        "budget": {"effects": False},
     }
     outcome = run(scene_of(tables), tmp_path / "out", MODELS)
     contact = outcome.result["models"]["finite_element"][0]["contact"]
@@ -345,6 +346,7 @@ def test_a_load_that_touches_one_crest_only(tmp_path, load):
         "body": dict(STEEL),
         "profile": {"kind": "sinusoid", "wavelength": wavelength, "amplitude": amplitude},
         "load": {"per_length": load},
+        "budget": {"effects": False},
     }
     outcome = run(scene_of(tables), tmp_path / "out", MODELS)
     curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
