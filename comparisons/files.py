@@ -27,6 +27,12 @@ OWN_FILES = (
     "finite_element/stress.vtu",
     "finite_element/mesh.msh",
 )
+# The same in formats that a run writes when it is asked to, or where a field is large.
+OTHER_FILES = tuple(
+    f"{model}/stress.{name}"
+    for model in ("half_plane", "finite_element")
+    for name in ("vtkhdf", "msh")
+)
 OWN_FOLDERS = ("half_plane", "finite_element")
 ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
@@ -47,7 +53,7 @@ def check_writable(out: Path) -> None:
     for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
-    for name in OWN_FILES:
+    for name in (*OWN_FILES, *OTHER_FILES):
         if (out / name).is_dir():
             raise InputError(f"{out}: cannot be written: {out / name} is a folder; allowed is none")
 
@@ -88,7 +94,7 @@ def write_whole(path: Path, text: str) -> None:
 
 
 @contextmanager
-def published(out: Path, own: tuple[str, ...] = OWN_FILES) -> Iterator[Path]:
+def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
     own   files that are removed where they are not made again

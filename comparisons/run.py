@@ -8,6 +8,7 @@ from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compared
 from comparisons.coupling import couplings
 from comparisons.errors import InputError, SceneError, SolverError
+from comparisons.fields import AUTOMATIC
 from comparisons.ladder import refined
 from comparisons.outcome import Outcome
 from comparisons.plan import Plan, make_plan
@@ -31,11 +32,13 @@ def run(
     out: Path,
     models: tuple[str, ...],
     listener: Listener = silent,
+    fields: str = AUTOMATIC,
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`.
 
     models    of half_plane, finite_element
     listener  is told each stage as it begins
+    fields    format of the stress fields, as `write_files` takes it
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution; nothing is written then.
     """
@@ -47,7 +50,7 @@ def run(
                 scene = run_in_scene(scene)
         with stages.stage("set-up", "finding the reach of the contact"):
             problem = _problem(scene, models, listener)
-        return solve(problem, make_plan(problem, models), out, listener)
+        return solve(problem, make_plan(problem, models), out, listener, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except FemError as error:
@@ -89,7 +92,13 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) 
     return problem_of_approach(scene, listener)
 
 
-def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) -> Outcome:
+def solve(
+    problem: Problem,
+    plan: Plan,
+    out: Path,
+    listener: Listener = silent,
+    fields: str = AUTOMATIC,
+) -> Outcome:
     """Carry out a plan; `run` with a plan of one's own."""
     window = window_of(problem) if plan.stress else None
     checkpoint = Checkpoint(out, problem.scene, plan)
@@ -125,6 +134,6 @@ def solve(problem: Problem, plan: Plan, out: Path, listener: Listener = silent) 
         couplings=moved,
         budget=budget,
     )
-    write_files(outcome, listener)
+    write_files(outcome, listener, fields)
     checkpoint.discard()
     return outcome

@@ -6,6 +6,7 @@ meshio writes 4.1 with empty extents of the entities.
 
 import json
 import os
+from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
 
@@ -71,6 +72,13 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
         os.replace(unfinished, path)
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
+    """Say more of a gmsh file in a section that all readers skip: a line "name: text" each."""
+    lines = "".join(f"{name}: {' '.join(text.split())}\n" for name, text in notes.items())
+    with Path(path).open("a", encoding="utf-8") as file:
+        file.write(f"$Comments\n{lines}$EndComments\n")
 
 
 def read_msh(path: str | Path) -> BlockMesh:

@@ -3,7 +3,7 @@
 import difflib
 from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -11,6 +11,8 @@ from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, show, show_json
 from comparisons.errors import InputError
 from comparisons.rank import from_first
+
+Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
 MODELS = {"half-plane": "half_plane", "finite-element": "finite_element"}
 
@@ -27,13 +29,23 @@ def run(
         float | None,
         typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
     ] = None,
+    fields: Annotated[
+        Fields, typer.Option(help="File format of the stress fields; auto is by their size.")
+    ] = "auto",
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> Job:
     """Solve a scene with both models, compare them and judge."""
-    return partial(_run, scene, out, models, tolerance, as_json)
+    return partial(_run, scene, out, models, tolerance, fields, as_json)
 
 
-def _run(scene: str, out: Path | None, models: str, tolerance: float | None, as_json: bool) -> int:
+def _run(
+    scene: str,
+    out: Path | None,
+    models: str,
+    tolerance: float | None,
+    fields: str,
+    as_json: bool,
+) -> int:
     chosen = _models(models)
     from comparisons.files import check_writable
     from comparisons.resolve import load_scene
@@ -48,7 +60,7 @@ def _run(scene: str, out: Path | None, models: str, tolerance: float | None, as_
     from comparisons.run import run as run_scene
 
     with progress() as listener:
-        outcome = run_scene(resolved, directory, chosen, listener)
+        outcome = run_scene(resolved, directory, chosen, listener, fields)
     if as_json:
         show_json(outcome.result)
     else:

@@ -37,7 +37,7 @@ class Run:
         self.status = ExitStatus.DONE
         self.raises = None
 
-    def run(self, scene, out, models, progress):
+    def run(self, scene, out, models, progress, fields):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
         if self.raises:
