@@ -5,27 +5,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.paper.sections import Section
-from comparisons.paper.surfaces import SURFACES
 from comparisons.paper.words import row_of, summary
+from comparisons.report.html import FOLDER as REPORT
+from comparisons.report.html import UNIT
 from comparisons.report.numbers import UNKNOWN, given, integer, percent, significant, with_unit
-from comparisons.report.page import FOLDER as REPORT
-from comparisons.report.page import UNIT
 from comparisons.report.sheet import load_text
-from comparisons.report.words import label
 from comparisons.verdict import Comparison
 
 if TYPE_CHECKING:
     from comparisons.paper.reproduce import Paper
 
 FOLDER = Path(__file__).parent
-SHOWN = (
-    "peak_pressure",
-    "contact_length",
-    "pressure_l2",
-    "tau1_max",
-    "tau1_field_near",
-    "tau1_field_deep",
-)
+SHOWN = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "pressure_l2": "pressure, L2",
+    "tau1_max": "largest τ₁",
+    "tau1_field_near": "τ₁ down to 0.1 a, L2",
+    "tau1_field_deep": "τ₁ from 0.5 a on, L2",
+}
 
 
 @dataclass(frozen=True)
@@ -96,15 +94,19 @@ def _models(paper: "Paper") -> Table:
             cells = [
                 _difference(found[quantity]) if quantity in found else UNKNOWN for quantity in SHOWN
             ]
-            rows.append((SURFACES[name].removesuffix(" surface"), f"{friction:g}", *cells))
-    head = ("surface", "friction", *map(label, SHOWN))
+            rows.append((_short(name), f"{friction:g}", *cells))
+    head = ("surface", "friction", *SHOWN.values())
     return Table("How far the two models are apart", head, tuple(rows))
+
+
+def _short(scene: str) -> str:
+    return scene.removeprefix("ground-").replace("-", " ")
 
 
 def _difference(row: Comparison) -> str:
     signed = row.half_plane is not None
     found = percent(row.difference, signed=signed, uncertainty=row.uncertainty)
-    return f"{found} ({percent(row.uncertainty)})"
+    return f"{found} ({percent(row.uncertainty, digits=1)})"
 
 
 def _surfaces(paper: "Paper") -> Table:
@@ -122,7 +124,7 @@ def _surfaces(paper: "Paper") -> Table:
             )
         rows.append(
             (
-                SURFACES[name].removesuffix(" surface"),
+                _short(name),
                 *profile,
                 with_unit(half_plane.grid.pitch, "m", 3),
                 integer(half_plane.unknowns),
