@@ -25,6 +25,7 @@ from comparisons.commands import (
     run,
     scenes,
     stability,
+    table,
     verify,
 )
 from comparisons.errors import InputError, SolverError, one_line
@@ -48,6 +49,7 @@ for name, command in {
     "run": run.run,
     "cost": cost.cost,
     "map": maps.map_of,
+    "table": table.table,
     "rerun": rerun.rerun,
     "stability": stability.stability,
     "verify": verify.verify,
