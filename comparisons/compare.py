@@ -34,6 +34,19 @@ class Uncertainty:
         return self.iteration + self.discretisation + self.domain
 
 
+@dataclass(frozen=True)
+class PairHistory:
+    """The difference of both models at one friction coefficient.
+
+    norms          relative L2 by quantity, one table a level, coarse to fine
+    uncertainties  of those of the last level
+    """
+
+    friction: float
+    norms: tuple[dict[str, float], ...]
+    uncertainties: dict[str, Uncertainty]
+
+
 def figures(level: Level, problem: Problem, friction: float) -> dict[str, float]:
     """The compared quantities that one model has by itself, SI."""
     found = {
@@ -118,14 +131,15 @@ def length_resolution(pitch: float, patches: int) -> float:
     return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
 
 
-def norm_uncertainties(
+def pair_history(
     half_plane: ModelRun,
     finite_element: ModelRun,
     problem: Problem,
     friction: float,
     window: Window | None,
-) -> dict[str, Uncertainty]:
-    """Of every norm of the difference of the two models, absolute: the norms are relative."""
+) -> PairHistory:
+    """Norms of the difference of the two models, and their uncertainties, absolute: the norms are
+    relative."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [norms(one, other, problem, friction, window) for one, other in pairs]
     first, halved = finite_element.levels[0], finite_element.halved
@@ -140,7 +154,15 @@ def norm_uncertainties(
             domain=DOMAIN * moved.get(name, 0.0),
             convergence=convergence,
         )
-    return found
+    return PairHistory(friction, tuple(history), found)
+
+
+def pair_histories(
+    problem: Problem, runs: dict[str, ModelRun], window: Window | None
+) -> tuple[PairHistory, ...]:
+    """One a friction coefficient, of finished runs of both models."""
+    pair = runs["half_plane"], runs["finite_element"]
+    return tuple(pair_history(*pair, problem, mu, window) for mu in problem.scene.friction)
 
 
 def discretisations(
@@ -150,8 +172,8 @@ def discretisations(
     each = [uncertainties(run, problem, friction) for run in runs.values()]
     found = {name: sum(u[name].discretisation for u in each) for name in each[0]}
     if len(runs) == 2:
-        pair = norm_uncertainties(*runs.values(), problem, friction, window)
-        found |= {name: u.discretisation for name, u in pair.items()}
+        pair = pair_history(*runs.values(), problem, friction, window)
+        found |= {name: u.discretisation for name, u in pair.uncertainties.items()}
     return found
 
 
@@ -179,7 +201,7 @@ def compare(
     other = figures(finite_element.finest, problem, friction)
     doubt_one = uncertainties(half_plane, problem, friction)
     doubt_other = uncertainties(finite_element, problem, friction)
-    doubt_norm = norm_uncertainties(half_plane, finite_element, problem, friction, window)
+    doubt_norm = pair_history(half_plane, finite_element, problem, friction, window).uncertainties
     listed = []
     for name in QUANTITIES:
         if name in one:

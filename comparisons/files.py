@@ -19,6 +19,8 @@ from comparisons.errors import InputError
 OWN_FILES = (
     "result.json",
     "report.html",
+    "report.npz",
+    "report.pdf",
     "record.json",
     "run_in_profile.csv",
     "half_plane/contact.csv",

@@ -66,6 +66,8 @@ def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
         return {"array": name}
     if isinstance(value, tuple):
         return {"tuple": [encoded(item, arrays) for item in value]}
+    if isinstance(value, frozenset):
+        return {"set": sorted(value)}
     if isinstance(value, dict):
         return {"dict": [[key, encoded(item, arrays)] for key, item in value.items()]}
     if isinstance(value, np.generic):
@@ -81,6 +83,8 @@ def decoded(given: object, arrays: dict[str, np.ndarray], kinds: dict[str, type]
         return arrays[given["array"]]
     if "tuple" in given:
         return tuple(decoded(item, arrays, kinds) for item in given["tuple"])
+    if "set" in given:
+        return frozenset(given["set"])
     if "dict" in given:
         return {key: decoded(item, arrays, kinds) for key, item in given["dict"]}
     parts = {name: decoded(item, arrays, kinds) for name, item in given["fields"].items()}

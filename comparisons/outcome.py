@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons.budget.budget import ErrorBudget
+from comparisons.compare import PairHistory
 from comparisons.coupling import Coupling
 from comparisons.exit_status import ExitStatus
 from comparisons.level import ModelRun, Window
@@ -25,6 +26,8 @@ class Outcome:
     couplings    what friction changes on the half-plane by moving the surfaces, one a friction
                  coefficient; empty where it moves nothing
     budget       of the difference, None for one model
+    pairs        the norms of the difference on all levels, one a friction coefficient; empty for
+                 one model
     """
 
     problem: Problem
@@ -37,6 +40,7 @@ class Outcome:
     directory: Path
     couplings: tuple[Coupling, ...] = ()
     budget: ErrorBudget | None = None
+    pairs: tuple[PairHistory, ...] = ()
 
     @property
     def converged(self) -> bool:

@@ -51,10 +51,10 @@ def read_record(folder: Path) -> Record:
     if not folder.is_dir():
         raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
     path = folder / "record.json"
-    content = _json(path)
+    content = read_table(path)
     _check_schema(path, content, SCHEMA, "; run the scene again to record it")
     figures_path = folder / "result.json"
-    figures = _json(figures_path)
+    figures = read_table(figures_path)
     _check_schema(figures_path, figures, RESULT_SCHEMA)
     try:
         check_figures(figures)
@@ -123,8 +123,8 @@ def _trace(path: Path, profile: dict) -> KeptTrace:
     return KeptTrace(read, profile.get("file_sha256"))
 
 
-def _json(path: Path) -> dict:
-    """The table in a file of a run's folder."""
+def read_table(path: Path) -> dict:
+    """The table in a file of a run's folder. Raises InputError where there is none."""
     try:
         content = json.loads(path.read_bytes().decode("utf-8"))
     except FileNotFoundError:

@@ -5,7 +5,7 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.budget.budget import error_budget
 from comparisons.checkpoint import Checkpoint
-from comparisons.compare import compared
+from comparisons.compare import compared, pair_histories
 from comparisons.coupling import couplings
 from comparisons.errors import InputError, SceneError, SolverError
 from comparisons.fields import AUTOMATIC
@@ -133,6 +133,7 @@ def solve(
         directory=out,
         couplings=moved,
         budget=budget,
+        pairs=pair_histories(problem, runs, window) if plan.compares else (),
     )
     write_files(outcome, listener, fields)
     checkpoint.discard()

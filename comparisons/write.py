@@ -39,7 +39,9 @@ def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -
         (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
         listener("drawing the report")
         from comparisons.report.page import render
+        from comparisons.report.store import FILE, keep_shown
 
+        keep_shown(folder / FILE, outcome)
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
 
 

@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from comparisons.errors import one_line
 from comparisons.rank import is_several
 from comparisons.stages import Listener, silent
 
@@ -38,6 +39,11 @@ def show(renderable: object) -> None:
         Console().print(renderable)
     else:
         Console(width=UNSEEN_WIDTH, force_terminal=False).print(renderable)
+
+
+def say(sentence: str) -> None:
+    """Tell on standard error what concerns the user but is no failure of the command."""
+    print(f"crosscheck: {one_line(sentence)}", file=sys.stderr)
 
 
 def show_json(content: object) -> None:

@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 import typer
 
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
-from comparisons.commands.output import progress, show, show_json
+from comparisons.commands.output import progress, say, show, show_json
 from comparisons.errors import InputError
-from comparisons.rank import from_first
+from comparisons.rank import from_first, is_first
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
@@ -32,10 +32,11 @@ def run(
     fields: Annotated[
         Fields, typer.Option(help="File format of the stress fields; auto is by their size.")
     ] = "auto",
+    pdf: Annotated[bool, typer.Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> Job:
     """Solve a scene with both models, compare them and judge."""
-    return partial(_run, scene, out, models, tolerance, fields, as_json)
+    return partial(_run, scene, out, models, tolerance, fields, pdf, as_json)
 
 
 def _run(
@@ -44,6 +45,7 @@ def _run(
     models: str,
     tolerance: float | None,
     fields: str,
+    pdf: bool,
     as_json: bool,
 ) -> int:
     chosen = _models(models)
@@ -61,6 +63,9 @@ def _run(
 
     with progress() as listener:
         outcome = run_scene(resolved, directory, chosen, listener, fields)
+        if pdf and is_first():
+            listener("printing the report")
+            _print(directory)
     if as_json:
         show_json(outcome.result)
     else:
@@ -68,6 +73,16 @@ def _run(
 
         show(summary(outcome))
     return outcome.exit_status
+
+
+def _print(directory: Path) -> None:
+    """Print the report; without a browser say so, the run is none the worse for it."""
+    from comparisons.pdf import NoPdfError, print_report
+
+    try:
+        print_report(directory)
+    except NoPdfError as error:
+        say(str(error))
 
 
 def _models(given: str) -> tuple[str, ...]:

@@ -143,6 +143,8 @@ def _draw(axes: "Axes", bars: list[Bar]) -> None:
         start = 0.0
         for name, (colour, hatch) in LOOKS.items():
             width = 100.0 * bar.parts.get(name, 0.0)
+            if width == 0.0:
+                continue  # each would still take a kilobyte of the page
             axes.barh(
                 y,
                 width,

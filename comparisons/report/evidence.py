@@ -8,8 +8,6 @@ from comparisons.budget.effects import EFFECTS
 from comparisons.compare import (
     Uncertainty,
     figures,
-    norm_uncertainties,
-    norms,
     uncertainties,
 )
 from comparisons.level import ModelRun
@@ -87,27 +85,23 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
 
 
 def _of_pair(outcome: Outcome) -> Table:
-    problem, window = outcome.problem, outcome.window
-    one, other = outcome.runs["half_plane"], outcome.runs["finite_element"]
+    problem, run = outcome.problem, outcome.runs["finite_element"]
     rows, seen = [], set()
-    for friction in problem.scene.friction:
-        pairs = zip(one.levels, other.levels, strict=True)
-        values = [norms(first, second, problem, friction, window) for first, second in pairs]
-        doubts = norm_uncertainties(one, other, problem, friction, window)
-        for name in values[0]:
+    for pair in outcome.pairs:
+        for name in pair.norms[0]:
             quantity = QUANTITIES[name]
             if name in seen and not quantity.needs_stress:
                 continue
             seen.add(name)
-            where = _where(problem, name, friction)
+            where = _where(problem, name, pair.friction)
             rows.append(
                 (
                     label(name) + where,
-                    *(percent(v[name], digits=3) for v in values),
-                    *_doubts(doubts[name], domain=other.halved is not None),
+                    *(percent(norms[name], digits=3) for norms in pair.norms),
+                    *_doubts(pair.uncertainties[name], domain=run.halved is not None),
                 )
             )
-    return Table("Difference of both models", _head(len(one.levels), False), tuple(rows))
+    return Table("Difference of both models", _head(len(run.levels), False), tuple(rows))
 
 
 def _where(problem: Problem, name: str, friction: float) -> str:

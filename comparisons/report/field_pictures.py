@@ -1,7 +1,9 @@
 """Subsurface fields of both models on one colour scale, and their difference on its own."""
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +21,9 @@ from comparisons.report.field_layout import (
 from comparisons.report.numbers import decimal, plain, significant
 from comparisons.report.style import Picture, data_uri
 from comparisons.report.words import LABELS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 LOW, TALL = 0.9, 2.6  # inches: least and greatest height of a field
 NEAR = 0.1  # half-widths: depth of the pictures next to the surface
@@ -130,11 +135,25 @@ def _picture(
         colour_bar(drawn, bars[1], shown, f"Δ{component.symbol}/p₀", difference_bands)
     places[-1].set_xlabel("x/a")
     words = f"{component.words.capitalize()} {component.symbol} {view.words}"
+    pointed = {
+        "component": COMPONENTS.index(component),
+        "friction": outcome.problem.scene.friction.index(friction),
+        "boxes": [_box(place) for place in places],
+        "x": [round(float(end), 6) for end in x[[0, -1]]],
+        "z": [round(float(end), 6) for end in z[[0, -1]]],
+    }
     return Picture(
         source=data_uri(drawn),
         alternative=f"{words}, friction {plain(friction)}. {'; '.join(found)}.{largest}",
         caption=(f"{words}, friction {plain(friction)}; + marks the largest value.{largest}"),
+        field=json.dumps(pointed),
     )
+
+
+def _box(axes: "Axes") -> list[float]:
+    """Left, top, width and height of a field as shares of the picture, from its upper left."""
+    place = axes.get_position()
+    return [round(v, 4) for v in (place.x0, 1.0 - place.y1, place.width, place.height)]
 
 
 def _difference_said(x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: float) -> str:

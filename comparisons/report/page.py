@@ -1,8 +1,6 @@
 """The report: one page that opens without a network and prints without loss."""
 
-import re
 from dataclasses import dataclass
-from pathlib import Path
 
 from comparisons.outcome import Outcome
 from comparisons.report.budget_rows import budget_rows
@@ -17,13 +15,12 @@ from comparisons.report.evidence import (
     record_rows,
 )
 from comparisons.report.headline import headline
+from comparisons.report.html import inline, rendered
+from comparisons.report.look import look_of
 from comparisons.report.operator import operator_note, operator_table
 from comparisons.report.sheet import problem_sheet
 from comparisons.report.style import Picture, drawing
 from comparisons.report.words import MODELS
-
-FOLDER = Path(__file__).parent
-UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
 
 
 @dataclass(frozen=True)
@@ -45,19 +42,12 @@ class Pictures:
 
 def render(outcome: Outcome) -> str:
     """The page of a finished run; equal outcomes give equal text."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    from markupsafe import Markup
-
-    environment = Environment(
-        loader=FileSystemLoader(FOLDER),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["tight"] = lambda text: UNIT.sub("\u00a0", text)  # no line ends there
-    return environment.get_template("page.html.j2").render(
-        css=Markup((FOLDER / "page.css").read_text(encoding="utf-8")),
+    script, policy = inline("look.js")
+    return rendered(
+        "page.html.j2",
+        script=script,
+        policy=policy,
+        look=look_of(outcome),
         scene=outcome.problem.scene,
         headline=headline(outcome),
         models=[MODELS[name] for name in outcome.runs],

@@ -29,8 +29,9 @@ BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
 ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}
 
-_OUTLINE = re.compile(rb' d="[^"]*"')
+_OUTLINE = re.compile(rb' d="([^"]*)"')
 _DECIMALS = re.compile(rb"(\.\d\d)\d+")
+_BLANKS = re.compile(rb"\s*([MLCQZz])\s*")
 
 _SETTINGS = {
     "axes.axisbelow": True,
@@ -67,6 +68,7 @@ class Picture:
     caption      what it shows and how to read it
     narrow       data URI of a version for narrow screens, None where one version suits all
     wide         across the page
+    field        JSON of what a pointer on it points at, None where that has no values
     """
 
     source: str
@@ -74,6 +76,7 @@ class Picture:
     caption: str
     narrow: str | None = None
     wide: bool = False
+    field: str | None = None
 
 
 @contextmanager
@@ -99,8 +102,13 @@ def svg(drawn: "Figure") -> str:
     buffer = io.BytesIO()
     drawn.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     # a hundredth of a point is enough for outlines, and half the size
-    short = _OUTLINE.sub(lambda outline: _DECIMALS.sub(rb"\1", outline[0]), buffer.getvalue())
+    short = _OUTLINE.sub(_shortened, buffer.getvalue())
     return short.decode("utf-8")
+
+
+def _shortened(outline: re.Match[bytes]) -> bytes:
+    """An outline without the decimals and blanks that nobody sees."""
+    return b' d="' + _BLANKS.sub(rb"\1", _DECIMALS.sub(rb"\1", outline[1])).strip() + b'"'
 
 
 def data_uri(drawn: "Figure") -> str:

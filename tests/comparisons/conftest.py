@@ -19,7 +19,7 @@ from analytic.patches import contact_patches
 from analytic.plane_stress import Extremum, PlaneStress
 from comparisons.budget.budget import error_budget
 from comparisons.checkpoint import Checkpoint
-from comparisons.compare import compared
+from comparisons.compare import compared, pair_histories
 from comparisons.level import Level, MeshField, ModelRun, StressResult, Window
 from comparisons.outcome import Outcome
 from comparisons.plan import make_plan
@@ -157,6 +157,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         record=record_of(scene, runs, hashes),
         directory=Path("results/made"),
         budget=budget,
+        pairs=pair_histories(problem, runs, window) if plan.compares else (),
     )
 
 

@@ -31,6 +31,7 @@ class Page(HTMLParser):
     sections: list[str] = field(default_factory=list)
     headings: list[str] = field(default_factory=list)
     text: str = ""
+    scripts: list[str] = field(default_factory=list)
     tables: list[list[list[str]]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -60,7 +61,9 @@ class Page(HTMLParser):
             raise ValueError(f"</{tag}> closes nothing")
 
     def handle_data(self, data: str) -> None:
-        if self.open_tags[-1:] == ["style"]:
+        if self.open_tags[-1:] == ["script"]:
+            self.scripts.append(data)
+        if self.open_tags[-1:] in (["style"], ["script"]):
             return
         self.text += data
         if self.open_tags[-1:] and self.open_tags[-1] in ("h1", "h2", "h3"):

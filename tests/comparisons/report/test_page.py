@@ -1,6 +1,8 @@
 """The page as a reader, a browser and a printer meet it: whole, self-contained, in order."""
 
 import base64
+import hashlib
+import json
 import re
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
@@ -28,7 +30,27 @@ def test_nothing_is_loaded_from_anywhere(wavy_page):
         if name in loading:
             assert value.startswith("data:image/svg+xml;base64,"), (tag, name)
         assert not name.startswith("on"), (tag, name)
-    assert not re.search(r"https?:|<script|<link|<iframe|@import|url\(", wavy_page.source)
+    assert not re.search(r"https?:|<link|<iframe|@import|url\(", wavy_page.source)
+
+
+def test_one_script_runs_and_none_but_that(wavy_page, half_plane_page):
+    def seal(script: str) -> str:
+        return base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+    [policy] = [
+        value
+        for tag, name, value in wavy_page.attributes
+        if (tag, name) == ("meta", "content") and "default-src" in value
+    ]
+    fields, script = wavy_page.scripts
+    assert policy.split("; ") == [
+        "default-src 'none'",
+        "img-src data:",
+        "style-src 'unsafe-inline'",
+        f"script-src 'sha256-{seal(script)}'",
+    ]
+    assert set(json.loads(fields)) == {"models", "x", "z", "start", "components"}
+    assert half_plane_page.scripts == []  # without a field
 
 
 def test_pictures_are_whole_and_load_nothing_either(wavy_page):
@@ -155,7 +177,7 @@ def test_a_title_cannot_add_markup(smooth_outcome: Outcome, page_of):
     outcome = replace(smooth_outcome, problem=replace(smooth_outcome.problem, scene=scene))
     page = page_of(render(outcome))
     assert title in page.headings
-    assert not {"script", "b"} & {tag for tag, _, _ in page.attributes} and "<b>" not in page.source
+    assert len(page.scripts) == 2 and "<b>" not in page.source
     assert page.open_tags == []
 
 

@@ -1,0 +1,44 @@
+"""`crosscheck report`: finished runs' pages drawn again, and one page over all of them."""
+
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.output import progress, say, show, show_json
+
+
+def report(
+    folders: Annotated[
+        list[Path], typer.Argument(metavar="DIR...", help="Folders that runs have left.")
+    ],
+    summary: Annotated[
+        Path | None,
+        typer.Option(
+            help="Page over all runs.", show_default="results/summary.html, of several DIR"
+        ),
+    ] = None,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Print each report to PDF, too.")] = False,
+    as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
+) -> Job:
+    """Draw reports again from result files, without solving; sum many runs up on one page."""
+    return partial(_report, folders, summary, pdf, as_json)
+
+
+def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool) -> int:
+    if summary is None and len(folders) > 1:
+        summary = RESULTS / "summary.html"
+    from comparisons.exit_status import ExitStatus
+    from comparisons.report.again import draw_again, reports_content, reports_table
+
+    with progress() as listener:
+        reports = draw_again(folders, summary, pdf, listener)
+    if as_json:
+        show_json(reports_content(reports, summary))
+    else:
+        show(reports_table(reports, summary))
+    for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):
+        say(why)
+    return ExitStatus.DONE

@@ -1,0 +1,94 @@
+"""A page printed to PDF by a browser without a window, where one is installed."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+BROWSERS = (
+    "chromium",
+    "chromium-browser",
+    "chromium-headless-shell",
+    "chrome-headless-shell",
+    "google-chrome",
+    "google-chrome-stable",
+    "microsoft-edge",
+)
+REMEDY = "apt-get install --no-install-recommends chromium"
+PATIENCE = 120.0  # s; a page of 5 MB takes two on a machine that does nothing else
+PART = ".report.pdf.part"
+
+
+class NoPdfError(RuntimeError):
+    """Nothing was printed; `str` says in one sentence why, and what to do."""
+
+
+def browser() -> str | None:
+    """The first Chromium or Chrome on the PATH."""
+    return next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+def options(profile: str) -> list[str]:
+    """What to start a browser with: no window, nothing of the user's, nothing from the network."""
+    given = [
+        "--headless",
+        "--disable-gpu",
+        "--disable-extensions",
+        "--disable-background-networking",
+        "--no-first-run",
+        f"--user-data-dir={profile}",
+    ]
+    # as root a browser refuses to start with a sandbox; the pages are this program's own
+    return [*given, "--no-sandbox"] if os.geteuid() == 0 else given
+
+
+def print_report(folder: Path) -> Path:
+    """Print a run's report.html into report.pdf beside it; its path. Raises NoPdfError."""
+    target = folder / "report.pdf"
+    print_pdf(folder / "report.html", target)
+    return target
+
+
+def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
+    """Print a page into `target`, which appears whole or not at all. Raises NoPdfError."""
+    found = browser()
+    if found is None:
+        raise NoPdfError(
+            f"{target}: not printed: neither Chromium nor Chrome is installed; "
+            f"{REMEDY} gets one, or print {page} from any browser"
+        )
+    part = target.with_name(PART)
+    with tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile:
+        command = [
+            found,
+            *options(profile),
+            "--no-pdf-header-footer",
+            f"--print-to-pdf={part.resolve()}",
+            page.resolve().as_uri(),
+        ]
+        try:
+            done = subprocess.run(
+                command, capture_output=True, stdin=subprocess.DEVNULL, timeout=patience
+            )
+            if not _is_whole(part):
+                raise NoPdfError(
+                    f"{target}: not printed: {found} ended with {done.returncode} and left no PDF; "
+                    f"print {page} from any browser"
+                )
+            os.replace(part, target)
+        except subprocess.TimeoutExpired:
+            raise NoPdfError(
+                f"{target}: not printed: {found} did not end within {patience:g} s; "
+                f"print {page} from any browser"
+            ) from None
+        finally:
+            part.unlink(missing_ok=True)
+
+
+def _is_whole(path: Path) -> bool:
+    """Whether a file is a PDF from its first line to its last."""
+    if not path.is_file():
+        return False
+    content = path.read_bytes()
+    return content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
