@@ -81,11 +81,10 @@ def error_budget(
     if not plan.effects:
         choice = choice.without(choice.added, "not asked for (budget.effects)")
     bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener)
-    spent = sum(sum(run.seconds.values()) for run in runs.values())
     unsplit = None
     while True:
         try:
-            levels, own = _refined(problem, window, runs, rows, choice, bodies, spent)
+            levels, own = _refined(problem, window, runs, rows, choice, bodies)
             break
         except NotComputedError as error:
             dropped = _blamed(choice, error)
@@ -99,7 +98,7 @@ def error_budget(
         sampling = from_first(
             lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
         )
-    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, sum(bodies.seconds.values()))
+    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, bodies.seconds)
 
 
 def _refined(
@@ -109,7 +108,6 @@ def _refined(
     rows: tuple[Comparison, ...],
     choice: Choice,
     bodies: Bodies,
-    spent: float,
 ) -> tuple[int, list[OwnError]]:
     """The half-plane's own errors, and the level that the effects were taken to for them.
 
@@ -142,17 +140,18 @@ def _refined(
         ]
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
-        finer = (
-            spent + sum(bodies.seconds.values()) + GROWTH_OF_TIME * bodies.seconds.get(number, 0.0)
-        )
-        if number >= LEAST_LEVELS and _is_beyond(finer, problem):
+        if number >= LEAST_LEVELS and _is_beyond(problem, runs, bodies, number):
             break
     return len(next(iter(history.values()))), own
 
 
-def _is_beyond(seconds: float, problem: Problem) -> bool:
-    """Whether a time exceeds the scene's budget, by the first process' clock."""
-    return from_first(lambda: seconds > problem.scene.budget.time)
+def _is_beyond(problem: Problem, runs: dict[str, ModelRun], bodies: Bodies, number: int) -> bool:
+    """Whether one more level of the effects would exceed the time, by the laws of cost: clocks
+    would give another machine other figures."""
+    spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
+    spent += sum(bodies.expected.values())
+    finer = GROWTH_OF_TIME * bodies.expected.get(number, 0.0)
+    return spent + finer > problem.scene.budget.time
 
 
 def _unsplit(rows: tuple[Comparison, ...]) -> list[OwnError]:

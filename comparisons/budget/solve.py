@@ -34,7 +34,8 @@ class Bodies:
 
     own      the scene's own finite elements, already solved
     answers  by body, number of the level from 1, and friction coefficient
-    seconds  that the bodies took, by number of the level
+    seconds  that the bodies took
+    expected by the laws of cost [s], by number of the level
     """
 
     problem: Problem
@@ -43,7 +44,8 @@ class Bodies:
     checkpoint: Checkpoint
     listener: Listener
     answers: dict[tuple[Body, int, float], Answer] = field(default_factory=dict)
-    seconds: dict[int, float] = field(default_factory=dict)
+    seconds: float = 0.0
+    expected: dict[int, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._store = None  # of meshes and factors that bodies of one level have in common
@@ -71,8 +73,8 @@ class Bodies:
         if level is None:
             level = replace(self._solved(body, problem, number), mesh_field=None)
             self.checkpoint.save(kept, level)
-        spent = sum(level.seconds.values())
-        self.seconds[number] = self.seconds.get(number, 0.0) + spent
+        self.seconds += sum(level.seconds.values())
+        self.expected[number] = self.expected.get(number, 0.0) + level.expected_seconds
         return level
 
     def _is_own(self, body: Body) -> bool:
