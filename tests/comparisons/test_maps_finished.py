@@ -13,9 +13,9 @@ from comparisons.maps.request import FINISHED, request_of
 from comparisons.maps.rule import rules_of
 from comparisons.record import versions
 
-NAMES = ("curvature-thickness", "thickness-friction")
+NAMES = ("curvature-thickness", "slope-wavelength", "thickness-friction")
 # A point of each that costs little and whose error is well above its uncertainty: column, row.
-CHEAP = {"curvature-thickness": (9, 9), "thickness-friction": (9, 9)}
+CHEAP = {"curvature-thickness": (9, 9), "slope-wavelength": (9, 0), "thickness-friction": (9, 9)}
 
 
 def asked_for(content: dict):
