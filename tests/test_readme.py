@@ -151,7 +151,7 @@ def test_test_command_is_the_launchers():
 def test_commands_in_passing_work(tmp_path):
     """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
     named = {command.split()[0] for command in re.findall(r"`\./crosscheck ([^`]+)`", README)}
-    studies = {"cost", "map", "verify", "stability", "rerun"}
+    studies = {"cost", "map", "verify", "stability", "paper", "rerun"}
     assert named == {"scenes", "doctor", *studies}
     for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)
