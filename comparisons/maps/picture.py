@@ -95,10 +95,17 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             if columns <= LETTERED:
                 ink = "white" if share > LIGHT else "black"
                 text = f"{100.0 * error:+.2g}".replace("-", "−")
-                letters = axes.text(
-                    *middle, text, color=ink, fontsize=7.0, ha="center", va="center", zorder=4
+                axes.text(
+                    *middle,
+                    text,
+                    color=ink,
+                    fontsize=7.0,
+                    ha="center",
+                    va="center",
+                    zorder=4,
+                    # lines stop short of letters
+                    bbox={"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8},
                 )
-                letters.set(path_effects=_halo(2.0, look["facecolor"]))
         else:
             kinds.add(point["error"])
             look |= {"hatch": HATCHES[point["error"] == BELOW], "edgecolor": "#777777"}
@@ -136,7 +143,7 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
                 linewidths=1.3,
                 linestyles=[style],
             )
-            found.set(path_effects=_halo(2.6, "white"))
+            found.set(path_effects=_halo())
     return drawn
 
 
@@ -145,11 +152,10 @@ def _scaled(error: np.ndarray | float) -> np.ndarray | float:
     return np.arcsinh(np.asarray(error) / SMALLEST)
 
 
-def _halo(width: float, colour: "str | tuple") -> list:
-    """What sets lines and letters off from what they lie on; width in points."""
+def _halo() -> list:
     from matplotlib.patheffects import Normal, Stroke
 
-    return [Stroke(linewidth=width, foreground=colour), Normal()]
+    return [Stroke(linewidth=2.6, foreground="white"), Normal()]
 
 
 def _ticks(side: object, axis: dict, places: np.ndarray) -> None:
