@@ -1,0 +1,97 @@
+"""The pages beside the README say what the program does: names, numbers, commands, links."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from comparisons.budget.budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
+from comparisons.budget.choice import SHARE_OF_TOLERANCE
+from comparisons.budget.effects import EFFECTS
+from comparisons.compare import PRESSURE_PER_RESIDUAL
+from comparisons.resolve import resolve_tables
+from comparisons.scene_finite_element import HELD_BLOCK
+from comparisons.uncertainty import DOMAIN, LOWEST_ORDER
+
+PROJECT = Path(__file__).resolve().parents[1]
+PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "pages").glob("*.md")}
+TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
+
+
+def rows(page: str, heading: str) -> list[list[str]]:
+    """Cells of the table whose first column is called `heading`."""
+    lines = TEXT[page].splitlines()
+    start = next(n for n, line in enumerate(lines) if line.startswith(f"| {heading} |"))
+    found = []
+    for line in lines[start + 2 :]:
+        if not line.startswith("|"):
+            break
+        found.append([cell.strip() for cell in line.strip("|").split(" | ")])
+    return found
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_links_lead_somewhere_and_the_readme_leads_here(name):
+    for link in re.findall(r"\]\(([^)#]+)\)", TEXT[name]):
+        assert (PAGES[name].parent / link).exists(), link
+    readme = (PROJECT / "README.md").read_text(encoding="utf-8")
+    assert f"](comparisons/pages/{name}.md)" in readme
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_commands_are_the_programs(name):
+    from typer.main import get_command
+
+    from comparisons.cli import app
+
+    known = set(get_command(app).commands) | {"test"}
+    for command in re.findall(r"`\./crosscheck ([^`]+)`", TEXT[name]):
+        assert shlex.split(command)[0] in known
+
+
+class TestVerdict:
+    def test_every_effect_has_its_row(self):
+        assert [name for name, *_ in rows("verdict", "effect")] == list(EFFECTS)
+
+    def test_numbers_are_those_of_the_program(self):
+        text = TEXT["verdict"]
+        assert "times 2000" in text and PRESSURE_PER_RESIDUAL == 2000
+        assert "2.4 times what half the block changes" in text and round(DOMAIN, 1) == 2.4
+        assert "between 1 and the formal one" in text and LOWEST_ORDER == 1
+        assert "exceeds a tenth of a tolerance" in text and SHARE_OF_TOLERANCE == 0.1
+        assert "less than a third of the tolerance" in text
+        assert SHARE_OF_EFFECTS == pytest.approx(1 / 3)
+
+    def test_verdicts_are_those_that_a_run_gives(self):
+        assert [word.strip("`").lower() for word, _ in rows("verdict", "verdict")] == [
+            "holds",
+            "fails",
+            "undecided",
+        ]
+
+
+class TestMethod:
+    def test_the_block_is_as_wide_as_it_says(self):
+        assert "400 a wide and deep" in TEXT["method"] and HELD_BLOCK == 400
+
+    def test_fields_that_drop_an_assumption_are_a_scenes(self):
+        """Each is known: a value that it cannot have is refused with what is allowed."""
+        tables = {
+            "roller": {"radius": 8e-3, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
+            "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3},
+            "load": {"per_length": 1e6},
+        }
+        named = set(re.findall(r"`((?:body|finite_element|load)\.\w+)", TEXT["method"]))
+        assert len(named) >= 8
+        for section, field in (name.split(".") for name in named):
+            wrong = {**tables, section: {**tables.get(section, {}), field: []}}
+            with pytest.raises(Exception, match=rf"{section}\.{field}: ") as refusal:
+                resolve_tables(wrong, name="made", folder=Path("."), source="made.toml")
+            assert "unknown" not in str(refusal.value)
+
+
+def test_the_changelog_has_the_version_that_is_here():
+    version = re.search(r'^version = "([^"]+)"', (PROJECT / "pyproject.toml").read_text(), re.M)[1]
+    heads = re.findall(r"^## (\S+)", TEXT["changelog"], re.M)
+    assert version in heads[:2]
