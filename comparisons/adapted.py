@@ -7,7 +7,7 @@ where the ends are, how far its hats are from a smooth pressure on each patch
 takes hats and elements by that. Inside, the half-plane of the same hats leads the iteration.
 
 Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
-quarter and a tenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
+quarter and a thirteenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
 """
 
 from collections.abc import Callable
