@@ -40,16 +40,16 @@ def problem_with(profile: dict, **finite_element) -> Problem:
     return problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
 
 
-def self_affine(slope: float) -> Problem:
+def self_affine(slope: float, length: float = 2e-3, seed: int = 3) -> Problem:
     return problem_with(
         {
             "kind": "self-affine",
             "hurst": 1.0,
             "rms_slope": slope,
-            "samples": 2001,
-            "length": 2e-3,
+            "samples": round(length / 1e-6) + 1,
+            "length": length,
             "shortest_wavelength": 2e-5,
-            "seed": 3,
+            "seed": seed,
         }
     )
 
@@ -81,6 +81,14 @@ def test_fading_roughness_leaves_elements_fit_on_every_level(slope):
     """Refinement must not make them worse, as it does where the fading gets shorter with it."""
     problem = self_affine(slope)
     for pitch in problem.pitches[0] / 2.0 ** np.arange(4):
+        mesh = mesh_of(problem, pitch)
+        assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
+
+
+def test_high_long_waves_do_not_fade_steeply():
+    """The roughness at the ends of the contact may stand far above the mean line."""
+    problem = self_affine(0.2, length=6e-3, seed=5)
+    for pitch in problem.pitches[0] / np.array([1.0, 2.0]):
         mesh = mesh_of(problem, pitch)
         assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
 
