@@ -44,19 +44,22 @@ PACKAGES = ("analytic", "meshes", "fem", "comparisons")
 
 
 class Checkpoint:
-    """Levels of the run that carries out `plan` for `scene` and writes `out`."""
+    """Levels of the run that carries out `plan` for `scene` and writes `out`; keeps nothing for a
+    run that writes nothing (None)."""
 
-    def __init__(self, out: Path, scene: ResolvedScene, plan: Plan) -> None:
-        self.folder = unfinished(out)
+    def __init__(self, out: Path | None, scene: ResolvedScene, plan: Plan) -> None:
+        self.folder = None if out is None else unfinished(out)
         self.key = key_of(scene, repr(plan))
 
     def load(self, name: str) -> Level | None:
         """The level kept under `name` by a run with the same key, else None."""
+        if self.folder is None:
+            return None
         return from_first(lambda: kept(self._path(name), self.key, KINDS))
 
     def save(self, name: str, level: Level) -> None:
         """Keep a level; whole or not at all."""
-        if is_first():
+        if self.folder is not None and is_first():
             keep(self._path(name), self.key, level)
 
     def _path(self, name: str) -> Path:
@@ -64,7 +67,7 @@ class Checkpoint:
 
     def discard(self) -> None:
         """Remove what is kept."""
-        if is_first():
+        if self.folder is not None and is_first():
             shutil.rmtree(self.folder, ignore_errors=True)
 
 

@@ -132,7 +132,7 @@ def _write_vtu(path: Path, field: FieldFile) -> None:
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-    grid = _vtk_grid(field, str)
+    grid = vtk_grid(field)
     for name, text in field.notes.items():
         codes = numpy_to_vtk(np.frombuffer(text.encode(), dtype=np.uint8), deep=True)
         codes.SetName(name)
@@ -146,7 +146,7 @@ def _write_vtkhdf(path: Path, field: FieldFile) -> None:
     from vtkmodules.vtkCommonCore import vtkStringArray
     from vtkmodules.vtkIOHDF import vtkHDFWriter
 
-    grid = _vtk_grid(field, lambda name: name.replace(".", "_"))  # HDF5 has no such names
+    grid = vtk_grid(field, lambda name: name.replace(".", "_"))  # HDF5 has no such names
     for name, text in field.notes.items():
         array = vtkStringArray()
         array.SetName(name)
@@ -162,7 +162,7 @@ def _write(writer: object, path: Path, grid: "vtkUnstructuredGrid") -> None:
         raise OSError(None, "VTK cannot write it", str(path))
 
 
-def _vtk_grid(field: FieldFile, called: Callable[[str], str]) -> "vtkUnstructuredGrid":
+def vtk_grid(field: FieldFile, called: Callable[[str], str] = str) -> "vtkUnstructuredGrid":
     """VTK's form of points, cells and arrays, which `called` names."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints

@@ -29,12 +29,12 @@ GOES_ON = "finished levels are kept, the same command goes on from there"
 
 def run(
     scene: ResolvedScene,
-    out: Path,
+    out: Path | None,
     models: tuple[str, ...],
     listener: Listener = silent,
     fields: str = AUTOMATIC,
 ) -> Outcome:
-    """Solve a scene, compare, judge, and leave everything in `out`.
+    """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
     models    of half_plane, finite_element
     listener  is told each stage as it begins
@@ -95,7 +95,7 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) 
 def solve(
     problem: Problem,
     plan: Plan,
-    out: Path,
+    out: Path | None,
     listener: Listener = silent,
     fields: str = AUTOMATIC,
 ) -> Outcome:
@@ -110,7 +110,7 @@ def solve(
         if plan.compares:
             budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, listener)
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(GOES_ON) from None
+        raise KeyboardInterrupt(*([] if out is None else [GOES_ON])) from None
     except (ContactError, FemError, InputError, MeshError):
         checkpoint.discard()
         raise
@@ -135,6 +135,7 @@ def solve(
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
     )
-    write_files(outcome, listener, fields)
+    if out is not None:
+        write_files(outcome, listener, fields)
     checkpoint.discard()
     return outcome

@@ -185,6 +185,8 @@ def _facts(outcome: Outcome) -> "Table":
     if moved is not None:
         facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))
     facts.add_row("time", times)
+    if outcome.directory is None:
+        return facts
     facts.add_row("report", Text(str(outcome.directory / "report.html")))
     facts.add_row("figures", Text(str(outcome.directory / "result.json")))
     return facts

@@ -66,8 +66,7 @@ def tidy_rows(folders: Iterable[Path]) -> list[Row]:
 
     Raises InputError, one line, for a folder without runs and for a result that cannot be read.
     """
-    found = [row for path in _results(folders) for row in _rows_of(path)]
-    return [{name: row.get(name) for name in COLUMNS} for row in found]
+    return [row for path in _results(folders) for row in _rows_in(path)]
 
 
 def as_csv(rows: Iterable[Row]) -> str:
@@ -129,20 +128,25 @@ def _is_hidden(name: str) -> bool:
     return name.startswith(".")
 
 
-def _rows_of(path: Path) -> Iterable[Row]:
+def rows_of(result: Mapping, run: str) -> list[Row]:
+    """The rows of one run's result, each with all COLUMNS."""
+    common = {
+        "run": run,
+        "scene": result["scene"]["name"],
+        "title": result["scene"]["title"],
+        "half_space": result["half_space"]["verdict"],
+        **result["groups"],
+    }
+    rows = _compared(result) if result.get("comparison") else _of_one_model(result)
+    return [{name: (common | row).get(name) for name in COLUMNS} for row in rows]
+
+
+def _rows_in(path: Path) -> list[Row]:
     result = read_table(path)
     try:
         if result["schema"] != SCHEMA:
             raise InputError(f"{path}: schema: is {result['schema']}; allowed is {SCHEMA}")
-        common = {
-            "run": str(path.parent),
-            "scene": result["scene"]["name"],
-            "title": result["scene"]["title"],
-            "half_space": result["half_space"]["verdict"],
-            **result["groups"],
-        }
-        rows = _compared(result) if result.get("comparison") else _of_one_model(result)
-        return [common | row for row in rows]
+        return rows_of(result, str(path.parent))
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
 

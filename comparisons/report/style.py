@@ -9,6 +9,7 @@ import io
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -79,6 +80,9 @@ class Picture:
     field: str | None = None
 
 
+_HANDED_OVER: "ContextVar[list[Figure] | None]" = ContextVar("handed_over", default=None)
+
+
 @contextmanager
 def drawing() -> Iterator[None]:
     """Settings for all that is drawn inside; whatever the caller's were, they come back."""
@@ -90,11 +94,29 @@ def drawing() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def handed_over() -> "Iterator[list[Figure]]":
+    """A list of the figures that are drawn inside; they become pyplot's, and no part of a page."""
+    drawn: list[Figure] = []
+    token = _HANDED_OVER.set(drawn)
+    try:
+        with drawing():
+            yield drawn
+    finally:
+        _HANDED_OVER.reset(token)
+
+
 def figure(width: float, height: float) -> "Figure":
     """An empty figure of `width` by `height` inches."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(width, height))
+    others = _HANDED_OVER.get()
+    if others is None:
+        return Figure(figsize=(width, height))
+    from matplotlib import pyplot
+
+    others.append(pyplot.figure(figsize=(width, height)))
+    return others[-1]
 
 
 def svg(drawn: "Figure") -> str:
@@ -112,6 +134,8 @@ def _shortened(outline: re.Match[bytes]) -> bytes:
 
 
 def data_uri(drawn: "Figure") -> str:
-    """The figure as an SVG image."""
+    """The figure as an SVG image; nothing where figures are handed over."""
+    if _HANDED_OVER.get() is not None:
+        return ""
     text = base64.b64encode(svg(drawn).encode()).decode("ascii")
     return "data:image/svg+xml;base64," + text
