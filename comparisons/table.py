@@ -40,6 +40,7 @@ STYLES = {
     "fails": "bold red",
     "not converged": "bold red",
 }
+LISTED = 2  # effects in the terminal; the report has them all
 ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 # Any terminal shows these.
 PLAIN = str.maketrans(
@@ -97,10 +98,11 @@ def _own_errors(outcome: Outcome) -> "Table":
     """Of the half-plane in what is judged, and what it is made of."""
     table = _table("mu", "own\nerror %", "uncert.\n%", "tol.\n%")
     table.columns[0].header = "half-plane alone"
-    table.add_column("of it, %", overflow="fold")
+    table.add_column("most of it, %", overflow="fold")
     for row in budget_rows(outcome, judged=True):
         cells = (SHORT[row.quantity], row.friction, row.own, row.uncertainty, row.tolerance)
-        table.add_row(*map(_cell, cells), _cell(row.parts.replace(" %", "")))
+        largest = "\n".join(row.parts[:LISTED]).replace(" %", "")
+        table.add_row(*map(_cell, cells), _cell(largest))
     return table
 
 

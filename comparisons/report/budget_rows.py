@@ -24,7 +24,7 @@ class BudgetRow:
     own: str
     uncertainty: str
     tolerance: str
-    parts: str
+    parts: tuple[str, ...]
 
 
 def budget_rows(outcome: Outcome, judged: bool = False) -> list[BudgetRow]:
@@ -51,16 +51,16 @@ def budget_rows(outcome: Outcome, judged: bool = False) -> list[BudgetRow]:
     return rows
 
 
-def _figures(own: OwnError) -> tuple[str, str, str]:
+def _figures(own: OwnError) -> tuple[str, str, tuple[str, ...]]:
     signed = not QUANTITIES[own.quantity].of_pair
     return (
         percent(own.value, signed=signed, uncertainty=own.uncertainty),
         percent(own.uncertainty),
-        ", ".join(parts_in_words(own)),
+        parts_in_words(own),
     )
 
 
-def parts_in_words(own: OwnError) -> list[str]:
+def parts_in_words(own: OwnError) -> tuple[str, ...]:
     """What the half-plane lacks, as shares of its error: an effect that raises the finite
     elements' figure makes the half-plane's too low. Norms have no sign."""
     signed = not QUANTITIES[own.quantity].of_pair
@@ -68,11 +68,11 @@ def parts_in_words(own: OwnError) -> list[str]:
     sizes["together"] = -own.interaction
     least = max(SHOWN, 0.1 * abs(own.value))
     by_size = sorted(sizes.items(), key=lambda item: -abs(item[1]))
-    return [
+    return tuple(
         f"{name} {percent(value if signed else abs(value), signed=signed)}"
         for name, value in by_size
         if abs(value) >= least
-    ]
+    )
 
 
 def left_out_line(outcome: Outcome) -> str:
