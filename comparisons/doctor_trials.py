@@ -163,4 +163,22 @@ except ModuleNotFoundError as error:
 """,
         "pip uninstall SurfaceTopography, or install crosscheck[surface].",
     ),
+    Trial(
+        "PDF",
+        """
+import subprocess, tempfile
+from pathlib import Path
+from comparisons.pdf import REMEDY, browser, print_pdf
+found = browser()
+if found is None:
+    print(f"not printed: neither Chromium nor Chrome is installed ({REMEDY})")
+else:
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder, "page.html")
+        page.write_text("<p>A page.</p>")
+        print_pdf(page, Path(folder, "page.pdf"))
+    print(subprocess.check_output([found, "--version"], text=True).strip())
+""",
+        "apt-get install --reinstall chromium, or open report.html and print it from there.",
+    ),
 )

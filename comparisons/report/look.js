@@ -94,7 +94,7 @@ function look(fields) {
     const [left, right] = [fields.x[0], fields.x[fields.x.length - 1]];
     const across = (x) => MARGIN.left + ((x - left) / (right - left)) * width;
     const up = (value) => top + (1 - (value - least) / (most - least)) * height;
-    for (const tick of ticks(least, most, height / 42)) {
+    for (const tick of ticks(least, most, height / 24)) {
       const y = up(tick);
       add(chart, "line", { x1: MARGIN.left, x2: MARGIN.left + width, y1: y, y2: y, class: "grid" });
       add(chart, "text", { x: MARGIN.left - 6, y: y + 4, "text-anchor": "end" }, written(tick, 3));
@@ -146,13 +146,13 @@ function look(fields) {
     const last = "x/a";
     panel(MARGIN.top, 190, models, `${symbol}/p₀`, difference.length ? "" : last);
     if (difference.length) panel(MARGIN.top + 226, 90, difference, `Δ${symbol}/p₀`, last);
-    let x = MARGIN.left + 60;
+    let x = MARGIN.left + 20;
     for (const [name] of models) {
       const style = { stroke: MODELS[name], "stroke-width": 2 };
       const dashes = DASHES[name] ?? "none";
       add(chart, "line", { x1: x, x2: x + 24, y1: 12, y2: 12, ...style, "stroke-dasharray": dashes });
       add(chart, "text", { x: x + 30, y: 16 }, name);
-      x += 130;
+      x += 118;
     }
     depth.nextElementSibling.value = `z = ${written(fields.z[row], 3)} a`;
     place.nextElementSibling.value = `x = ${written(fields.x[Number(place.value)], 3)} a`;

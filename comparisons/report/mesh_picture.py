@@ -92,13 +92,32 @@ def _edges(
     inside = (x.max(axis=1) >= low) & (x.min(axis=1) <= high) & (z.min(axis=1) <= depth)
     pairs = np.sort(np.stack([corners[inside], np.roll(corners[inside], -1, axis=1)], axis=-1))
     edges = np.unique(pairs[..., 0] * len(points) + pairs[..., 1])
-    ends = points[np.column_stack(np.divmod(edges, len(points)))]
+    pairs = np.column_stack(np.divmod(edges, len(points)))
+    ends = points[pairs]
     visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
-    lines = ends[visible]
-    # one curve with breaks: a tenth of the size of as many curves
-    broken = np.concatenate([lines, np.full((len(lines), 1, 2), np.nan)], axis=1).reshape(-1, 2)
+    # one curve with breaks: a twentieth of the size of as many curves as edges
+    broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
     axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
     _dark_cells(axes, ends[~visible].mean(axis=1), bounds, cell)
+
+
+def _strokes(edges: np.ndarray, pause: int) -> list[int]:
+    """Points in the order of a pen that draws every edge (n, 2) once; `pause`: it is lifted."""
+    beside: dict[int, dict[int, None]] = {}
+    for one, other in edges.tolist():
+        beside.setdefault(one, {})[other] = None
+        beside.setdefault(other, {})[one] = None
+    order: list[int] = []
+    for start in beside:
+        while beside[start]:
+            at = start
+            while beside[at]:
+                order.append(at)
+                onward = next(iter(beside[at]))
+                del beside[at][onward], beside[onward][at]
+                at = onward
+            order += [at, pause]
+    return order
 
 
 def _dark_cells(

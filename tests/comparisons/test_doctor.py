@@ -12,6 +12,7 @@ from rich.console import Console
 
 from comparisons import doctor as module
 from comparisons.doctor import OPTIONAL, TRIALS, Check, Trial, attempt, doctor, doctor_table
+from comparisons.pdf import browser
 
 PROJECT = Path(__file__).resolve().parents[2]
 MODULES = {
@@ -39,7 +40,7 @@ def test_what_is_missing_is_named_with_its_remedy(trial):
 
 
 def test_a_reader_that_is_not_installed_is_no_illness():
-    (trial,) = OPTIONAL
+    trial = OPTIONAL[0]
     blocked = f"import sys; sys.modules['SurfaceTopography'] = None\n{trial.program}"
     check = attempt(replace(trial, program=blocked))
     assert check.ok
@@ -48,6 +49,28 @@ def test_a_reader_that_is_not_installed_is_no_illness():
     check = attempt(replace(trial, program=broken))
     assert not check.ok
     assert "it lacks no_such_part" in check.detail
+
+
+def test_printing_is_tried_where_there_is_a_browser(monkeypatch, tmp_path):
+    trial = OPTIONAL[1]
+    monkeypatch.setenv("PATH", str(tmp_path))
+    check = attempt(trial)
+    assert check.ok
+    assert "neither Chromium nor Chrome is installed (apt-get install" in check.detail
+    torn = tmp_path / "chromium"
+    torn.write_text("#!/bin/sh\nexit 3\n")
+    torn.chmod(0o755)
+    check = attempt(trial)
+    assert not check.ok
+    assert "ended with 3 and left no PDF" in check.detail
+    assert check.remedy == trial.remedy
+
+
+@pytest.mark.skipif(browser() is None, reason="neither Chromium nor Chrome is installed")
+def test_a_browser_that_prints_is_named_with_its_version():
+    check = attempt(OPTIONAL[1])
+    assert check.ok
+    assert re.search(r"(Chrom|Edge)\D+\d+\.", check.detail)
 
 
 def test_a_crash_is_a_finding():

@@ -65,6 +65,7 @@ class Page(HTMLParser):
             self.scripts.append(data)
         if self.open_tags[-1:] in (["style"], ["script"]):
             return
+        data = data.replace("\u2060", "")  # only keeps a line from ending there
         self.text += data
         if self.open_tags[-1:] and self.open_tags[-1] in ("h1", "h2", "h3"):
             self.headings[-1] += data

@@ -1,0 +1,99 @@
+"""Values and sections that a reader takes from the fields are those of the run."""
+
+import re
+
+import numpy as np
+import pytest
+
+from comparisons.outcome import Outcome
+from comparisons.report.field_pictures import COMPONENTS
+
+WIDTH = 1280
+NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
+
+
+def figures(text: str) -> dict[str, float]:
+    """Place and values that a line of the page tells."""
+    names = ("x", "z", "half-plane", "finite elements", "difference")
+    found = {}
+    for name in names:
+        match = re.search(rf"{name}(?: =)? {NUMBER}", text.replace("\u00a0", " "))
+        found[name] = float(match[1].replace("−", "-"))
+    return found
+
+
+def field(outcome: Outcome, model: str, component: int, friction: float) -> np.ndarray:
+    stress = outcome.runs[model].finest.stress(friction).field
+    return COMPONENTS[component].of(stress) / outcome.problem.hertz.peak_pressure
+
+
+def expect(text: str, outcome: Outcome, component: int, friction: float) -> dict[str, float]:
+    """The told values are those of the told point; returns them."""
+    told, a = figures(text), outcome.problem.hertz.half_width
+    row = np.argmin(np.abs(outcome.window.z / a - told["z"]))
+    column = np.argmin(np.abs(outcome.window.x / a - told["x"]))
+    one, other = (
+        field(outcome, name, component, friction) for name in ("half_plane", "finite_element")
+    )
+    assert told["half-plane"] == pytest.approx(one[row, column], abs=1e-4)
+    assert told["finite elements"] == pytest.approx(other[row, column], abs=1e-4)
+    largest = np.max(np.abs(one - other))
+    between = one[row, column] - other[row, column]
+    assert told["difference"] == pytest.approx(between, rel=0.06, abs=1e-4 * largest)
+    return told
+
+
+def test_the_depth_that_is_chosen_is_the_one_that_is_told(tab, wavy_file, wavy_outcome: Outcome):
+    page = tab(wavy_file, WIDTH)
+    depths = set()
+    for component in (0, 1):
+        for friction, coefficient in enumerate(wavy_outcome.problem.scene.friction):
+            for row in (0, 3, 7):
+                text = page.value(
+                    f"""(() => {{
+                      const [component, friction] = document.querySelectorAll("#look select");
+                      const [depth, place] = document.querySelectorAll("#look input");
+                      [component.value, friction.value] = [{component}, {friction}];
+                      [depth.value, place.value] = [{row}, Math.round(place.max / 3)];
+                      depth.dispatchEvent(new Event("input"));
+                      return document.querySelector("#look [role=status]").textContent;
+                    }})()"""
+                )
+                depths.add(expect(text, wavy_outcome, component, coefficient)["z"])
+    assert len(depths) == 3
+    paths = page.value("[...document.querySelectorAll('#look path')].map((p) => p.outerHTML)")
+    assert len(paths) == 3  # both models, and their difference below
+    assert len(set(paths)) == 3
+    assert page.complaints() == []
+
+
+def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: Outcome):
+    page = tab(wavy_file, WIDTH)
+    frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width
+    count = page.value("document.querySelectorAll('[data-field]').length")
+    assert count == 6  # two components and the ground next to the surface, twice
+    for number in range(count):
+        drawn, frame = page.value(
+            f"""(() => {{
+              const picture = document.querySelectorAll("[data-field]")[{number}];
+              picture.scrollIntoView({{block: "center", behavior: "instant"}});
+              const {{left, top, width, height}} = picture.getBoundingClientRect();
+              return [JSON.parse(picture.dataset.field), [left, top, width, height]];
+            }})()"""
+        )
+        assert len(drawn["boxes"]) == 3
+        for left, top, width, height in drawn["boxes"]:
+            page.point(
+                frame[0] + frame[2] * (left + 0.3 * width),
+                frame[1] + frame[3] * (top + 0.5 * height),
+            )
+            text = page.value("document.querySelector('.tip').textContent")
+            assert page.value("!document.querySelector('.tip').hidden")
+            told = expect(text, wavy_outcome, drawn["component"], frictions[drawn["friction"]])
+            wanted = drawn["x"][0] + 0.3 * np.ptp(drawn["x"])
+            assert told["x"] == pytest.approx(wanted, abs=0.02 * np.ptp(wavy_outcome.window.x) / a)
+            wanted = drawn["z"][0] + 0.5 * np.ptp(drawn["z"])
+            rows = np.abs(wavy_outcome.window.z / a - wanted)
+            assert abs(told["z"] - wanted) <= 1.001 * rows.min() + 1e-4
+        page.point(frame[0] + 2.0, frame[1] + 2.0)
+        assert page.value("document.querySelector('.tip').hidden")
