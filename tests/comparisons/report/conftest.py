@@ -65,7 +65,8 @@ class Page(HTMLParser):
             self.scripts.append(data)
         if self.open_tags[-1:] in (["style"], ["script"]):
             return
-        data = data.replace("\u2060", "")  # only keeps a line from ending there
+        # what only keeps a line from ending there
+        data = data.replace("\u2060", "").replace("\u00a0", " ")
         self.text += data
         if self.open_tags[-1:] and self.open_tags[-1] in ("h1", "h2", "h3"):
             self.headings[-1] += data

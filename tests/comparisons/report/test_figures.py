@@ -18,7 +18,7 @@ UNITS |= {"nm": 1e-9, "%": 1e-2, "": 1.0}
 
 def number(text: str) -> float:
     """A figure with its unit as printed, in SI."""
-    text = text.replace("−", "-").replace("\u202f", "").replace("\u00a0", " ")
+    text = text.replace("−", "-").replace("\u202f", "")
     value, _, unit = text.partition(" ")
     return float(value) * UNITS[unit]
 
