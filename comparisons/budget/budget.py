@@ -79,7 +79,8 @@ def error_budget(
     peak = float(runs["half_plane"].finest.solution.pressure.max())
     choice = choose(problem, peak, couplings)
     if not plan.effects:
-        choice = choice.without(choice.added, "not asked for (budget.effects)")
+        asked = choice.added | set(choice.impossible)
+        choice = choice.without(asked, "not asked for (budget.effects)")
     bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener)
     unsplit = None
     while True:

@@ -37,8 +37,8 @@ class Choice:
 
     def without(self, names: frozenset[str], why: str) -> "Choice":
         """The same with some of the added effects given up for a reason."""
-        given_up = dict.fromkeys(sorted(names), why)
-        return replace(self, added=self.added - names, impossible=self.impossible | given_up)
+        impossible = self.impossible | dict.fromkeys(names, why)
+        return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
 
     def unshown(self, quantity: str) -> Sizes:
         """Estimates on a quantity of the effects that no model has, by name."""
