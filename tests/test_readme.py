@@ -187,7 +187,8 @@ def test_files_are_those_that_a_run_leaves(mine, folder):
     out = folder / mine.outcome.directory
     left = {str(path.relative_to(out)) for path in out.rglob("*") if path.is_file()}
     assert named == set(OWN_FILES)
-    assert named - left == {"run_in_profile.csv"}  # its row says when it is there
+    # their rows say when they are there
+    assert named - left == {"run_in_profile.csv", "report.pdf"}
 
 
 def test_columns_and_arrays_are_those_that_the_files_hold(mine, folder):
@@ -245,10 +246,26 @@ def shown_rows() -> list[tuple[str, list[str], list[str]]]:
 def test_shown_table_has_every_quantity_and_the_look_of_a_run(mine):
     shown = fenced("text")
     assert {name for name, _, _ in shown_rows()} == set(QUANTITIES)
-    head = shown.split("─")[0].split()
-    assert head == mine.printed.split("─")[0].split("\n\n", 1)[1].split()
-    assert "\nUNDECIDED  The half-plane cannot be judged here: both models agree, but " in shown
-    assert "finite rotation 1.8%, finite strain 1.6%" in " ".join(shown.split())
+    heads = [re.split("─+\n", text)[:2] for text in (shown, mine.printed)]
+    assert heads[0][0].split() == heads[1][0].split("\n\n", 1)[1].split()
+    assert heads[0][1].split("\n\n")[1].split() == heads[1][1].split("\n\n")[1].split()
+
+
+def test_shown_verdict_follows_from_the_second_table():
+    lines = re.split("─+\n", fenced("text"))[2].splitlines()
+    judged = [re.split(r"\s{2,}", line) for line in lines if re.match(r"\w.*\s\d", line)][:5]
+    outside = [
+        row
+        for row in judged
+        if abs(float(row[2])) - float(row[3]) > float(row[4])  # own error, uncertainty, tolerance
+    ]
+    assert len(judged) == 5
+    [[name, friction, own, uncertainty, tolerance, most]] = outside
+    said = " ".join(fenced("text").partition("FAILS")[2].split())
+    assert f"at friction {friction} is {own} %" in said
+    assert f"(tolerance {tolerance} %, uncertainty {uncertainty} %)" in said
+    assert f"most of it {most.rsplit(' ', 1)[0]}" in said
+    assert name == "tau1 max" and "largest principal shear stress tau1" in said
 
 
 def test_shown_half_plane_is_within_the_uncertainty_that_is_shown(unrun):
