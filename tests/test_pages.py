@@ -61,7 +61,7 @@ class TestVerdict:
         assert "between 1 and the formal one" in text and LOWEST_ORDER == 1
         assert "exceeds a tenth of a tolerance" in text and SHARE_OF_TOLERANCE == 0.1
         assert "less than a third of the tolerance" in text
-        assert SHARE_OF_EFFECTS == pytest.approx(1 / 3)
+        assert pytest.approx(1 / 3) == SHARE_OF_EFFECTS
 
     def test_verdicts_are_those_that_a_run_gives(self):
         assert [word.strip("`").lower() for word, _ in rows("verdict", "verdict")] == [

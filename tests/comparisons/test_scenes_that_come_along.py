@@ -49,7 +49,7 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
 
 
 def without_effects(name: str) -> ResolvedScene:
-    """A scene that comes along, whose budget is not computed: what both models say by themselves."""
+    """A scene that comes along, without its error budget: what both models say alone."""
     scene = load_scene(name)
     return replace(scene, budget=replace(scene.budget, effects=False))
 
