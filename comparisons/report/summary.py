@@ -10,20 +10,28 @@ from comparisons.outcome import Outcome
 from comparisons.quantities import QUANTITIES
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
-from comparisons.report.numbers import MINUS, given_percent, percent, scale_of, significant
+from comparisons.report.numbers import given_percent, percent, scale_of, significant
 from comparisons.report.sheet import GROUPS
 from comparisons.report.words import LABELS, label
 
 FIGURES = ("peak_pressure", "contact_length", "tau1_max")
-OWN = "half-plane's own error in the {}"
+# What a row may show, in the order of columns: name, head.
+COLUMNS = {
+    **{name: words.rpartition(", ")[2] for name, words in GROUPS.items()},
+    **{name: label(name) for name in FIGURES},
+    **{f"own_error_{name}": f"own error: {label(name)}" for name in QUANTITIES},
+    **{f"seconds_{name}": f"time, {words}" for name, words in LABELS.items()},
+    "seconds_budget": "time, error budget",
+}
 
 
 @dataclass(frozen=True)
 class Cell:
-    """Text, and the number [SI] that it is sorted by; None where there is none."""
+    """Text, the number [SI] that it is sorted by, and what else there is to say."""
 
     text: str
-    value: float | None
+    value: float
+    note: str = ""
 
 
 @dataclass(frozen=True)
@@ -32,7 +40,7 @@ class SummaryRow:
 
     report  its page
     kind    the verdict in a word or two, with its sentence
-    cells   by the head of their column; columns that no run has are not there
+    cells   of those of COLUMNS that the run has
     """
 
     title: str
@@ -56,14 +64,14 @@ def summary_row(outcome: Outcome) -> SummaryRow:
 
 def summary_page(rows: Sequence[SummaryRow], place: Path) -> str:
     """The page, to be written into the folder `place`, from which its links lead."""
-    heads = sorted({head for row in rows for head in row.cells}, key=_rank)
+    shown = {name for row in rows for name in row.cells}
     kinds = [row.kind for row in rows]
     counts = {kind: kinds.count(kind) for kind in sorted(set(kinds))}
     script, policy = inline("summary.js")
     return rendered(
         "summary.html.j2",
         rows=rows,
-        heads=heads,
+        columns={name: head for name, head in COLUMNS.items() if name in shown},
         counts=counts,
         links=[_link(row.report, place) for row in rows],
         script=script,
@@ -75,21 +83,10 @@ def _link(page: Path, place: Path) -> str:
     return quote(os.path.relpath(page.resolve(), place.resolve()))
 
 
-def _rank(head: str) -> int:
-    order = [
-        *GROUPS.values(),
-        *map(label, FIGURES),
-        *(OWN.format(label(name)) for name in QUANTITIES),
-        *(f"time, {name}" for name in LABELS.values()),
-        "time, error budget",
-    ]
-    return order.index(head)
-
-
 def _groups(outcome: Outcome) -> dict[str, Cell]:
     groups = outcome.result["groups"]
     return {
-        GROUPS[name]: Cell(significant(groups[name], 3), groups[name])
+        name: Cell(significant(groups[name], 3), groups[name])
         for name in GROUPS
         if groups[name] is not None
     }
@@ -105,7 +102,7 @@ def _figures(outcome: Outcome) -> dict[str, Cell]:
         if values:
             largest = max(values)
             unit = QUANTITIES[name].unit
-            found[label(name)] = Cell(scale_of([largest], unit).text(largest), largest)
+            found[name] = Cell(scale_of([largest], unit).text(largest), largest)
     return found
 
 
@@ -122,16 +119,18 @@ def _own(outcome: Outcome) -> dict[str, Cell]:
         size = percent(
             worst.value, signed=not QUANTITIES[name].of_pair, uncertainty=worst.uncertainty
         )
-        text = f"{size} ± {percent(worst.uncertainty)} of {given_percent(tolerance)}"
-        found[OWN.format(label(name))] = Cell(text.replace("-", MINUS), abs(worst.value))
+        doubt = percent(worst.uncertainty)
+        found[f"own_error_{name}"] = Cell(
+            f"{size} ± {doubt}", abs(worst.value), f"tolerance {given_percent(tolerance)}"
+        )
     return found
 
 
 def _times(outcome: Outcome) -> dict[str, Cell]:
-    seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
+    seconds = {name: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     if outcome.budget is not None and outcome.budget.seconds:
-        seconds["error budget"] = outcome.budget.seconds
+        seconds["budget"] = outcome.budget.seconds
     return {
-        f"time, {name}": Cell(scale_of([time], "s").text(time, 3), time)
+        f"seconds_{name}": Cell(scale_of([time], "s").text(time, 3), time)
         for name, time in seconds.items()
     }

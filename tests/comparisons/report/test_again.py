@@ -155,4 +155,4 @@ def test_json_tells_what_was_made_and_without_a_browser_why_there_is_no_pdf(
     assert run["verdict"] in ("holds", "fails", "undecided")
     result = json.loads((copied / "result.json").read_text())
     peak = result["models"]["finite_element"][0]["contact"]["peak_pressure"]
-    assert run["figures"]["peak pressure"] == peak
+    assert run["figures"]["peak_pressure"] == peak
