@@ -497,7 +497,7 @@ class TestTolerance:
     def test_the_command_hands_it_on(self, monkeypatch, tmp_path):
         given = []
 
-        def stand_in(scene, out, models, progress):
+        def stand_in(scene, out, models, *rest):
             given.append(scene.tolerance)
             return types.SimpleNamespace(result={}, exit_status=0)
 
