@@ -31,9 +31,19 @@ from comparisons.commands import (
 )
 from comparisons.errors import InputError, SolverError, one_line
 from comparisons.exit_status import ExitStatus
-from comparisons.rank import as_one
+from comparisons.rank import as_one, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
+COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
+# What works in a child, which Ctrl-C ends, and what there is to be said when that had to be forced.
+# A map and a cost study have processes of their own, and end them.
+WATCHED = {
+    "run": "finished levels are kept, the same command goes on from there",
+    "rerun": "nothing was changed, the same command starts again",
+    "stability": "nothing was written, the same command starts again",
+    "verify": "nothing was written, the same command starts again",
+    "paper": "nothing was written, the same command starts again",
+}
 FINISHED = (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE, ExitStatus.NOT_CONVERGED)
 
 app = typer.Typer(
@@ -41,7 +51,6 @@ app = typer.Typer(
     help="Checks the half-plane method for rough line contact against finite elements.",
     epilog="Exit status: 0 done; 1 done, and a quantity is outside its tolerance; "
     "2 wrong input; 3 a solver did not converge.",
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -70,7 +79,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers, not to this reader
+    if COMPLETION in os.environ:
+        return app(prog_name="crosscheck")  # answers the shell, and exits
+    is_own = arguments is None  # nobody else's work goes on in this process
     arguments = list(sys.argv[1:] if arguments is None else arguments)
+    if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
+        from comparisons.watch import watched
+
+        return watched(lambda: _carry_out(arguments), f"interrupted; {WATCHED[arguments[0]]}")
     return as_one(lambda: _carry_out(arguments), FINISHED)
 
 
@@ -82,7 +98,10 @@ def _carry_out(arguments: list[str]) -> int:
         return int(status)
     except KeyboardInterrupt as stop:
         return _end(ExitStatus.INTERRUPTED, "; ".join(["interrupted", *map(str, stop.args)]))
-    except (BrokenPipeError, SystemExit):
+    except (BrokenPipeError, SystemExit) as end:
+        if isinstance(end, SystemExit) and not end.code:  # the shell's completion is installed
+            sys.stdout.flush()
+            return int(ExitStatus.DONE)
         # nobody reads on: typer and rich make of it an exit with 1, which has another meaning here
         _drop_output()
         return int(ExitStatus.BROKEN_PIPE)

@@ -15,7 +15,7 @@ from comparisons.cost_process import Call, ProcessEnded, fresh_process
 from comparisons.cost_store import CostStore
 from comparisons.problem import Problem
 from comparisons.report.numbers import with_unit
-from comparisons.stages import Listener
+from comparisons.stages import Listener, Step, within
 
 # Of a setting's time over the one before.
 GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
@@ -82,7 +82,8 @@ def measured_study(
     """Measure what `store` lacks, and keep it there; in a fresh process for each method, whose
     memory is its own, on one thread."""
     spent, rows, halved = 0.0, [], {}
-    for share, method in zip(SHARES[-len(methods) :], methods, strict=True):
+    shares = SHARES[-len(methods) :]
+    for number, (share, method) in enumerate(zip(shares, methods, strict=True)):
         because = why_not(method, problem)
         if because is not None:
             rows.append(Row(method, None, SKIPPED, because))
@@ -90,7 +91,8 @@ def measured_study(
         left = share * problem.scene.budget.time - spent
         with fresh_process() as call:
             ask = _asked(store, call)
-            found = _series(method, problem, repeats, left, ask, listener)
+            part = within(listener, number / len(methods), (number + 1) / len(methods))
+            found = _series(method, problem, repeats, left, ask, part)
             if _wants_halved(method, problem) and found[0].status == OK:
                 task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
                 again = ask(task)
@@ -115,7 +117,8 @@ def _series(
     expected = 0.0
     for number, setting in enumerate(settings, start=1):
         label = Row(method, setting, OK).label
-        listener(f"{method.name}: {label} ({number} of {len(settings)})")
+        name = f"{method.name}: {label} ({number} of {len(settings)})"
+        listener(Step(name, (number - 1) / len(settings)))
         count = 0 if method.adapted else problem.grid(setting).count
         if lost is not None:
             rows.append(Row(method, setting, SKIPPED, lost))

@@ -1,6 +1,8 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
+import math
 from itertools import count
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 from comparisons.checkpoint import Checkpoint
@@ -9,13 +11,14 @@ from comparisons.level import Level, ModelRun, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.rank import from_first
-from comparisons.stages import Listener, Stages, machine_memory, silent
+from comparisons.stages import Listener, Stages, Step, machine_memory, silent
 
 if TYPE_CHECKING:
     from comparisons.finite_element_bodies import BodyStore
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 GROWTH_OF_TIME = 3.5  # of a level over the one before, at most
+USUAL_GROWTH = 2.2  # the same, as it mostly is: for what is told, not for what is decided
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 HALVED = "finite_element-halved"
 
@@ -60,17 +63,25 @@ def refined(
             checkpoint.save(kept, level)
         return level
 
+    begin = perf_counter()
+
+    def tell(number: int) -> Listener:
+        """A listener for a level."""
+        spent = perf_counter() - begin
+        behind = spent / (spent + _expected(levels, len(problem.pitches)))
+        return _numbered(listener, number, behind)
+
     open_questions: dict[str, float] = {}
     if "half_plane" in levels:  # first, while nothing else is in memory
         for number, pitch in enumerate(problem.pitches, start=1):
             levels["half_plane"].append(
-                solved("half_plane", f"half_plane-{number}", pitch, listener)
+                solved("half_plane", f"half_plane-{number}", pitch, tell(number))
             )
     for number in count(1):
         pitch = problem.pitches[0] / 2.0 ** (number - 1)
         for name, done in levels.items():
             if len(done) < number:
-                done.append(solved(name, f"{name}-{number}", pitch, listener))
+                done.append(solved(name, f"{name}-{number}", pitch, tell(number)))
         if number == 1 and plan.domain_check:
             listener("finite elements: far boundary at half the distance")
             halved = solved("finite_element", HALVED, pitch, silent, halved=True)
@@ -90,6 +101,26 @@ def refined(
         if why is not None:
             names = ", ".join(open_questions) or "judged quantities"
             return runs, f"{names} not resolved to a third of the tolerance: {why}"
+
+
+def _expected(levels: dict[str, list[Level]], planned: int) -> float:
+    """Seconds that the levels which are still to come may take; infinite before the first."""
+    done = list(levels.values())[-1]  # the finite elements', which take the longest
+    if not done:
+        return math.inf
+    last = sum(done[-1].seconds.values())
+    return sum(last * USUAL_GROWTH**k for k in range(1, max(planned - len(done), 1) + 1))
+
+
+def _numbered(listener: Listener, number: int, behind: float) -> Listener:
+    """Adds to stages the number of their level, and to the first how much lies behind."""
+    names = count()
+
+    def told(stage: str) -> None:
+        words = f"{stage}, level {number}"
+        listener(words if next(names) else Step(words, behind))
+
+    return told
 
 
 def unresolved(

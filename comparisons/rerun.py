@@ -5,7 +5,7 @@ import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from comparisons.errors import InputError
@@ -45,6 +45,19 @@ class Repetition:
         if not self.outcome.converged:
             return ExitStatus.NOT_CONVERGED
         return ExitStatus.OUTSIDE_TOLERANCE if self.movement.beyond else ExitStatus.DONE
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        return {
+            "schema": 1,
+            "scene": self.record.scene.name,
+            "converged": self.outcome.converged,
+            **asdict(self.movement),
+            "beyond": len(self.movement.beyond),
+            "levels": list(self.levels),
+            "other": {name: list(pair) for name, pair in self.other.items()},
+            "bits": self.bits,
+        }
 
 
 def rerun(folder: Path, out: Path | None = None, listener: Listener = silent) -> Repetition:

@@ -18,12 +18,14 @@ from comparisons.record import digest, record_of
 from comparisons.result import result_of
 from comparisons.running_in import run_in_scene
 from comparisons.scene import ResolvedScene
-from comparisons.stages import Listener, Stages, silent
+from comparisons.stages import Listener, Stages, silent, within
 from comparisons.window import window_of
 from comparisons.write import write_files
 from fem.mumps import FemError
 from meshes.errors import MeshError
 
+# Of a run's time, that its levels take: for what is told alone.
+ALONE, WITH_EFFECTS, SOLVED = 0.75, 0.4, 0.85
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
@@ -102,8 +104,9 @@ def solve(
     """Carry out a plan; `run` with a plan of one's own."""
     window = window_of(problem) if plan.stress else None
     checkpoint = Checkpoint(out, problem.scene, plan)
+    share = WITH_EFFECTS if plan.compares and plan.effects else ALONE
     try:
-        runs, stop = refined(problem, plan, window, checkpoint, listener)
+        runs, stop = refined(problem, plan, window, checkpoint, within(listener, 0.0, share))
         moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
         rows = compared(problem, runs, window) if plan.compares else ()
         budget = None
@@ -136,6 +139,6 @@ def solve(
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
     )
     if out is not None:
-        write_files(outcome, listener, fields)
+        write_files(outcome, within(listener, SOLVED, 1.0), fields)
     checkpoint.discard()
     return outcome

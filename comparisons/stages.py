@@ -36,6 +36,28 @@ def silent(stage: str) -> None:
     """A listener that says nothing."""
 
 
+class Step(str):
+    """The name of a stage, with the share of its task, 0 to 1, that lies behind as it begins."""
+
+    behind: float
+
+    def __new__(cls, name: str, behind: float) -> "Step":
+        step = super().__new__(cls, name)
+        step.behind = min(max(behind, 0.0), 1.0)
+        return step
+
+
+def within(listener: Listener, start: float, stop: float) -> Listener:
+    """What to hand to a part of a task, which takes it from the share `start` to `stop`."""
+
+    def told(stage: str) -> None:
+        if isinstance(stage, Step):
+            stage = Step(stage, start + (stop - start) * stage.behind)
+        listener(stage)
+
+    return told
+
+
 @dataclass
 class Stages:
     """Collects seconds by stage; `listener` is told the name of each stage as it begins."""

@@ -13,7 +13,7 @@ from comparisons.errors import InputError
 from comparisons.files import check_writable, published
 from comparisons.rank import is_several
 from comparisons.record import as_json
-from comparisons.stages import Listener, Stages, silent
+from comparisons.stages import Listener, Stages, Step, silent
 from comparisons.verify_checks import Check
 from comparisons.verify_junit import junit
 from comparisons.verify_operators import OperatorCase, operator_cases, operator_pairs
@@ -25,6 +25,7 @@ from comparisons.verify_table import verify_page
 from meshes.errors import MeshError
 
 DEGREES = (1, 2, 3)
+SCENES_SHARE = 0.9  # of the time, for what is told
 OWN_FILES = ("verify.json", "verify.html")
 
 
@@ -70,7 +71,7 @@ def verify(
     results, failed = _scenes(scope.scenes, stages)
     pairs = [pair for _, found in results for pair in found.pairs]
     checks = [*figure_orders(pairs), *pressure_orders(results)]
-    with stages.stage("operators", "exact contacts on the library's operators"):
+    with stages.stage("operators", Step("exact contacts on the library's operators", SCENES_SHARE)):
         pairs += operator_pairs(scope.operators)
     checks += _finite_elements(scope, stages)
     found = Verification(
@@ -92,12 +93,16 @@ def _scenes(
     found, failed = [], []
     asked = [(model, scene) for scene in scenes for model in scene.models]
     for number, (model, scene) in enumerate(asked, start=1):
-        with stages.stage(model, f"{number} of {len(asked)}: {model}, {scene.name}"):
+        with stages.stage(model, _scene_step(number, len(asked), f"{model}, {scene.name}")):
             try:
                 found.append((model, solved(scene, model)))
             except (ArithmeticError, InputError, MeshError, RuntimeError) as error:
                 failed.append(Failure(scene.name, model, str(error)))
     return found, failed
+
+
+def _scene_step(number: int, count: int, name: str) -> Step:
+    return Step(f"{number} of {count}: {name}", SCENES_SHARE * (number - 1) / count)
 
 
 def _finite_elements(scope: Scope, stages: Stages) -> list[Check]:

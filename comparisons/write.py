@@ -13,7 +13,7 @@ from comparisons.problem import Problem
 from comparisons.rank import is_first
 from comparisons.record import as_json
 from comparisons.scene import ResolvedScene
-from comparisons.stages import Listener
+from comparisons.stages import Listener, Step
 from meshes.block import BlockMesh
 
 
@@ -24,7 +24,7 @@ def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -
     """
     if not is_first():
         return
-    listener("writing results")
+    listener(Step("writing results", 0.0))
     with published(outcome.directory) as folder:
         for name, run in outcome.runs.items():
             (folder / name).mkdir()

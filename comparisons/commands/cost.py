@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, Scene
-from comparisons.commands.output import progress, show
+from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
+from comparisons.commands.output import progress, show, show_file
 from comparisons.exit_status import ExitStatus
 
 
@@ -18,12 +18,13 @@ def cost(
         typer.Option(help="Folder for the results.", show_default="results/<name>-cost"),
     ] = None,
     repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
+    as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> Job:
     """Measure error against time of every method; name the cheapest for each tolerance."""
-    return partial(_cost, scene, out, repeats)
+    return partial(_cost, scene, out, repeats, as_json)
 
 
-def _cost(scene: str, out: Path | None, repeats: int) -> int:
+def _cost(scene: str, out: Path | None, repeats: int, as_json: bool) -> int:
     from comparisons.cost import cost as measured_cost
     from comparisons.cost_table import cost_summary
     from comparisons.resolve import load_scene
@@ -32,6 +33,9 @@ def _cost(scene: str, out: Path | None, repeats: int) -> int:
     directory = out or RESULTS / f"{resolved.name}-cost"
     with progress() as listener:
         found = measured_cost(resolved, directory, repeats, listener)
+    if as_json:
+        show_file(directory / "cost.json")
+        return ExitStatus.DONE
     show(cost_summary(found))
     print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
     return ExitStatus.DONE

@@ -1,19 +1,26 @@
 """`crosscheck doctor`: what works here, by trying it."""
 
-from comparisons.commands.arguments import Job
-from comparisons.commands.output import show
+from dataclasses import asdict
+from functools import partial
+from typing import Annotated
+
+from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.output import show, show_json
 from comparisons.exit_status import ExitStatus
 
 
-def doctor() -> Job:
+def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> Job:
     """Show what is installed, what is missing, and how to get it."""
-    return _doctor
+    return partial(_doctor, as_json)
 
 
-def _doctor() -> int:
+def _doctor(as_json: bool) -> int:
     from comparisons.doctor import doctor as examined
     from comparisons.doctor import doctor_table
 
     checks = examined()
-    show(doctor_table(checks))
+    if as_json:
+        show_json([asdict(check) for check in checks])
+    else:
+        show(doctor_table(checks))
     return ExitStatus.DONE if all(c.ok for c in checks) else ExitStatus.SOMETHING_MISSING

@@ -6,22 +6,30 @@ from typing import Annotated
 
 import typer
 
+from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, json_option
 from comparisons.commands.output import progress, show, show_json
 from comparisons.exit_status import ExitStatus
 from comparisons.rank import from_first
 
+Axis = typer.Option(
+    help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=completion.groups
+)
+
 
 def map_of(
-    scene: Annotated[str, typer.Argument(help="As for `run`, or the name of a finished map.")],
+    scene: Annotated[
+        str,
+        typer.Argument(
+            help="As for `run`, or the name of a finished map.", autocompletion=completion.maps
+        ),
+    ],
     points: Annotated[str, typer.Option(help="Values along x and y, as NxM.")] = "8x8",
-    x: Annotated[
-        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
-    ] = None,
-    y: Annotated[
-        str | None, typer.Option(help="GROUP or GROUP=FROM:TO.", show_default="by the scene")
-    ] = None,
-    quantity: Annotated[str, typer.Option(help="The quantity to show.")] = "peak_pressure",
+    x: Annotated[str | None, Axis] = None,
+    y: Annotated[str | None, Axis] = None,
+    quantity: Annotated[
+        str, typer.Option(help="The quantity to show.", autocompletion=completion.quantities)
+    ] = "peak_pressure",
     workers: Annotated[
         str | None,
         typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),

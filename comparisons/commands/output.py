@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from comparisons.errors import one_line
 from comparisons.rank import is_several
@@ -14,15 +15,14 @@ UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 
 @contextmanager
 def progress() -> Iterator[Listener]:
-    """A listener that shows the stage at work, if anybody watches standard error."""
+    """A listener that shows the stage at work and the time left, if anybody watches."""
     if not sys.stderr.isatty():
         yield silent
         return
-    from rich.console import Console
-    from rich.text import Text
+    from comparisons.progress_bar import progress_bar
 
-    with Console(stderr=True).status("") as status:
-        yield lambda stage: status.update(Text(stage))
+    with progress_bar() as listener:
+        yield listener
 
 
 def is_watched() -> bool:
@@ -44,6 +44,11 @@ def show(renderable: object) -> None:
 def say(sentence: str) -> None:
     """Tell on standard error what concerns the user but is no failure of the command."""
     print(f"crosscheck: {one_line(sentence)}", file=sys.stderr)
+
+
+def show_file(path: Path) -> None:
+    """Print a file of the results: what `--json` asks for where it has just been written."""
+    print(path.read_text(encoding="utf-8"), end="")
 
 
 def show_json(content: object) -> None:

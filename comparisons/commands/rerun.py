@@ -6,23 +6,27 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import Job
-from comparisons.commands.output import progress, show
+from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.output import progress, show, show_json
 
 
 def rerun(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that a run has left.")],
     out: Annotated[Path | None, typer.Option(help="Folder that keeps the repetition.")] = None,
+    as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
 ) -> Job:
     """Repeat a recorded run from its own record; report every figure that moved."""
-    return partial(_rerun, folder, out)
+    return partial(_rerun, folder, out, as_json)
 
 
-def _rerun(folder: Path, out: Path | None) -> int:
+def _rerun(folder: Path, out: Path | None, as_json: bool) -> int:
     from comparisons.rerun import rerun as repeat
     from comparisons.rerun_table import rerun_summary
 
     with progress() as listener:
         repetition = repeat(folder, out, listener)
-    show(rerun_summary(repetition))
+    if as_json:
+        show_json(repetition.as_dict())
+    else:
+        show(rerun_summary(repetition))
     return repetition.exit_status

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, say, show, show_json
 from comparisons.errors import InputError
@@ -23,7 +24,10 @@ def run(
         Path | None, typer.Option(help="Folder for the results.", show_default="results/<name>")
     ] = None,
     models: Annotated[
-        str, typer.Option(help="Models to solve with, separated by commas.")
+        str,
+        typer.Option(
+            help="Models to solve with, separated by commas.", autocompletion=completion.models
+        ),
     ] = ",".join(MODELS),
     tolerance: Annotated[
         float | None,

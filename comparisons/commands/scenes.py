@@ -1,18 +1,25 @@
 """`crosscheck scenes`: what comes along."""
 
-from comparisons.commands.arguments import Job
+from functools import partial
+from typing import Annotated
+
+from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.output import show_json
 from comparisons.exit_status import ExitStatus
 
 
-def scenes() -> Job:
+def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> Job:
     """List the scenes that come with crosscheck."""
-    return _scenes
+    return partial(_scenes, as_json)
 
 
-def _scenes() -> int:
+def _scenes(as_json: bool) -> int:
     from comparisons.scene_file import scene_titles
 
     titles = scene_titles()
+    if as_json:
+        show_json(titles)
+        return ExitStatus.DONE
     width = max(map(len, titles))
     for name, title in titles.items():
         print(f"{name:{width}}  {title}")

@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job
-from comparisons.commands.output import progress, show
+from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.output import progress, show, show_file
 
 
 def verify(
@@ -15,16 +15,21 @@ def verify(
         Path | None, typer.Option(help="Folder for the figures.", show_default="results/verify")
     ] = None,
     junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
+    as_json: Annotated[bool, json_option("verify.json")] = False,
 ) -> Job:
     """Hold both models to exact solutions, and stated uncertainties to true errors."""
-    return partial(_verify, out, junit)
+    return partial(_verify, out, junit, as_json)
 
 
-def _verify(out: Path | None, report: Path | None) -> int:
+def _verify(out: Path | None, report: Path | None, as_json: bool) -> int:
     from comparisons.verify import verify as verify_all
     from comparisons.verify_table import verify_summary
 
+    directory = out or RESULTS / "verify"
     with progress() as listener:
-        found = verify_all(out or RESULTS / "verify", report, listener)
-    show(verify_summary(found))
+        found = verify_all(directory, report, listener)
+    if as_json:
+        show_file(directory / "verify.json")
+    else:
+        show(verify_summary(found))
     return found.exit_status

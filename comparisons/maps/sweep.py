@@ -13,7 +13,7 @@ from contextlib import AbstractContextManager
 from comparisons.maps.point import failed, solve_point
 from comparisons.maps.request import Asked
 from comparisons.maps.store import PointStore
-from comparisons.stages import Listener, silent
+from comparisons.stages import Listener, Step, silent
 
 Open = Callable[[int], AbstractContextManager[Executor]]
 DIED = "the process that solved it died"
@@ -38,13 +38,17 @@ def sweep(
         nonlocal done
         store.save(point.key, answer)
         done += 1
-        listener(f"map: {done} of {len(wanted)} points")
+        listener(_step(done, len(wanted)))
 
-    listener(f"map: {done} of {len(wanted)} points")
+    listener(_step(done, len(wanted)))
     while left:
         for suspect in _until_broken(left, keep, open_executor, workers):
             if _until_broken(deque([suspect]), keep, open_executor, 1):
                 keep(suspect, {"found": failed(DIED), "seconds": None})
+
+
+def _step(done: int, wanted: int) -> Step:
+    return Step(f"map: {done} of {wanted} points", done / wanted)
 
 
 def _until_broken(

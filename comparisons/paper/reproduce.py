@@ -18,9 +18,10 @@ from comparisons.paper.subsurf_mesh import subsurf_files
 from comparisons.paper.surfaces import SURFACES
 from comparisons.rank import is_several
 from comparisons.record import as_json, versions
-from comparisons.stages import Listener, silent
+from comparisons.stages import Listener, Step, silent, within
 
 SCHEMA = 1
+SOLVING = 0.8  # of the time, for what is told
 PAGE, NUMBERS, STRESSES = "paper.html", "paper.json", "subsurf"
 SOURCE = "Bailey and Sayles 1991"
 
@@ -87,8 +88,8 @@ def paper(out: Path, fineness: Fineness | None = None, listener: Listener = sile
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out)
     start = perf_counter()
-    outcomes = solve_surfaces(out, fineness, listener)
-    listener("measuring the claims")
+    outcomes = solve_surfaces(out, fineness, within(listener, 0.0, SOLVING))
+    listener(Step("measuring the claims", SOLVING))
     judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims())
     found = Paper(outcomes, judged, perf_counter() - start, out)
     page = paper_page(found, sections_of(outcomes, judged, listener))

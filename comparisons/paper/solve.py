@@ -18,7 +18,7 @@ from comparisons.record import record_of
 from comparisons.resolve import load_scene
 from comparisons.result import result_of
 from comparisons.scene import ResolvedScene
-from comparisons.stages import Listener, silent
+from comparisons.stages import Listener, Step, silent, within
 from comparisons.window import window_of
 from fem.mumps import FemError
 from meshes.errors import MeshError
@@ -47,8 +47,11 @@ def solve_surfaces(
     for number, name in enumerate(SCENES, start=1):
         scene = _set_up(load_scene(name), fineness or Fineness())
 
-        def told(stage: str, number: int = number, name: str = name) -> None:
-            listener(f"{number} of {len(SCENES)}, {name}: {stage}")
+        part = within(listener, (number - 1) / len(SCENES), number / len(SCENES))
+
+        def told(stage: str, number: int = number, name: str = name, part: Listener = part) -> None:
+            words = f"{number} of {len(SCENES)}, {name}: {stage}"
+            part(Step(words, stage.behind) if isinstance(stage, Step) else words)
 
         try:
             found[name] = _solved(scene, out, told)

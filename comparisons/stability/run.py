@@ -13,7 +13,7 @@ from comparisons.exit_status import ExitStatus
 from comparisons.files import check_writable
 from comparisons.rank import is_first
 from comparisons.stability.row import Case, Row, carried_out
-from comparisons.stages import Listener, silent
+from comparisons.stages import Listener, Step, silent
 
 SCHEMA = 1
 FILE = "stability.json"
@@ -77,7 +77,8 @@ def run_stability(
     for number, case in enumerate(chosen, start=1):
         failed = sum(not row.passed for row in rows)
         said = f", {failed} failed" if failed else ""
-        listener(f"{number} of {len(chosen)}{said}: {case.model}: {case.group}: {case.name}")
+        name = f"{number} of {len(chosen)}{said}: {case.model}: {case.group}: {case.name}"
+        listener(Step(name, (number - 1) / len(chosen)))
         rows.append(carried_out(case))
     result = Stability(tuple(rows), perf_counter() - start, out)
     if is_first():
