@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from petsc4py.PETSc import Object
+    from petsc4py.PETSc import KSP, Mat, Object
 
 # Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
 # 20). Graded meshes of high contrast overflow the default; each failure is answered by doubling.
@@ -98,7 +98,7 @@ class SymmetricFactor:
         return solution
 
 
-def factorised(matrix, symmetric: bool = True):
+def factorised(matrix: "Mat", symmetric: bool = True) -> "tuple[KSP, Mat]":
     """KSP that owns MUMPS' factor of a PETSc matrix, and the factor: LDL^T, or LU without symmetry.
 
     Raises FemError if MUMPS cannot factor it.
@@ -117,13 +117,13 @@ def factorised(matrix, symmetric: bool = True):
         spare *= 2
 
 
-def let_go(factor, ksp) -> None:
+def let_go(factor: "Mat", ksp: "KSP") -> None:
     """PETSc keeps what Python lets go of, from 3.18 on, until it is told."""
     for used in (factor, ksp.getPC(), ksp):
         used.destroy()
 
 
-def _attempt(matrix, symmetric: bool, spare: int):
+def _attempt(matrix: "Mat", symmetric: bool, spare: int) -> "tuple[KSP, Mat, int]":
     """KSP, factor, and MUMPS' INFOG(1), negative where it failed."""
     from petsc4py import PETSc
 
