@@ -8,6 +8,7 @@ import typer
 
 from comparisons.commands.arguments import RESULTS, Job, json_option
 from comparisons.commands.output import progress, say, show, show_json
+from comparisons.rank import from_first
 
 
 def report(
@@ -34,7 +35,7 @@ def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool)
     from comparisons.report.again import draw_again, reports_content, reports_table
 
     with progress() as listener:
-        reports = draw_again(folders, summary, pdf, listener)
+        reports = from_first(lambda: draw_again(folders, summary, pdf, listener))
     if as_json:
         show_json(reports_content(reports, summary))
     else:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from comparisons.errors import InputError
 from comparisons.files import check_writable, write_whole
 from comparisons.pdf import NoPdfError, print_report
 from comparisons.report.page import render
@@ -38,12 +39,14 @@ def draw_again(
     All folders are read before anything is written. Raises InputError for one that holds no run,
     or whose place cannot be written.
     """
-    for place in (*folders, *([] if summary is None else [summary.parent])):
-        if place.is_dir() or place not in folders:
-            check_writable(place)
     for folder in folders:
         listener(f"{folder}: reading")
         read_outcome(folder, with_mesh=False)
+        check_writable(folder)
+    if summary is not None:
+        check_writable(summary.parent)
+        if summary.is_dir():
+            raise InputError(f"--summary: {summary} is a folder; allowed is a file")
     reports = []
     for folder in folders:
         listener(f"{folder}: drawing the report")

@@ -121,7 +121,7 @@ def _own(outcome: Outcome) -> dict[str, Cell]:
         )
         doubt = percent(worst.uncertainty)
         found[f"own_error_{name}"] = Cell(
-            f"{size} ± {doubt}", abs(worst.value), f"tolerance {given_percent(tolerance)}"
+            size, abs(worst.value), f"± {doubt}, tolerance {given_percent(tolerance)}"
         )
     return found
 

@@ -133,6 +133,8 @@ def test_one_wrong_folder_of_two_leaves_the_other_as_it_was(copied, tmp_path, ca
     given = [str(copied), str(tmp_path / "none"), "--summary", str(summary)]
     assert main(["report", *given]) == 2
     assert "none: is no folder" in capsys.readouterr().err
+    assert main(["report", str(copied), "--summary", str(tmp_path)]) == 2
+    assert f"--summary: {tmp_path} is a folder; allowed is a file" in capsys.readouterr().err
     assert (copied / "report.html").read_text() == "before"
     assert not summary.exists()
 
