@@ -113,7 +113,7 @@ def solve(
         if plan.compares:
             budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, listener)
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(*([] if out is None else [GOES_ON])) from None
+        raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         checkpoint.discard()
         raise
@@ -138,7 +138,15 @@ def solve(
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
     )
-    if out is not None:
-        write_files(outcome, within(listener, SOLVED, 1.0), fields)
+    try:
+        if out is not None:
+            write_files(outcome, within(listener, SOLVED, 1.0), fields)
+    except KeyboardInterrupt:
+        raise _interrupted(out) from None
     checkpoint.discard()
     return outcome
+
+
+def _interrupted(out: Path | None) -> KeyboardInterrupt:
+    """With how to go on, if anything is kept."""
+    return KeyboardInterrupt(*([] if out is None else [GOES_ON]))

@@ -30,18 +30,24 @@ def watched(work: Callable[[], int], last_words: str) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # until it is heard right
+    heard, said = os.pipe()
+    os.set_blocking(heard, False)
     child = os.fork()
     if child == 0:
         _end_with_parent()
         signal.signal(signal.SIGINT, _interrupt_once)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        return work()
+        status = work()
+        os.write(said, b"*")
+        return status
     ended = _hand_signals_on(child)
     signal.pthread_sigmask(signal.SIG_SETMASK, mask)
     status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     signal.setitimer(signal.ITIMER_REAL, 0.0)
-    if ended:
-        sys.stderr.write(f"{SHOW_CURSOR if sys.stderr.isatty() else ''}crosscheck: {last_words}\n")
+    if ended and status == -signal.SIGKILL:
+        if _is_silent(heard):
+            cursor = SHOW_CURSOR if sys.stderr.isatty() else ""
+            sys.stderr.write(f"{cursor}crosscheck: {last_words}\n")
         return int(ExitStatus.INTERRUPTED)
     if status < 0:  # what ended the child ends its parent: shells tell a crash by that
         signal.signal(-status, signal.SIG_DFL)
@@ -67,6 +73,14 @@ def _hand_signals_on(child: int) -> list[int]:
     for each in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, lambda number, frame: os.kill(child, number))
     return ended
+
+
+def _is_silent(heard: int) -> bool:
+    """Whether the child has not come to its own last words: it may take long to leave then."""
+    try:
+        return not os.read(heard, 1)
+    except BlockingIOError:
+        return True
 
 
 def _interrupt_once(number: int, frame: FrameType | None) -> None:

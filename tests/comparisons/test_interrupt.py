@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from comparisons.cli import main
 from comparisons.exit_status import ExitStatus
 
 ROOT = Path(__file__).parents[2]
@@ -141,6 +142,19 @@ def test_in_the_middle_of_meshing(folder):
     assert err.startswith("crosscheck: interrupted; finished levels are kept")
     assert err.count("\n") == 1
     assert not is_running((folder / "pid").read_text())
+
+
+def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
+    def interrupted(outcome: object) -> str:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("comparisons.report.page.render", interrupted)
+    assert main(["run", "scene.toml", "--models", "half-plane", "--out", "out"]) == 130
+    assert capsys.readouterr().err == (
+        "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
+    )
+    assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
 
 
 def test_a_crash_stays_a_crash(folder):
