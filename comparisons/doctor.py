@@ -81,13 +81,18 @@ def attempt(trial: Trial, patience: float = PATIENCE) -> Check:
 
 def doctor_table(checks: Sequence[Check]) -> "Table":
     """The checks for people to read: a row an item."""
+    from rich import box
     from rich.table import Table
     from rich.text import Text
 
-    table = Table("item", "works", "version, or what is wrong", "how to get it")
+    ill = any(check.remedy for check in checks)  # else the column would only take room
+    table = Table("item", "works", box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
+    for name in ("version, or what is wrong", *["how to get it"] * ill):
+        table.add_column(name, overflow="fold")
     for check in checks:
         works = Text("yes", style="green") if check.ok else Text("no", style="bold red")
-        table.add_row(check.name, works, Text(check.detail), Text(check.remedy))
+        remedy = [Text(check.remedy)] * ill
+        table.add_row(check.name, works, Text(check.detail), *remedy)
     return table
 
 
