@@ -67,6 +67,37 @@ def test_the_depth_that_is_chosen_is_the_one_that_is_told(tab, wavy_file, wavy_o
     assert page.complaints() == []
 
 
+def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
+    page = tab(wavy_file, WIDTH)
+    # of every box a colour just inside its upper right corner, and one above it beside the title
+    colours = page.value(
+        """(async () => {
+          const found = [];
+          for (const picture of document.querySelectorAll("[data-field]")) {
+            const drawn = JSON.parse(picture.dataset.field);
+            if (drawn.component !== 0) continue; // whose colours are never white
+            await picture.decode();
+            const canvas = document.createElement("canvas");
+            [canvas.width, canvas.height] = [800, 800];
+            const context = canvas.getContext("2d");
+            context.drawImage(picture, 0, 0, 800, 800);
+            const at = (x, y) => [...context.getImageData(800 * x, 800 * y, 1, 1).data];
+            for (const [x, y, w, h] of drawn.boxes)
+              found.push([at(x + w - 0.004, y + 0.004), at(x + w - 0.004, y - 0.008),
+                at(x + 0.004, y + h - 0.006), at(x - 0.008, y + h / 3)]);
+          }
+          return found;
+        })()"""
+    )
+    assert len(colours) == 4 * 3
+    for number, (inside, above, low, beside) in enumerate(colours):
+        models = number % 3 < 2
+        assert sum(inside[:3]) < 700 or not models, (number, inside)
+        assert sum(low[:3]) < 700 or not models, (number, low)
+        for outside in (above, beside):
+            assert outside[3] == 0 or sum(outside[:3]) > 740, (number, outside)
+
+
 def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: Outcome):
     page = tab(wavy_file, WIDTH)
     frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width

@@ -1,11 +1,14 @@
 """The report as a printer gets it: whole pages of A4, nothing cut, and the command that prints."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from comparisons.outcome import Outcome
 from comparisons.pdf import NoPdfError, print_pdf, print_report
+from comparisons.report.page import render
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0
@@ -25,8 +28,20 @@ CUT = """
 """
 
 
-def test_nothing_is_wider_than_the_paper(tab, wavy_file):
-    page = tab(wavy_file, 1280)
+@pytest.fixture(scope="module")
+def levels_file(
+    finish: Callable[..., Outcome], smooth_tables: dict, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """The report of a run with as many levels as there are columns for."""
+    page = tmp_path_factory.mktemp("levels") / "report.html"
+    outcome = finish({**smooth_tables, "resolution": {"levels": 6}})
+    page.write_text(render(outcome), encoding="utf-8")
+    return page
+
+
+@pytest.mark.parametrize("name", ["wavy_file", "levels_file"])
+def test_nothing_is_wider_than_the_paper(tab, request, name):
+    page = tab(request.getfixturevalue(name), 1280)
     page.ask("Emulation.setEmulatedMedia", media="print")
     page.ask("Emulation.setScrollbarsHidden", hidden=True)
     page.resize(round(A4[0] * POINTS_TO_PIXELS - 2.0 * MARGIN))
