@@ -215,5 +215,6 @@ def commands(outcome: Outcome) -> list[tuple[str, str]]:
     models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
     return [
         ("repeats this run, in the folder of this page", "crosscheck rerun ."),
+        ("draws this page again, in the same folder", "crosscheck report ."),
         ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
     ]

@@ -27,7 +27,7 @@ from comparisons.scene import ResolvedScene
 
 FILE = "report.npz"
 SCHEMA = 1
-_REMEDY = "allowed is what this version of crosscheck wrote: crosscheck rerun makes it"
+_REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
 MESH = Path("finite_element") / "mesh.msh"
 # Of an outcome: in files of its own, or not shown.
 ELSEWHERE = ("problem", "result", "record", "directory")
