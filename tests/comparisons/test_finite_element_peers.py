@@ -320,7 +320,11 @@ def test_processes_are_charged_their_processor_time(tmp_path):
     with pytest.raises(FailedError, match="not done after 1 s"):
         spent([sys.executable, "-c", "while True: pass"], tmp_path, 1.0)
     with pytest.raises(FailedError, match=r"^last$"):
-        spent([sys.executable, "-c", "import sys; print('one', flush=True); sys.exit('last')"], tmp_path, 9.0)
+        spent(
+            [sys.executable, "-c", "import sys; print('one', flush=True); sys.exit('last')"],
+            tmp_path,
+            9.0,
+        )
 
 
 def test_absent_peers_are_named(cylinder, monkeypatch, capsys):
