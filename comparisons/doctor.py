@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.doctor_trials import OPTIONAL, TRIALS, Trial
+from comparisons.stages import Listener, Step, silent
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -49,10 +50,15 @@ class Check:
     remedy: str
 
 
-def doctor() -> list[Check]:
+def doctor(listener: Listener = silent) -> list[Check]:
     """Try everything that crosscheck uses; one check an item, Python first."""
+    trials, checks = (*TRIALS, *OPTIONAL), [_python()]
     with ThreadPoolExecutor(AT_ONCE) as pool:
-        return [_python(), *pool.map(attempt, (*TRIALS, *OPTIONAL))]
+        found = pool.map(attempt, trials)
+        for number, trial in enumerate(trials):
+            listener(Step(f"trying {trial.name}", number / len(trials)))
+            checks.append(next(found))
+    return checks
 
 
 def attempt(trial: Trial, patience: float = PATIENCE) -> Check:

@@ -5,7 +5,7 @@ from functools import partial
 from typing import Annotated
 
 from comparisons.commands.arguments import Job, json_option
-from comparisons.commands.output import show, show_json
+from comparisons.commands.output import progress, show, show_json
 from comparisons.exit_status import ExitStatus
 
 
@@ -18,7 +18,8 @@ def _doctor(as_json: bool) -> int:
     from comparisons.doctor import doctor as examined
     from comparisons.doctor import doctor_table
 
-    checks = examined()
+    with progress() as listener:
+        checks = examined(listener)
     if as_json:
         show_json([asdict(check) for check in checks])
     else:

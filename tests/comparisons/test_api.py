@@ -20,7 +20,7 @@ SMALL = {
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
     "stress": {"points": [12, 6]},
     "resolution": {"pitch": 30e-6, "levels": 2},
-    "finite_element": {"block": 20},
+    "finite_element": {"block": 10, "growth": 0.5},
     "budget": {"effects": False},
 }
 SCENES = {

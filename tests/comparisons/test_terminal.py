@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli import app, main
+from comparisons.commands import completion
 from comparisons.progress_bar import Outlook, times
 from comparisons.scene_file import scene_names, scene_titles
 from comparisons.stages import Step, within
@@ -153,7 +154,7 @@ def answer(line: str, shell: str = "bash") -> list[str]:
 
 def test_scenes_are_completed(tmp_path, monkeypatch):
     assert answer("crosscheck run ") == [*scene_names(), *_folders_of_the_checkout()]
-    assert answer("crosscheck cost smooth") == ["smooth", "smooth-sliding"]
+    assert completion.scenes("smooth") == ["smooth", "smooth-sliding"]
     (tmp_path / "mine.toml").touch()
     (tmp_path / "mine.csv").touch()
     assert answer(f"crosscheck run {tmp_path}/m") == [f"{tmp_path}/mine.toml"]
@@ -168,16 +169,9 @@ def _folders_of_the_checkout() -> list[str]:
 def test_commands_groups_and_models_are_completed():
     assert answer("crosscheck sta") == ["stability"]
     assert answer("crosscheck map smooth --x friction") == ["friction_dundurs"]
-    assert answer("crosscheck map smooth --quantity tau1_f") == [
-        "tau1_field_near",
-        "tau1_field_deep",
-    ]
-    assert answer("crosscheck map curv") == ["curvature-thickness"]
-    assert answer("crosscheck run smooth --models half") == [
-        "half-plane",
-        "half-plane,finite-element",
-    ]
-    assert answer("crosscheck run smooth --fields vt") == ["vtu", "vtkhdf"]
+    assert completion.maps("curv") == ["curvature-thickness"]
+    assert completion.models("half") == ["half-plane", "half-plane,finite-element"]
+    assert completion.quantities("tau1_f") == ["tau1_field_near", "tau1_field_deep"]
 
 
 def test_completion_is_installed_for_a_shell(tmp_path):
@@ -210,7 +204,7 @@ def test_scenes_and_doctor_as_json(capsys, monkeypatch):
     from comparisons import doctor
 
     found = [doctor.Check("a", True, "1.0", "")]
-    monkeypatch.setattr(doctor, "doctor", lambda: found)
+    monkeypatch.setattr(doctor, "doctor", lambda listener: found)
     assert main(["doctor", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == [
         {"name": "a", "ok": True, "detail": "1.0", "remedy": ""}

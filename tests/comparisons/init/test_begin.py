@@ -33,12 +33,12 @@ def heights(z) -> str:
 
 def sdf(z) -> str:
     head = (
-        "aISO-1.0\nNumPoints = 801\nNumProfiles = 3\nXscale = 0.5e-6\nYscale = 1e-6\n"
+        "aISO-1.0\nNumPoints = 801\nNumProfiles = 5\nXscale = 0.5e-6\nYscale = 1e-6\n"
         "Zscale = 1e-6\nDataType = 7\n*\n"
     )
     line = " ".join(f"{value:.6g}" for value in z)
     flat = " ".join(["0"] * len(z))
-    return f"{head}{flat}\n{line}\n{flat}\n*\n"
+    return f"{head}{flat}\n{flat}\n{line}\n{flat}\n{flat}\n*\n"
 
 
 FILES = {
@@ -81,7 +81,7 @@ def test_every_format_is_read_in_its_own_units(folder, content):
     assert info.length == pytest.approx(400e-6, rel=1e-9)
     assert info.roughness.rq == pytest.approx(RMS, rel=0.02)
     assert (info.bridged > 0) == (b"NaN" in content)
-    assert info.place == ("row 1 of 3 rows and 801 columns, 0.0004 m by 2e-06 m"
+    assert info.place == ("row 2 of 5 rows and 801 columns, 0.0004 m by 4e-06 m"
                           if b"aISO" in content else None)  # fmt: skip
 
 

@@ -33,6 +33,11 @@ def test_a_spike_between_two_dots_is_drawn():
     assert lines[-1].strip("'.:") == ""
 
 
+def test_a_line_covers_every_dot_that_it_passes():
+    # of four rows: from 0 to 1.2 in the first column of dots, from 1.2 to 4 in the second
+    assert drawn(np.arange(3.0), np.array([0.0, 0.3, 1.0]), 1, 1) == ["⡼"]
+
+
 def test_a_flat_profile_is_a_line():
     (line,) = drawn(RISE, np.zeros(9), 3, 1)
     assert line == "⣀⣀⣀"
