@@ -152,7 +152,7 @@ def test_commands_in_passing_work(tmp_path):
     """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
     named = {command.split()[0] for command in re.findall(r"`\./crosscheck ([^`]+)`", README)}
     studies = {"cost", "map", "verify", "stability", "paper", "rerun"}
-    assert named == {"scenes", "doctor", *studies}
+    assert named == {"scenes", "doctor", "init", "report", "table", *studies}
     for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)
         assert done.status == ExitStatus.DONE and done.printed
@@ -216,6 +216,18 @@ def test_links_lead_somewhere():
 
 def test_scenes_are_those_that_come_along():
     assert sorted(name for [cell, _] in rows("scene") for name in in_ticks(cell)) == scene_names()
+
+
+def test_python_lines_work():
+    names: dict = {}
+    with redirect_stdout(io.StringIO()) as printed:
+        exec(fenced("python"), names)
+    assert "peak pressure" in printed.getvalue()
+    assert set(names["figures"]["models"]) == {"half_plane"}
+    assert names["axes"][0].get_ylabel() == "p/p₀"
+    told = README.partition("## From Python")[2].partition("\n## ")[0].rpartition("`api.load`")[2]
+    listed = re.findall(r"`(\w+)`", told.partition(" are ")[0])
+    assert {"load", *listed} == set(names["api"].__all__)
 
 
 def test_exit_statuses_are_the_programs():
