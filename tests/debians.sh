@@ -16,8 +16,8 @@ fail() { printf 'debians.sh: %s\n' "$*" >&2; exit 2; }
 
 # The first archive that apt's own sources name.
 mirror() {
-    cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | sed 's/#.*//' | tr -s ' \t' '\n' |
-        grep -E '^https?://.*/debian/?$' | head -n 1
+    cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | sed 's/#.*//' |
+        tr -s ' \t' '\n' | grep -E -m 1 '^https?://.*/debian/?$' || true
 }
 
 make_root() {  # SUITE ROOT
