@@ -25,6 +25,7 @@ class Outlook:
 
     clock: Callable[[], float] = monotonic
     start: float = field(init=False)
+    behind: float = 0.0  # share that was told last
     whole: float | None = None  # s that the task takes in all, None while nothing tells
 
     def __post_init__(self) -> None:
@@ -37,7 +38,8 @@ class Outlook:
 
     def told(self, stage: str) -> None:
         """Take note of a stage that begins."""
-        if isinstance(stage, Step) and stage.behind > 0.0:
+        if isinstance(stage, Step) and stage.behind not in (0.0, self.behind):
+            self.behind = stage.behind
             self.whole = self.elapsed / stage.behind
 
     @property

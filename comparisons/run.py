@@ -24,8 +24,9 @@ from comparisons.write import write_files
 from fem.mumps import FemError
 from meshes.errors import MeshError
 
-# Of a run's time, that its levels take: for what is told alone.
-ALONE, WITH_EFFECTS, SOLVED = 0.75, 0.4, 0.85
+# What lies behind of a run's time when its levels and when all is solved, without effects to
+# compute and with some: for what is told alone.
+ALONE, WITH_EFFECTS = (0.85, 0.85), (0.3, 0.97)
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
@@ -104,14 +105,15 @@ def solve(
     """Carry out a plan; `run` with a plan of one's own."""
     window = window_of(problem) if plan.stress else None
     checkpoint = Checkpoint(out, problem.scene, plan)
-    share = WITH_EFFECTS if plan.compares and plan.effects else ALONE
+    levels, solved = WITH_EFFECTS if plan.compares and plan.effects else ALONE
     try:
-        runs, stop = refined(problem, plan, window, checkpoint, within(listener, 0.0, share))
+        runs, stop = refined(problem, plan, window, checkpoint, within(listener, 0.0, levels))
         moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
         rows = compared(problem, runs, window) if plan.compares else ()
         budget = None
         if plan.compares:
-            budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, listener)
+            part = within(listener, levels, solved)
+            budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, part)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
@@ -140,7 +142,7 @@ def solve(
     )
     try:
         if out is not None:
-            write_files(outcome, within(listener, SOLVED, 1.0), fields)
+            write_files(outcome, within(listener, solved, 1.0), fields)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     checkpoint.discard()

@@ -13,7 +13,7 @@ from comparisons.errors import InputError, one_line
 from comparisons.level import Level, ModelRun, Window
 from comparisons.plan import MODELS, make_plan
 from comparisons.problem import Problem
-from comparisons.stages import Listener, Stages
+from comparisons.stages import Listener, Stages, Step
 from fem.mumps import FemError
 from meshes.errors import MeshError
 
@@ -91,7 +91,8 @@ class Bodies:
         self._store = self._store or BodyStore()
         plan, pitch = make_plan(problem, MODELS), self.problem.pitches[0] / 2.0 ** (number - 1)
         words = ", ".join(sorted(body.effects)) or "no effect"
-        self.listener(f"error budget: finite elements with {words}, level {number}")
+        said = f"error budget: finite elements with {words}, level {number}"
+        self.listener(Step(said, 0.25 * (number - 1)))  # about: there are two to four levels
         try:
             level = finite_element_level(
                 problem, plan, Refinement(pitch), self.window, Stages(), store=self._store

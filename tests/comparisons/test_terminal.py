@@ -116,6 +116,7 @@ def test_time_left_follows_from_what_lies_behind():
     assert (outlook.share, outlook.left) == (0.25, 30.0)
     clock.now += 10.0
     outlook.told("another one")
+    outlook.told(Step("another quarter at the same time", 0.25))  # tells nothing new
     assert (outlook.share, outlook.left) == (0.5, 20.0)
     clock.now += 30.0
     assert (outlook.share, outlook.left) == (0.99, None)
