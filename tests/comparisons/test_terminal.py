@@ -178,7 +178,8 @@ def test_commands_groups_and_models_are_completed():
 def test_completion_is_installed_for_a_shell(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "comparisons.cli", "--install-completion", "bash"],
-        env=environment(HOME=str(tmp_path)),
+        # by the name of the shell, not by that of the process that the tests happen to run in
+        env=environment(HOME=str(tmp_path), _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1"),
         cwd=ROOT,
         capture_output=True,
         text=True,
