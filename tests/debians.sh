@@ -22,13 +22,19 @@ mirror() {
 
 make_root() {  # SUITE ROOT
     printf 'debians.sh: making %s\n' "$2" >&2
-    mkdir -p "$2"
-    debootstrap --variant=minbase --include=ca-certificates,git "$1" "$2" "$archive" >"$2.log" 2>&1 ||
+    # Under another name until it is whole: what an interrupted one left is not taken for a system.
+    if [ -e "$2.part" ]; then
+        umount --recursive --quiet "$2.part/proc" "$2.part/sys" || true
+        rm -rf --one-file-system "$2.part"
+    fi
+    mkdir -p "$2.part"
+    debootstrap --variant=minbase --include=ca-certificates,git "$1" "$2.part" "$archive" >"$2.log" 2>&1 ||
         fail "debootstrap failed, see $2.log"
-    printf 'deb %s %s main\n' "$archive" "$1" >"$2/etc/apt/sources.list"
+    printf 'deb %s %s main\n' "$archive" "$1" >"$2.part/etc/apt/sources.list"
     # Daemons are not started in here.
-    printf '#!/bin/sh\nexit 101\n' >"$2/usr/sbin/policy-rc.d"
-    chmod +x "$2/usr/sbin/policy-rc.d"
+    printf '#!/bin/sh\nexit 101\n' >"$2.part/usr/sbin/policy-rc.d"
+    chmod +x "$2.part/usr/sbin/policy-rc.d"
+    mv "$2.part" "$2"
 }
 
 # What belongs to the place and not to the system.
