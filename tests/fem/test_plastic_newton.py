@@ -41,17 +41,18 @@ def problem(pressed, hardening):
 
 @pytest.mark.parametrize("hardening", [0.0, 10.0])
 def test_convergence_is_quadratic(pressed, hardening):
-    """Each residual is 0.1 to 1.3 times the square of the one before."""
+    """Each residual is 1 to 2.3 times the square of the one before, once the points that flow are
+    settled: which do on the way there hangs on rounding."""
     body, bodies = problem(pressed, hardening)
     state, seen = state_at_rest(bodies, 1.0 * (np.abs(X) < 0.7)), []
     for part in (0.5, 0.7, 0.9):
         state, history = newton_by_contacts(bodies, GAP, WEIGHTS, state, part * LOAD)
         body.accept(state.displacements[0])
         pairs = pairwise(history)
-        seen += [after / before**2 for before, after in pairs if before < 0.01 and after > 1e-10]
+        seen += [after / before**2 for before, after in pairs if before < 1e-3 and after > 1e-12]
     assert len(seen) >= 3
-    assert min(seen) > 0.03
-    assert max(seen) < 4.0
+    assert min(seen) > 0.3
+    assert max(seen) < 5.0
 
 
 def test_one_answer_from_any_start(pressed):
