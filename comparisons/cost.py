@@ -6,7 +6,7 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.cost_choice import Assessed, Choice, choices, followed, pareto
 from comparisons.cost_methods import METHODS, Method
-from comparisons.cost_process import ProcessEnded, fresh_process
+from comparisons.fresh_process import ProcessEnded, fresh_process
 from comparisons.cost_reference import Reference, error_of, references
 from comparisons.cost_store import CostStore, measuring_machine
 from comparisons.cost_study import Row, Study, measured_study

@@ -11,7 +11,7 @@ from comparisons.cost_methods import (
     is_half_plane_problem,
     why_not,
 )
-from comparisons.cost_process import Call, ProcessEnded, fresh_process
+from comparisons.fresh_process import Call, ProcessEnded, fresh_process
 from comparisons.cost_store import CostStore
 from comparisons.problem import Problem
 from comparisons.report.numbers import with_unit

@@ -1,0 +1,78 @@
+"""A fresh process that does one thing after the other, and that an interrupt ends at once.
+
+A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
+large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is left to wait for.
+"""
+
+import multiprocessing
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from multiprocessing.connection import Connection
+from typing import TypeVar
+
+from comparisons.maps.executors import ONE_THREAD, begin, environment
+
+Result = TypeVar("Result")
+Call = Callable[..., Result]  # call(work, *given): work(*given) there
+
+
+class ProcessEnded(Exception):
+    """The process ended before it had answered."""
+
+
+@contextmanager
+def fresh_process() -> Iterator[Call]:
+    """Start one on one thread at the first call; the end of the block kills it.
+
+    What it is called with, and its answers, go through pickle. A call raises what the work raises,
+    and ProcessEnded.
+    """
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    alive, held = context.Pipe(duplex=False)
+    process = context.Process(target=_serve, args=(theirs, alive))
+
+    def call(work: Callable[..., Result], *given: object) -> Result:
+        if process.pid is None:
+            with environment(ONE_THREAD), _interrupts_later():
+                process.start()
+            theirs.close()  # or its end would not be heard
+        try:
+            ours.send((work, given))
+            good, answer = ours.recv()
+        except (EOFError, OSError) as error:
+            raise ProcessEnded(str(error)) from error
+        if good:
+            return answer
+        raise answer
+
+    with ours, theirs, alive, held:
+        try:
+            yield call
+        finally:
+            if process.pid is not None:
+                process.kill()  # within a long factorisation it hears of nothing else
+                process.join()
+
+
+def _serve(pipe: Connection, alive: Connection) -> None:
+    begin(alive)
+    while True:
+        work, given = pipe.recv()
+        try:
+            answer = True, work(*given)
+        except Exception as error:
+            answer = False, error
+        pipe.send(answer)
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """A process that starts must not hear a Ctrl-C before it leaves that to this one, which hears
+    it a moment later."""
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
