@@ -26,7 +26,7 @@ from comparisons.cost_methods import (
     why_not,
 )
 from comparisons.cost_page import cost_page
-from comparisons.cost_process import ProcessEnded
+from comparisons.fresh_process import ProcessEnded
 from comparisons.cost_reference import error_of, is_exact, references
 from comparisons.cost_solve import Answer, touching_strips
 from comparisons.cost_store import FOLDER
