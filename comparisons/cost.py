@@ -6,12 +6,12 @@ from pathlib import Path
 from analytic.contact import ContactError
 from comparisons.cost_choice import Assessed, Choice, choices, followed, pareto
 from comparisons.cost_methods import METHODS, Method
-from comparisons.fresh_process import ProcessEnded, fresh_process
 from comparisons.cost_reference import Reference, error_of, references
 from comparisons.cost_store import CostStore, measuring_machine
 from comparisons.cost_study import Row, Study, measured_study
 from comparisons.errors import InputError, SceneError, SolverError
 from comparisons.files import check_writable, published
+from comparisons.fresh_process import ProcessEnded, fresh_process
 from comparisons.problem import Problem, problem_of
 from comparisons.quantities import QUANTITIES
 from comparisons.rank import is_several

@@ -11,8 +11,8 @@ from comparisons.cost_methods import (
     is_half_plane_problem,
     why_not,
 )
-from comparisons.fresh_process import Call, ProcessEnded, fresh_process
 from comparisons.cost_store import CostStore
+from comparisons.fresh_process import Call, ProcessEnded, fresh_process
 from comparisons.problem import Problem
 from comparisons.report.numbers import with_unit
 from comparisons.stages import Listener, Step, within

@@ -26,13 +26,13 @@ from comparisons.cost_methods import (
     why_not,
 )
 from comparisons.cost_page import cost_page
-from comparisons.fresh_process import ProcessEnded
 from comparisons.cost_reference import error_of, is_exact, references
 from comparisons.cost_solve import Answer, touching_strips
 from comparisons.cost_store import FOLDER
 from comparisons.cost_study import FAILED, OK, SKIPPED, Row, Study, _asked, _series
 from comparisons.cost_table import cells, cost_summary, notes_of, refusals, shown
 from comparisons.errors import SceneError
+from comparisons.fresh_process import ProcessEnded
 from comparisons.plan import MODELS
 from comparisons.problem import problem_of
 from comparisons.report.style import Picture
