@@ -17,7 +17,7 @@ from analytic.layer import (
     hat_symbol,
 )
 from analytic.layer_kernel import hat_compliance
-from analytic.layered import LayeredBody, wave_compliance
+from analytic.layered import LayeredBody, normal_compliance, wave_compliance
 from analytic.material import Material
 from analytic.operators import HalfPlane
 from analytic.periodic import PeriodicHalfPlane
@@ -58,10 +58,10 @@ def test_coefficients_are_the_integral_over_all_waves(wave_rule, base, pitch):
     """Differences to the first."""
     body = LayeredBody(LAYER, 1.0, base)
     coefficients = LayeredSurface(3000, pitch, body).column
-    for offset in (1, 2, 7, 40):
+    for offset in (1, 2, 20):
         k, weights = wave_rule(pitch, offset)
         turn = -2.0 * np.sin(0.5 * k * pitch * offset) ** 2
-        expected = pitch**2 / np.pi * np.sum(weights * wave_compliance(body, k).normal * turn)
+        expected = pitch**2 / np.pi * np.sum(weights * normal_compliance(body, k) * turn)
         assert coefficients[offset] - coefficients[0] == pytest.approx(expected, rel=1e-10)
 
 
@@ -104,9 +104,9 @@ def test_operator_and_preconditioner_are_positive_definite(kind, base, pitch):
     matrix = (circulant if operator.periodic else toeplitz)(operator.column)
     columns = np.eye(count)
     applied = np.array([operator.apply(column) for column in columns]).T
-    assert applied == pytest.approx(matrix, abs=1e-13 * np.abs(matrix).max())
+    assert np.abs(applied - matrix).max() <= 1e-13 * np.abs(matrix).max()
     inverse = np.array([operator.precondition(column) for column in columns])
-    assert inverse == pytest.approx(inverse.T, abs=1e-13 * np.abs(inverse).max())
+    assert np.abs(inverse - inverse.T).max() <= 1e-13 * np.abs(inverse).max()
     assert np.linalg.eigvalsh(matrix).min() > 0.0
     assert np.linalg.eigvalsh(inverse).min() > 0.0
 

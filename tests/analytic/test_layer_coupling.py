@@ -41,7 +41,7 @@ def test_coefficients_are_the_integral_over_all_waves(wave_rule, base, pitch):
     body = LayeredBody(LAYER, 1.0, BASES[base])
     coefficients = TangentialLayer(60, pitch, body).column
     scale = pitch**2 / LAYER.shear_modulus
-    for offset in (1, 2, 7, 40):
+    for offset in (1, 2, 20):
         k, weights = wave_rule(pitch, offset)
         values = wave_compliance(body, k).coupling * np.sin(k * pitch * offset)
         expected = -(pitch**2) / np.pi * np.sum(weights * values)

@@ -174,10 +174,10 @@ class TestCost:
 
     @pytest.mark.parametrize("periodic", [True, False])
     def test_on_a_rough_surface_they_hardly_grow(self, periodic):
-        """Of eight surfaces, on grids whose contact is too large to be solved for directly."""
+        """Of four surfaces, on grids whose contact is too large to be solved for directly."""
 
         def mean(count: int) -> float:
-            problems = [lambda n, s=seed: rough(n, periodic, s) for seed in range(8)]
+            problems = [lambda n, s=seed: rough(n, periodic, s) for seed in range(4)]
             return np.mean([self.spent(problem, count)[1] for problem in problems])
 
         few, many = mean(8192), mean(32768)

@@ -155,24 +155,21 @@ def test_rough_pressure_against_a_much_finer_search():
 
 
 def highest_by_brute_force(x, pressure, friction, quantity):
-    """Zooms on the five highest points of a fine field, each by 20 grids of 11 x 11 points."""
+    """Zooms on the five highest points of a fine field at once, each by 20 grids of 7 x 7 points."""
     levels, steps = np.linspace(0.0, 1.5, 121), 4
     field = stress_field(x, pressure, friction, (x[0], x[-1]), levels, steps)
     values = quantity(field.stress)
-    ways = np.linspace(-1.0, 1.0, 11)
-    highest = []
-    for index in np.argsort(-values, axis=None)[:5]:
-        row, column = np.unravel_index(index, values.shape)
-        centre = np.array([field.x[column], levels[row]])
-        reach = 6.0 * np.array([(x[1] - x[0]) / steps, levels[1]])
-        for _ in range(20):
-            at_x, at_z = np.meshgrid(centre[0] + reach[0] * ways, centre[1] + reach[1] * ways)
-            at_x, at_z = np.clip(at_x, x[0], x[-1]), np.clip(at_z, 0.0, levels[-1])
-            found = quantity(stress_at(x, pressure, friction, at_x, at_z))
-            place = np.unravel_index(np.argmax(found), found.shape)
-            centre, reach = np.array([at_x[place], at_z[place]]), 0.6 * reach
-        highest.append(found.max())
-    return max(highest)
+    row, column = np.unravel_index(np.argsort(-values, axis=None)[:5], values.shape)
+    at_x, at_z = field.x[column], levels[row]
+    reach = 6.0 * np.array([(x[1] - x[0]) / steps, levels[1]])
+    across, down = (way.ravel() for way in np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 7)]))
+    for _ in range(20):
+        grid_x = np.clip(at_x[:, None] + reach[0] * across, x[0], x[-1])
+        grid_z = np.clip(at_z[:, None] + reach[1] * down, 0.0, levels[-1])
+        found = quantity(stress_at(x, pressure, friction, grid_x, grid_z))
+        best = np.arange(5), np.argmax(found, axis=1)
+        at_x, at_z, reach = grid_x[best], grid_z[best], 0.6 * reach
+    return found.max()
 
 
 def smooth_wavy_rough(name: str) -> tuple[np.ndarray, np.ndarray]:

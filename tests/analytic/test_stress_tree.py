@@ -77,9 +77,9 @@ def test_nodes_that_binary_numbers_do_not_hit(origin, element):
     count, pitch = 2000, 1e-6
     whole = np.arange(count)
     nodes, load = origin + whole * pitch, rng.uniform(0.0, 1.0, count)
-    at_nodes = whole[::7]
-    along = np.concatenate([at_nodes, rng.uniform(-9.0, count + 8.0, 300)])
-    down = np.concatenate([np.full(len(at_nodes), 1e-3), rng.uniform(0.1, 40.0, 300)])
+    at_nodes = whole[::27]
+    along = np.concatenate([at_nodes, rng.uniform(-9.0, count + 8.0, 75)])
+    down = np.concatenate([np.full(len(at_nodes), 1e-3), rng.uniform(0.1, 40.0, 75)])
     if element == "hat":
         down[: len(at_nodes)] = 0.0
     x = np.concatenate([nodes[at_nodes], origin + along[len(at_nodes) :] * pitch])
