@@ -72,6 +72,11 @@ class Standing:
         """Whether the error exceeds the tolerance beyond doubt."""
         return abs(self.value) - self.doubt > self.tolerance
 
+    @property
+    def is_blurred(self) -> bool:
+        """Whether the uncertainty alone reaches across the tolerance, whatever is not shown."""
+        return self.uncertainty >= abs(abs(self.value) - self.tolerance)
+
 
 HalfSpace = Literal["holds", "fails", "undecided"]
 
@@ -90,7 +95,7 @@ def half_space_verdict(standings: Sequence[Standing]) -> tuple[HalfSpace, str]:
     if not unclear:
         worst = max(standings, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
         return "holds", f"every judged error is within its tolerance; nearest: {_named([worst])}"
-    numerical = [s for s in unclear if abs(s.value) + s.uncertainty > s.tolerance]
+    numerical = [s for s in unclear if s.is_blurred]
     if numerical:
         return "undecided", f"an error cannot be told from its tolerance: {_named(numerical)}"
     return "undecided", (

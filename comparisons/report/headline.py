@@ -63,7 +63,7 @@ def headline(outcome: Outcome) -> Headline:
             f"{_made_of(outcome, _nearest(outside))}{others}.",
         )
     unclear = [s for s in standings if not s.is_inside]
-    numerical = [s for s in unclear if abs(s.value) + s.uncertainty > s.tolerance]
+    numerical = [s for s in unclear if s.is_blurred]
     worst = _nearest(numerical or unclear)
     if numerical:
         return Headline(

@@ -85,6 +85,9 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
     said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), choice=missing))
     assert said.kind == "undecided"
     assert "may move it by 10 %, plastic flow most" in said.sentence
+    said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), choice=missing))
+    assert said.kind == "undecided"
+    assert "may move it by 10 %, plastic flow most" in said.sentence
 
 
 def test_nothing_judged_is_no_verdict(smooth_outcome: Outcome):

@@ -75,6 +75,15 @@ def test_what_no_model_shows_can_move_an_error_either_way():
     assert half_space_verdict([standing(value=-0.06, unshown={"plastic flow": 0.03})])[0] == "fails"
 
 
+def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
+    outside = standing("tau1_max", -0.026, 0.0035, {"finite strain": 0.046})
+    verdict, why = half_space_verdict([outside])
+    assert verdict == "undecided"
+    assert "finite strain 4.6%" in why and "cannot be told" not in why
+    blurred = standing("tau1_max", -0.026, 0.0065, {"finite strain": 0.046})
+    assert "cannot be told from its tolerance" in half_space_verdict([blurred])[1]
+
+
 def test_effects_that_are_not_shown_add_as_squares():
     both = {"one": 0.012, "other": 0.012}  # 0.024 by sum, 0.0170 by squares
     assert standing(unshown=both).doubt == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
