@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -87,13 +88,19 @@ def roller_gap(
 
     shape  x^2 / 2R, or R - sqrt(R^2 - x^2) for |x| <= R
 
-    The constant of the gap is arbitrary: the approach absorbs it.
+    The constant of the gap is arbitrary: the approach absorbs it. The result can be pickled where
+    `height` can.
     """
+    return partial(_roller_gap, radius, height, shape)
 
-    def gap(x: np.ndarray) -> np.ndarray:
-        # the circle's sagitta without the difference of nearly equal numbers
-        twice = 2.0 * radius if shape == "parabola" else radius + np.sqrt(radius**2 - x**2)
-        sagitta = x**2 / twice
-        return sagitta if height is None else sagitta - height(x)
 
-    return gap
+def _roller_gap(
+    radius: float,
+    height: Callable[[np.ndarray], np.ndarray] | None,
+    shape: str,
+    x: np.ndarray,
+) -> np.ndarray:
+    # the circle's sagitta without the difference of nearly equal numbers
+    twice = 2.0 * radius if shape == "parabola" else radius + np.sqrt(radius**2 - x**2)
+    sagitta = x**2 / twice
+    return sagitta if height is None else sagitta - height(x)

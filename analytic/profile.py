@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -64,20 +65,18 @@ def surface(profile: Profile) -> Surface:
     """The profile's spline as a callable that refuses to leave the samples.
 
     The result takes x [m] of any shape and `derivative` (0 height, 1 slope, 2 curvature), and
-    raises ValueError where x lies outside the profile by more than rounding.
+    raises ValueError where x lies outside the profile by more than rounding. It can be pickled.
     """
-    spline = profile.spline()
-    first, last = float(profile.x[0]), float(profile.x[-1])
-    slack = ROUNDING * profile.spacing
+    return partial(_within, profile.spline(), ROUNDING * profile.spacing)
 
-    def evaluate(x: np.ndarray, derivative: int = 0) -> np.ndarray:
-        x = np.asarray(x, dtype=float)
-        outside = ~((x >= first - slack) & (x <= last + slack))
-        if np.any(outside):
-            raise ValueError(
-                f"the profile is known from x = {first:g} m to {last:g} m, "
-                f"not at {float(x[outside].flat[0]):g} m"
-            )
-        return spline(np.clip(x, first, last), derivative)
 
-    return evaluate
+def _within(spline: CubicSpline, slack: float, x: np.ndarray, derivative: int = 0) -> np.ndarray:
+    first, last = float(spline.x[0]), float(spline.x[-1])
+    x = np.asarray(x, dtype=float)
+    outside = ~((x >= first - slack) & (x <= last + slack))
+    if np.any(outside):
+        raise ValueError(
+            f"the profile is known from x = {first:g} m to {last:g} m, "
+            f"not at {float(x[outside].flat[0]):g} m"
+        )
+    return spline(np.clip(x, first, last), derivative)

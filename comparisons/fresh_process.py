@@ -1,4 +1,4 @@
-"""A fresh process that does one thing after the other, and that an interrupt ends at once.
+"""Fresh processes that do one thing after the other, and that an interrupt ends at once.
 
 A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
 large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is left to wait for.
@@ -6,15 +6,20 @@ large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is
 
 import multiprocessing
 import signal
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
+from threading import Lock, Thread
 from typing import TypeVar
 
 from comparisons.maps.executors import ONE_THREAD, begin, environment
 
+Item = TypeVar("Item")
 Result = TypeVar("Result")
 Call = Callable[..., Result]  # call(work, *given): work(*given) there
+
+_starting = Lock()  # two that start at once would mistake each other's environment for their own
 
 
 class ProcessEnded(Exception):
@@ -35,7 +40,7 @@ def fresh_process() -> Iterator[Call]:
 
     def call(work: Callable[..., Result], *given: object) -> Result:
         if process.pid is None:
-            with environment(ONE_THREAD), _interrupts_later():
+            with _starting, environment(ONE_THREAD), _interrupts_later():
                 process.start()
             theirs.close()  # or its end would not be heard
         try:
@@ -54,6 +59,42 @@ def fresh_process() -> Iterator[Call]:
             if process.pid is not None:
                 process.kill()  # within a long factorisation it hears of nothing else
                 process.join()
+
+
+def share_out(
+    items: Iterable[Item], here: Callable[[Item], None], there: Sequence[Callable[[Item], None]]
+) -> None:
+    """Have every item worked on: `here` in this thread, `there` each in one of its own, which
+    waits for a process.
+
+    What a process had in hand when it ended is worked on here. The first error ends the rest, and
+    is raised.
+    """
+    left, errors = deque(items), []
+
+    def serve(work: Callable[[Item], None]) -> None:
+        while left and not errors:
+            try:
+                item = left.popleft()
+            except IndexError:  # another one was quicker
+                return
+            try:
+                work(item)
+            except ProcessEnded:
+                left.append(item)
+                return
+            except Exception as error:
+                errors.append(error)
+
+    threads = [Thread(target=serve, args=(work,), daemon=True) for work in there]
+    for thread in threads:
+        thread.start()
+    serve(here)
+    for thread in threads:
+        thread.join()
+    serve(here)
+    if errors:
+        raise errors[0]
 
 
 def _serve(pipe: Connection, alive: Connection) -> None:

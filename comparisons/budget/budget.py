@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from comparisons.budget.choice import NONLINEAR, Choice, choose
 from comparisons.budget.own_error import OwnError, own_errors
-from comparisons.budget.parts import Parts, parts_of
+from comparisons.budget.parts import Parts, bodies_for, parts_of
 from comparisons.budget.sampling import sampling_changes
-from comparisons.budget.solve import Bodies, NotComputedError
+from comparisons.budget.solve import Bodies, NotComputedError, processes_beside
 from comparisons.checkpoint import Checkpoint
 from comparisons.coupling import Coupling
 from comparisons.level import ModelRun, Window
@@ -81,18 +81,19 @@ def error_budget(
     if not plan.effects:
         asked = choice.added | set(choice.impossible)
         choice = choice.without(asked, "not asked for (budget.effects)")
-    bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener)
     unsplit = None
-    while True:
-        try:
-            levels, own = _refined(problem, window, runs, rows, choice, bodies)
-            break
-        except NotComputedError as error:
-            dropped = _blamed(choice, error)
-            if not dropped:  # what the scene itself has cannot be taken apart
-                levels, own, unsplit = 0, _unsplit(rows), str(error)
+    with processes_beside() as beside:
+        bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener, beside)
+        while True:
+            try:
+                levels, own = _refined(problem, window, runs, rows, choice, bodies)
                 break
-            choice = choice.without(dropped, str(error))
+            except NotComputedError as error:
+                dropped = _blamed(choice, error)
+                if not dropped:  # what the scene itself has cannot be taken apart
+                    levels, own, unsplit = 0, _unsplit(rows), str(error)
+                    break
+                choice = choice.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
         listener("error budget: sampling of the trace")
@@ -119,6 +120,7 @@ def _refined(
     asked = problem.scene.budget.levels or MOST_LEVELS
     most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
+        bodies.prepare(bodies_for(problem, choice), number)
         try:
             new = {mu: parts_of(problem, bodies, choice, mu, number) for mu in history}
         except NotComputedError:
@@ -150,8 +152,8 @@ def _is_beyond(problem: Problem, runs: dict[str, ModelRun], bodies: Bodies, numb
     """Whether one more level of the effects would exceed the time, by the laws of cost: clocks
     would give another machine other figures."""
     spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
-    spent += sum(bodies.expected.values())
-    finer = GROWTH_OF_TIME * bodies.expected.get(number, 0.0)
+    spent += sum(bodies.expected_of(each) for each in range(1, number + 1))
+    finer = GROWTH_OF_TIME * bodies.expected_of(number)
     return spent + finer > problem.scene.budget.time
 
 

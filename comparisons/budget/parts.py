@@ -13,11 +13,13 @@ and what is still to be added to the scene's own finite elements is F(0) + whole
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
+from typing import Protocol
+
+import numpy as np
 
 from comparisons.budget.answers import Answer
 from comparisons.budget.bodies import Body, strain_share
 from comparisons.budget.choice import NONLINEAR, Choice
-from comparisons.budget.solve import Bodies
 from comparisons.problem import Problem
 
 COUPLED = "coupling"
@@ -39,10 +41,42 @@ class Parts:
     own: Answer
 
 
+class Bodies(Protocol):
+    """Who answers."""
+
+    def own_answer(self, number: int, friction: float) -> Answer:
+        """Of the scene's own finite elements on a level."""
+
+    def answer(self, body: Body, number: int, friction: float) -> Answer:
+        """Of a body on a level."""
+
+
+class _Listed:
+    """Nothing but a list of who is asked."""
+
+    def __init__(self) -> None:
+        self.asked: dict[Body, None] = {}
+
+    def own_answer(self, number: int, friction: float) -> Answer:
+        return Answer({}, np.zeros(0), None)
+
+    def answer(self, body: Body, number: int, friction: float) -> Answer:
+        self.asked[body] = None
+        return self.own_answer(number, friction)
+
+
+def bodies_for(problem: Problem, choice: Choice) -> list[Body]:
+    """The bodies that `parts_of` asks at all friction coefficients, each once, on any level."""
+    listed = _Listed()
+    for friction in problem.scene.friction:
+        parts_of(problem, listed, choice, friction, 1)
+    return list(listed.asked)
+
+
 def parts_of(
     problem: Problem, bodies: Bodies, choice: Choice, friction: float, level: int
 ) -> Parts:
-    """All parts on a level; raises NotComputedError where a body has no answer."""
+    """All parts on a level; raises what `bodies` raises where a body has no answer."""
     whole = choice.whole - ({COUPLED} if friction == 0.0 else frozenset())
     linear = frozenset(name for name in whole if name not in NONLINEAR)
     nothing = _solved(bodies, frozenset(), friction, level)
@@ -86,10 +120,11 @@ def _nonlinear(
     beside = linear | {"displaced gap"}
     beside |= {"real boundary"} if scene.profile is not None else frozenset()
     beside |= {COUPLED} if friction else frozenset()
-    shaping = friction or None
     settings = scene.finite_element
     held = settings.far_field != "held" or settings.element != "P2"
     stand_in = scene.roller is not None
+    # where nothing else asks for the same body, for no other friction coefficient either
+    shaping = friction if friction or held or stand_in else None
     if stand_in:  # of unbounded bodies: a layer's compliance does not grow with the roller's
         beside -= {"finite body", "disc"}
     strained = Body(beside | {name}, shaping, stand_in, held)

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from comparisons.fresh_process import ProcessEnded, fresh_process
+from comparisons.fresh_process import ProcessEnded, fresh_process, share_out
 
 
 def test_one_that_hears_nothing_ends_at_an_interrupt():
@@ -47,3 +47,55 @@ def test_answers_errors_and_its_end():
         assert call(os.getenv, "OMP_NUM_THREADS") == "1"
         with pytest.raises(ProcessEnded):
             call(os._exit, 3)
+
+
+class TestShareOut:
+    def test_every_item_is_worked_on_once(self):
+        worked = []
+        share_out(range(100), worked.append, [worked.append, worked.append])
+        assert sorted(worked) == list(range(100))
+
+    def test_those_beside_work_at_the_same_time(self):
+        both = threading.Barrier(2, timeout=60.0)
+        share_out(range(2), lambda item: both.wait(), [lambda item: both.wait()])
+
+    def test_what_a_process_had_in_hand_is_worked_on_here(self):
+        here, begun = [], threading.Event()
+
+        def ends(item):
+            begun.set()
+            time.sleep(0.05)  # after all others are done
+            raise ProcessEnded
+
+        def work(item):
+            begun.wait(60.0)
+            here.append(item)
+
+        share_out(range(3), work, [ends])
+        assert sorted(here) == [0, 1, 2]
+
+    def test_an_error_beside_ends_the_rest_and_is_raised(self):
+        here, failed = [], threading.Event()
+
+        def fails(item):
+            failed.set()
+            raise ZeroDivisionError
+
+        def work(item):
+            failed.wait(60.0)
+            time.sleep(0.05)
+            here.append(item)
+
+        with pytest.raises(ZeroDivisionError):
+            share_out(range(10), work, [fails])
+        assert len(here) <= 1
+
+    def test_an_interrupt_here_waits_for_nobody(self):
+        free = threading.Event()
+
+        def interrupted(item):
+            raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            share_out(range(2), interrupted, [lambda item: free.wait(60.0)])
+        free.set()

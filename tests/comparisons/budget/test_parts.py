@@ -117,8 +117,8 @@ class TestStandIn:
         bodies = made_bodies(Body(frozenset()))
         parts = parts_of(problem, bodies, choice_of(added={"finite strain"}), 0.0, 1)
         beside = frozenset({"displaced gap"})
-        strained = bodies.answer(Body(beside | {"finite strain"}, None, True), 1, 0.0)
-        change = strained - bodies.answer(Body(beside, None, True), 1, 0.0)
+        strained = bodies.answer(Body(beside | {"finite strain"}, 0.0, True), 1, 0.0)
+        change = strained - bodies.answer(Body(beside, 0.0, True), 1, 0.0)
         assert close(parts.effects["finite strain"], change * 0.5)
 
     def test_it_is_solved_as_finite_deformation_is(self, problem_with):
