@@ -52,10 +52,10 @@ def read_record(folder: Path) -> Record:
         raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
     path = folder / "record.json"
     content = read_table(path)
-    _check_schema(path, content, SCHEMA, "; run the scene again to record it")
+    check_schema(path, content, SCHEMA, "; run the scene again to record it")
     figures_path = folder / "result.json"
     figures = read_table(figures_path)
-    _check_schema(figures_path, figures, RESULT_SCHEMA)
+    check_schema(figures_path, figures, RESULT_SCHEMA)
     try:
         check_figures(figures)
     except ValueError as error:
@@ -126,7 +126,7 @@ def _trace(path: Path, profile: dict) -> KeptTrace:
 def read_table(path: Path) -> dict:
     """The table in a file of a run's folder. Raises InputError where there is none."""
     try:
-        content = json.loads(path.read_bytes().decode("utf-8"))
+        content = json.loads(path.read_bytes().decode("utf-8"), parse_constant=_no_number)
     except FileNotFoundError:
         raise InputError(
             f"{path.parent}: holds no {path.name}; allowed is the folder of a finished run"
@@ -140,7 +140,13 @@ def read_table(path: Path) -> dict:
     return content
 
 
-def _check_schema(path: Path, content: dict, known: int, hint: str = "") -> None:
+def _no_number(name: str) -> None:
+    """Refuse NaN and the infinities, which Python reads, and no run writes."""
+    raise ValueError(f"{name} is no number")
+
+
+def check_schema(path: Path, content: dict, known: int, hint: str = "") -> None:
+    """Raise InputError unless the content of a file is of the schema that is known here."""
     schema = _part(path, content, "schema", int)
     if schema < known:
         raise InputError(

@@ -82,6 +82,8 @@ def check_ending(path: Path) -> None:
     """Raise InputError, one line, unless a table can be written to a file of this name."""
     if path.suffix not in (".csv", ".parquet"):
         raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv, .parquet")
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder; allowed is a file")
     if not path.parent.is_dir():
         raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
     if path.suffix == ".parquet":
@@ -146,9 +148,18 @@ def _rows_in(path: Path) -> list[Row]:
     try:
         if result["schema"] != SCHEMA:
             raise InputError(f"{path}: schema: is {result['schema']}; allowed is {SCHEMA}")
-        return rows_of(result, str(path.parent))
+        rows = rows_of(result, str(path.parent))
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
+    for row in rows:
+        for name in COLUMNS:
+            kinds = str if name in TEXTS else int | float
+            if row[name] is not None and not isinstance(row[name], kinds):
+                raise InputError(
+                    f"{path}: {row['quantity']}: {name}: is {row[name]!r}; allowed is what a run "
+                    "wrote"
+                )
+    return rows
 
 
 def _compared(result: Mapping) -> Iterable[Row]:

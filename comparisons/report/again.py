@@ -50,10 +50,10 @@ def draw_again(
     reports = []
     for folder in folders:
         listener(f"{folder}: drawing the report")
-        outcome = read_outcome(folder)  # one at a time in memory
+        content, row = _drawn(folder)  # one at a time in memory
         page = folder / "report.html"
-        write_whole(page, render(outcome))
-        report = Report(page, summary_row(outcome))
+        write_whole(page, content)
+        report = Report(page, row)
         if pdf:
             listener(f"{folder}: printing the report")
             report = _printed(report)
@@ -62,6 +62,18 @@ def draw_again(
         summary.parent.mkdir(parents=True, exist_ok=True)
         write_whole(summary, summary_page([report.row for report in reports], summary.parent))
     return reports
+
+
+def _drawn(folder: Path) -> tuple[str, SummaryRow]:
+    """The page of a run and its row; InputError where its files do not make them up."""
+    outcome = read_outcome(folder)
+    try:
+        return render(outcome), summary_row(outcome)
+    except (AttributeError, LookupError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{folder}: its result.json, record.json and report.npz make up no report "
+            f"({error!r}); allowed is what one run wrote"
+        ) from error
 
 
 def _printed(report: Report) -> Report:

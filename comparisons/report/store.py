@@ -22,7 +22,8 @@ from comparisons.kept import decoded, encoded
 from comparisons.level import Level, ModelRun
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
-from comparisons.rerun_record import read_table
+from comparisons.rerun_record import check_schema, read_table
+from comparisons.result import SCHEMA as RESULT_SCHEMA
 from comparisons.scene import ResolvedScene
 
 FILE = "report.npz"
@@ -63,6 +64,7 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
     if not folder.is_dir():
         raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
     result, record = (read_table(folder / name) for name in ("result.json", "record.json"))
+    check_schema(folder / "result.json", result, RESULT_SCHEMA)
     parts = _read(folder / FILE)
     try:
         kept = parts.pop("problem")
