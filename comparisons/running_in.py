@@ -12,6 +12,7 @@ from analytic.profile import Profile
 from analytic.roughness import roughness, shortest_wavelength
 from analytic.running_in import run_in
 from comparisons.errors import SceneError
+from comparisons.report.numbers import given, with_unit
 from comparisons.scene import ResolvedScene
 
 # Of the shortest wave: 1.5 % of the volume moved on ground surfaces. Twice as many would leave
@@ -100,14 +101,15 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
     """What running-in takes for granted, and where it fell short."""
     worn, settings = scene.worn, scene.running_in
     listed = [
-        f"running-in: at {settings.hardness:g} Pa asperities of a half-plane flow without "
+        f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
     if worn is not None and worn.pitch > COARSE * _wanted(worn.before):
+        apart = with_unit(worn.pitch, "m", 3)
+        shortest = with_unit(shortest_wavelength(worn.before), "m", 3)
         listed.append(
-            f"running-in: its pressures stood {worn.pitch:g} m apart, too coarse for the shortest "
-            f"waves of the surface ({shortest_wavelength(worn.before):g} m): asperities between "
-            "them have not flowed enough"
+            f"running-in: its pressures stood {apart} apart, too coarse for the shortest waves of "
+            f"the surface ({shortest}): asperities between them have not flowed enough"
         )
     if worn is not None and worn.status != "shaken down":
         listed.append(
@@ -115,7 +117,7 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
             f"{len(settings.positions)} positions"
         )
     if worn is not None and ended(scene):
-        places = ", ".join(f"{place:g} m" for place in ended(scene))
+        places = ", ".join(given(place, "m") for place in ended(scene))
         listed.append(
             f"running-in: from {places} the roller touches the end of the trace, beyond which "
             "nothing carries it"

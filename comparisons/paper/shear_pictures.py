@@ -97,7 +97,8 @@ def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: 
         alternative=f"Contours. {words}. {'; '.join(found)}.",
         caption=(
             f"{words}: colours are the half-plane's, dashed lines the finite elements' at the "
-            f"bounds of the colours; + marks the largest amount. Sliding acts on the body "
+            f"bounds of the colours; + marks the largest amount"
+            f"{', stripes what is negative' if component.signed else ''}. Sliding acts on the body "
             "towards +x."
         ),
     )

@@ -8,7 +8,7 @@ import numpy as np
 from comparisons.budget.effects import EFFECTS
 from comparisons.outcome import Outcome
 from comparisons.quantities import QUANTITIES
-from comparisons.report.numbers import percent, plain
+from comparisons.report.numbers import given_percent, percent, plain
 from comparisons.report.style import WIDE, Picture, data_uri, figure
 from comparisons.report.words import label
 
@@ -19,21 +19,22 @@ if TYPE_CHECKING:
 BAR, HEAD, FOOT = 0.27, 0.78, 0.56  # inches: a bar, the legend, an axis with its label
 LEFT, RIGHT = 3.3, 0.25  # inches
 EMPTY = 1.15  # of the longest bar, where an axis ends
-# Okabe and Ito's colours for effects; greys and hatchings for what is numerical, or an estimate.
+# Okabe and Ito's colours for effects, greys for what is numerical or an estimate; hatched where two
+# of them would be one in grey.
 LOOKS: dict[str, tuple[str, str]] = {
     "iteration": ("#333333", ""),
-    "half-plane's discretisation": ("#8a8a8a", ""),
+    "half-plane's discretisation": ("#808080", ""),
     "finite elements' discretisation": ("#b5b5b5", "////"),
     "far boundary": ("#d9d9d9", "...."),
     "sampling": ("#ffffff", "||||"),
     "finite body": ("#0072B2", ""),
     "coating": ("#56B4E9", "xxxx"),
-    "real boundary": ("#009E73", ""),
+    "real boundary": ("#009E73", "\\\\\\\\"),
     "displaced gap": ("#E69F00", ""),
     "circle": ("#F0E442", ""),
-    "disc": ("#CC79A7", ""),
-    "coupling": ("#56B4E9", ""),
-    "finite strain": ("#D55E00", ""),
+    "disc": ("#CC79A7", "oo"),
+    "coupling": ("#56B4E9", "++"),
+    "finite strain": ("#D55E00", "xx"),
     "plastic flow": ("#F0E442", "\\\\\\\\"),
     "together": ("#f2e2d0", "----"),
     "estimated only": ("#ffffff", "////"),
@@ -76,7 +77,7 @@ def budget_picture(outcome: Outcome) -> Picture | None:
     present = [name for name in LOOKS if any(b.parts.get(name) for b in bars)]
     _legend(drawn, present, any(b.tolerance for b in bars))
     said = "; ".join(
-        f"{bar.name}: own error {percent(bar.own, signed=True)}"
+        f"{bar.name}: own error {_own(bar)}, tolerance {given_percent(bar.tolerance)}"
         for bar in bars
         if bar.tolerance is not None
     )
@@ -89,6 +90,10 @@ def budget_picture(outcome: Outcome) -> Picture | None:
         "effects with their signs, with its uncertainty; upright line: tolerance.",
         wide=True,
     )
+
+
+def _own(bar: Bar) -> str:
+    return percent(bar.own, signed=not bar.is_norm, uncertainty=bar.uncertainty)
 
 
 def budget_bars(outcome: Outcome) -> list[Bar]:

@@ -56,5 +56,6 @@ def cost_picture(outcome: Outcome) -> Picture:
     return Picture(
         source=data_uri(drawn),
         alternative=f"Run time by stage. In all: {totals}.",
-        caption=f"Run time by stage, all levels together; the scale is logarithmic. {totals}.",
+        caption="Run time by stage, all levels together; the scale is logarithmic. "
+        f"In all: {totals}.",
     )

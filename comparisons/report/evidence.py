@@ -1,5 +1,6 @@
 """Why the figures may be trusted: refinement, contact conditions, cost, and the run's record."""
 
+import re
 import shlex
 from dataclasses import dataclass
 
@@ -22,7 +23,7 @@ from comparisons.report.numbers import (
     significant,
     with_unit,
 )
-from comparisons.report.words import LABELS, label
+from comparisons.report.words import LABELS, MODELS, label
 
 RESIDUALS = {
     "load_balance": "load balance",
@@ -60,7 +61,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
         ("unknowns", *(integer(v.unknowns) for v in levels)),
         ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
     ]
-    rows = [row + ("",) * (1 + columns + 5 - len(row)) for row in rows]
+    rows = [row + ("",) * (1 + columns + 4 + (halved is not None) - len(row)) for row in rows]
     seen = set()
     for friction in problem.scene.friction:
         doubts = uncertainties(run, problem, friction)
@@ -79,9 +80,9 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
                     *_doubts(doubts[name], domain=halved is not None),
                 )
             )
-    return Table(
-        LABELS[run.name].capitalize(), _head(len(run.levels), halved is not None), tuple(rows)
-    )
+    looked = halved is not None
+    head = _head(len(run.levels), block=looked, domain=looked)
+    return Table(LABELS[run.name].capitalize(), head, tuple(rows))
 
 
 def _of_pair(outcome: Outcome) -> Table:
@@ -101,7 +102,8 @@ def _of_pair(outcome: Outcome) -> Table:
                     *_doubts(pair.uncertainties[name], domain=run.halved is not None),
                 )
             )
-    return Table("Difference of both models", _head(len(run.levels), False), tuple(rows))
+    head = _head(len(run.levels), block=False, domain=run.halved is not None)
+    return Table("Difference of both models", head, tuple(rows))
 
 
 def _where(problem: Problem, name: str, friction: float) -> str:
@@ -110,10 +112,12 @@ def _where(problem: Problem, name: str, friction: float) -> str:
     return f", friction {plain(friction)}" if several else ""
 
 
-def _head(levels: int, halved: bool) -> tuple[str, ...]:
+def _head(levels: int, block: bool, domain: bool) -> tuple[str, ...]:
+    """`block`: a level with the block halved; `domain`: what it says stands among the doubts."""
     numbered = tuple(f"level {k + 1}" for k in range(levels))
-    block = ("level 1, block halved",) if halved else ()
-    return ("", *numbered, *block, "order", "discretisation", "iteration", "domain", "total")
+    halved = ("level 1, block halved",) if block else ()
+    far = ("domain",) if domain else ()
+    return ("", *numbered, *halved, "order", "discretisation", "iteration", *far, "total")
 
 
 def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
@@ -126,7 +130,7 @@ def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
         order,
         percent(doubt.discretisation),
         percent(doubt.iteration),
-        percent(doubt.domain) if domain else "",
+        *([percent(doubt.domain)] if domain else []),
         percent(doubt.total),
     )
 
@@ -145,7 +149,7 @@ def effects_table(outcome: Outcome) -> Table | None:
             sizes = [estimate[q] for q in judged & set(estimate)] or list(estimate.values())
             largest = percent(max(sizes))
         rows.append((name, EFFECTS[name].words, effect["status"], largest, effect["because"]))
-    head = ("effect", "what the half-plane lacks", "", "estimate, at most", "because")
+    head = ("effect", "what the half-plane lacks", "status", "estimate, at most", "because")
     return Table("", head, tuple(rows)) if rows else None
 
 
@@ -173,8 +177,7 @@ def cost_table(outcome: Outcome) -> Table:
     for name, run in outcome.runs.items():
         level = run.finest
         cells = {
-            "time, all levels": with_unit(sum(run.seconds.values()), "s", 3),
-            "time, finest level alone": with_unit(sum(level.seconds.values()), "s", 3),
+            "time": with_unit(sum(level.seconds.values()), "s", 3),
             "unknowns": integer(level.unknowns),
             "pressure elements": integer(level.grid.count),
         }
@@ -184,6 +187,9 @@ def cost_table(outcome: Outcome) -> Table:
         cells["peak memory of the process"] = with_unit(memory, "byte", 3)
         for words, text in cells.items():
             rows.setdefault(words, []).append((name, text))
+    rows["all levels together: time"] = [
+        (name, with_unit(sum(run.seconds.values()), "s", 3)) for name, run in outcome.runs.items()
+    ]
     names = list(outcome.runs)
     return Table(
         "",
@@ -205,8 +211,24 @@ def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
     if record.get("profile"):
         rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
     hashes = record.get("hashes") or {}
-    rows += [(f"SHA-256 of {name.replace('_', ' ')}", value) for name, value in hashes.items()]
+    rows += [(f"SHA-256 of {_hashed(name)}", value) for name, value in hashes.items()]
     return rows
+
+
+def _hashed(name: str) -> str:
+    """What a hash of the record is of: a model's pressures, or another array."""
+    for model, words in MODELS.items():
+        if name.startswith(f"{model}_"):
+            return f"the {words} model's {name.removeprefix(f'{model}_').replace('_', ' ')}"
+    return name.replace("_", " ")
+
+
+def refinement_text(outcome: Outcome) -> str:
+    """Why refinement ended, with quantities in words."""
+    text = outcome.result["refinement"]
+    for name in sorted(QUANTITIES, key=len, reverse=True):
+        text = re.sub(rf"\b{name}\b", label(name), text)
+    return text
 
 
 def commands(outcome: Outcome) -> list[tuple[str, str]]:

@@ -19,6 +19,8 @@ PIXELS = 220  # to the inch
 SMALLEST_POWER = -2  # of ten: smaller ticks are written with the power apart
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOST_TICKS = 9  # of a colour bar
+STRIPES = 0.045, 0.3  # inches from one to the next, and the share that each covers
+SHADE = 0.22  # of black, of a stripe
 ROUND = np.array([1.0, 2.0, 2.5, 5.0, 10.0])  # steps of a scale, times a power of ten
 
 
@@ -85,20 +87,24 @@ def fill(
     colours: str,
     signed: bool,
 ) -> "ScalarMappable":
-    """Bands of colour, drawn as pixels: as curves they would take megabytes."""
+    """Bands of colour, drawn as pixels: as curves they would take megabytes.
+
+    What is negative is striped, so that a grey printer leaves the sign.
+    """
     import matplotlib
     from matplotlib.colors import BoundaryNorm
 
     colour_map = matplotlib.colormaps[colours]
     norm = BoundaryNorm(bands, colour_map.N, extend="both" if signed else "max")
-    shown = axes.imshow(
-        _pixels(axes, x, z, values),
-        cmap=colour_map,
-        norm=norm,
-        interpolation="none",
-        aspect="auto",
-        extent=(x[0], x[-1], z[-1], z[0]),
-    )
+    pixels = _pixels(axes, x, z, values)
+    placed = {
+        "interpolation": "none",
+        "aspect": "auto",
+        "extent": (x[0], x[-1], z[-1], z[0]),
+    }
+    shown = axes.imshow(pixels, cmap=colour_map, norm=norm, **placed)
+    if signed:
+        axes.imshow(_stripes(pixels < bands[bands < 0.0][-1]), **placed)
     axes.set(xlim=(x[0], x[-1]), ylim=(z[-1], z[0]), ylabel="z/a")
     axes.grid(False)
     return shown
@@ -120,6 +126,16 @@ def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> n
     return map_coordinates(values, at, order=1)
 
 
+def _stripes(where: np.ndarray) -> np.ndarray:
+    """Of transparent black (m, n, 4), where they are wanted."""
+    apart, share = STRIPES
+    down, across = np.indices(where.shape)
+    struck = ((down + across) / (apart * PIXELS)) % 1.0 < share
+    shade = np.zeros((*where.shape, 4))
+    shade[..., 3] = SHADE * (where & struck)
+    return shade
+
+
 def colour_bar(
     drawn: "Figure", axes: "Axes", shown: "ScalarMappable", label: str, bands: np.ndarray
 ) -> None:
@@ -137,6 +153,9 @@ def colour_bar(
     labels = [f"{tick * 10.0**-power:.4g}" for tick in ticks]
     bar.set_ticks(ticks, labels=[text.replace("-", "−") for text in labels])
     bar.minorticks_off()
+    if bands[0] < 0.0:
+        look = {"facecolor": "none", "edgecolor": (0.0, 0.0, 0.0, SHADE), "hatch": "//////"}
+        axes.axvspan(bands[0], -0.5 * step, linewidth=0.0, **look)
     axes.tick_params(length=2.0, pad=1.5)
     axes.annotate(
         label, (0.0, 0.5), (-18, 0), "axes fraction", "offset points", ha="right", va="center"

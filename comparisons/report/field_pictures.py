@@ -145,7 +145,10 @@ def _picture(
     return Picture(
         source=data_uri(drawn),
         alternative=f"{words}, friction {plain(friction)}. {'; '.join(found)}.{largest}",
-        caption=(f"{words}, friction {plain(friction)}; + marks the largest value.{largest}"),
+        caption=(
+            f"{words}, friction {plain(friction)}; + marks the largest value"
+            f"{', stripes what is negative' if component.signed or largest else ''}.{largest}"
+        ),
         field=json.dumps(pointed),
     )
 

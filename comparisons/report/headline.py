@@ -83,7 +83,8 @@ def headline(outcome: Outcome) -> Headline:
 def _all_judged(standings: list[Standing]) -> str:
     if len(standings) == 1:
         return "the one judged error is within its tolerance"
-    return f"all {len(standings)} judged errors are within their tolerances"
+    several = "both" if len(standings) == 2 else f"all {len(standings)}"
+    return f"{several} judged errors are within their tolerances"
 
 
 def _nearest(standings: Iterable[Standing]) -> Standing:

@@ -14,6 +14,13 @@ READING = {
     "block": "The block is too small, or held too near, to stand for the body.",
     "geometry": "The mesh is right; the body is not judged, its own geometry is in the figures.",
 }
+FOUND = {
+    "neither": "no fault of mesh or body",
+    "mesh": "the mesh is too coarse",
+    "modulus": "the elastic constants are off",
+    "block": "the block is too small",
+    "geometry": "no fault of the mesh",
+}
 HOW = (
     "Displacements under given pressures on the finest level, before any contact, against those of "
     "the nearest analytic surface{datum}. Columns: under a single pressure element, the L2 norm of "
@@ -46,7 +53,7 @@ def operator_table(outcome: Outcome) -> Table | None:
         if other is not None:
             cells.append(percent(other.difference, signed=signed))
         rows.append(tuple(cells))
-    title = f"Finite elements' compliance before contact: {check.verdict}"
+    title = f"Finite elements' compliance before contact: {FOUND[check.verdict]}"
     return Table(title, tuple(head), tuple(rows))
 
 

@@ -13,6 +13,7 @@ from comparisons.report.evidence import (
     cost_table,
     effects_table,
     record_rows,
+    refinement_text,
 )
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
@@ -56,8 +57,9 @@ def render(outcome: Outcome) -> str:
         sheet=problem_sheet(outcome),
         assumptions=outcome.plan.assumptions,
         skipped=outcome.plan.skipped,
-        refinement=outcome.result["refinement"],
+        refinement=refinement_text(outcome),
         convergence=convergence_tables(outcome),
+        domain=outcome.plan.domain_check,
         coupling=coupling_table(outcome),
         budget=budget_rows(outcome) if outcome.budget is not None else [],
         effects=effects_table(outcome),

@@ -35,6 +35,8 @@ LEFT = 0.8  # inches left of the panels
 FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
+TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
+CLEAR = 0.04  # share of that axis at either end without one
 
 
 def reference_level(outcome: Outcome) -> Level:
@@ -133,10 +135,17 @@ def _drawn(
 
 def _second_axis(axes: "Axes", half_width: float) -> None:
     """x/a along the top."""
+    from matplotlib.ticker import MaxNLocator
+
     top = axes.secondary_xaxis(
         "top", functions=(lambda x: x / half_width, lambda s: s * half_width)
     )
     top.tick_params(pad=1.5)
+    # at the ends a number would be cut, or stand on the axis' name
+    low, high = (x / half_width for x in axes.get_xlim())
+    ticks = MaxNLocator(TICKS, steps=STEPS).tick_values(low, high)
+    end = CLEAR * (high - low)
+    top.set_ticks(ticks[(ticks >= low + end) & (ticks <= high - end)])
     axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
 
 

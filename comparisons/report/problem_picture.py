@@ -4,10 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.material import Material
 from comparisons.outcome import Outcome
 from comparisons.report.numbers import given, plain, scale_of, with_unit
-from comparisons.report.sheet import load_text
+from comparisons.report.sheet import coating_text, elastic_text, load_text, yielding_text
 from comparisons.report.style import (
     BODY,
     COLUMN,
@@ -28,6 +27,7 @@ CLOSE_UP = 1.15, 2.0  # half-widths to either side in the close-up, at least and
 RISE = 6.0  # of the roller over the close-up, in reliefs of the ground
 ARROW = {"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "shrinkA": 0.0, "shrinkB": 0.0}
 FORCE = "#B3001B"
+LINE = 0.11  # of the view: height of a line of words
 POINTS = 800
 
 
@@ -46,7 +46,8 @@ def problem_picture(outcome: Outcome) -> Picture:
         alternative=(
             f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {ground} by "
             f"{load_text(outcome.problem)}"
-            f"{', sliding with friction ' + friction if friction else ''}; {_body_in_words(scene)}."
+            f"{', sliding with friction ' + friction if friction else ''}; "
+            f"{'; '.join([_body_in_words(scene), *_more_of_body(scene)])}."
         ),
         caption=(
             "The problem. Above: to scale. Below: roller and ground where they first touch, "
@@ -89,23 +90,19 @@ def _to_scale(axes: "Axes", outcome: Outcome) -> None:
     axes.text(-0.03 * view, 0.42 * view, _roller_in_words(scene), ha="right", **note)
     # words stand in the body where it is large, else under it
     roomy = torn and half == view
-    words = -0.5 * below if roomy else -1.2 * below - 0.14 * view
-    axes.text(-0.97 * view, words, _material_of_body(scene), **note)
+    said = _material_of_body(scene)
+    tall = LINE * view * (1 + said.count("\n"))
+    words = -0.5 * below if roomy else -1.2 * below - 0.03 * view - 0.5 * tall
+    axes.text(-0.97 * view, words, said, **note)
     if any(scene.friction):
         traction = f"q = µ p,  µ = {_friction(scene)}"
-        at = -0.32 * below
-        _arrow(axes, (0.08 * half, at), (0.34 * half, at))
-        axes.text(
-            0.08 * view if roomy else 0.97 * view,
-            -0.55 * below if roomy else words + 0.055 * view,
-            traction,
-            color=FORCE,
-            ha="left" if roomy else "right",
-            **note,
-        )
+        start, end = (0.71, 0.97) if roomy else (0.08, 0.34)
+        _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
+        above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
+        axes.text(0.97 * view, above, traction, color=FORCE, ha="right", **note)
     axes.set(
         xlim=(-view, view),
-        ylim=(-1.14 * below if roomy else words - 0.12 * view, height),
+        ylim=(-1.14 * below if roomy else words - 0.5 * tall - 0.01 * view, height),
         xlabel=f"x [{unit.name}]",
         ylabel=f"height [{unit.name}]",
         aspect="equal",
@@ -200,16 +197,23 @@ def _roller_in_words(scene: ResolvedScene) -> str:
     radius = f"roller\nR = {given(scene.roller_radius, 'm')}"
     if scene.roller is None:
         return f"{radius}\nrigid"
-    return f"{radius}\n{_elastic(scene.roller)}"
+    return f"{radius}\n{elastic_text(scene.roller)}"
 
 
 def _material_of_body(scene: ResolvedScene) -> str:
     rough = "rough body" if scene.profile is not None else "body"
-    return f"{rough}, {_elastic(scene.body)}\n{_body_in_words(scene)}"
+    lines = [f"{rough}, {elastic_text(scene.body)}", _body_in_words(scene), *_more_of_body(scene)]
+    return "\n".join(lines)
 
 
-def _elastic(material: Material) -> str:
-    return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+def _more_of_body(scene: ResolvedScene) -> list[str]:
+    """What the finite elements' body has besides."""
+    found = []
+    if scene.coating is not None:
+        found.append(f"coating {coating_text(scene.coating)}")
+    if scene.yielding is not None:
+        found.append(f"yields {yielding_text(scene.yielding)}")
+    return found
 
 
 def _body_in_words(scene: ResolvedScene) -> str:

@@ -3,8 +3,8 @@
 from analytic.material import Material
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
-from comparisons.report.numbers import given, plain, significant, with_unit
-from comparisons.scene import ProfileInfo, ResolvedScene
+from comparisons.report.numbers import decimal, given, plain, significant, with_unit
+from comparisons.scene import Coated, ProfileInfo, ResolvedScene, Yielding
 
 Rows = list[tuple[str, str]]
 
@@ -15,7 +15,7 @@ GROUPS = {
     "rms_slope": "rms slope",
     "max_slope": "largest slope",
     "friction_dundurs": "friction times Dundurs' β, µβ",
-    "peak_pressure_over_hardness": "peak pressure over hardness",
+    "peak_pressure_over_hardness": "peak pressure over hardness, p/H",
 }
 LOADS = {
     "load_per_length": ("load per length", "N/m"),
@@ -66,7 +66,7 @@ def _profile(info: ProfileInfo) -> Rows:
         ("filter", filter_text(info)),
         ("Ra, Rq as pressed", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
         ("highest peak to deepest valley", with_unit(figures.rt, "m")),
-        ("skewness, kurtosis", f"{significant(figures.rsk, 3)}, {significant(figures.rku, 3)}"),
+        ("skewness, kurtosis", f"{decimal(figures.rsk, 2)}, {decimal(figures.rku, 2)}"),
     ]
     if info.place:
         rows.insert(1, ("line of the map", info.place))
@@ -108,7 +108,7 @@ def _standard(info: ProfileInfo) -> Rows:
         ("Rz, Rt", found.rz, found.rt),
     ):
         rows.append((name, f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"))
-    rows.append(("Rsk, Rku", f"{significant(found.rsk, 3)}, {significant(found.rku, 3)}"))
+    rows.append(("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"))
     width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
     return [*rows, ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}")]
 
@@ -117,18 +117,33 @@ def _materials(outcome: Outcome) -> Rows:
     problem = outcome.problem
     scene = problem.scene
     rows = [
-        ("roller", "rigid" if scene.roller is None else _elastic(scene.roller)),
-        ("body", _elastic(scene.body)),
+        ("roller", "rigid" if scene.roller is None else elastic_text(scene.roller)),
+        ("body", elastic_text(scene.body)),
+        *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
         ("combined modulus E*", with_unit(problem.modulus, "Pa")),
-        ("Dundurs' β", plain(problem.dundurs_beta)),
+        ("Dundurs' β", significant(problem.dundurs_beta, 3)),
     ]
     if scene.hardness is not None:
         rows.append(("hardness of the body", given(scene.hardness, "Pa")))
+    if scene.yielding is not None:
+        rows.append(("body yields", yielding_text(scene.yielding)))
     return rows
 
 
-def _elastic(material: Material) -> str:
+def elastic_text(material: Material) -> str:
+    """A material in one phrase."""
     return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+
+
+def coating_text(coating: Coated) -> str:
+    """A coating in one phrase."""
+    return f"{given(coating.thickness, 'm')} thick, {elastic_text(coating.material)}"
+
+
+def yielding_text(yielding: Yielding) -> str:
+    """How a body flows, in one phrase."""
+    harder = f", hardening by {given(yielding.hardening, 'Pa')}" if yielding.hardening else ""
+    return f"at {given(yielding.stress, 'Pa')}{harder}"
 
 
 def _load(outcome: Outcome) -> Rows:

@@ -84,8 +84,11 @@ def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], u
         style = {**style, "linewidth": 0.7 * style["linewidth"]}
         axes.plot(place / unit.factor, upper / up.factor - base, **style)
         axes.plot(place / unit.factor, lower / up.factor - base, **style)
-    axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
-    axes.text(0.01, 0.05, "body", transform=axes.transAxes, va="bottom")
+    # where something is drawn: a light load may touch a rough body beside the middle alone
+    first, last = np.clip(x[[0, -1]], *(end / unit.factor for end in across))
+    names = {"transform": axes.get_xaxis_transform(), "clip_on": True}
+    axes.text(0.5 * (first + last), 0.95, "roller", ha="center", va="top", **names)
+    axes.text(first + 0.01 * (last - first), 0.05, "body", va="bottom", **names)
     axes.set_ylim(low, high)
     axes.set_ylabel(f"height [{up.name}]")
     axes.grid(False)

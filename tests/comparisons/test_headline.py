@@ -31,7 +31,7 @@ def test_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Outcom
     errors = own("peak_pressure", 1e-3, 1e-4), own("tau1_max", -0.0123, 1e-3)
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "holds"
-    assert "all 2 judged errors are within their tolerances" in said.sentence
+    assert "both judged errors are within their tolerances" in said.sentence
     assert (
         "principal shear stress τ₁ is −1.2 % (tolerance 2 %, uncertainty 0.10 %)" in said.sentence
     )

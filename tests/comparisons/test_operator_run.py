@@ -72,7 +72,7 @@ def test_a_figure_of_it_may_move_by_its_own_size(outcome):
 
 def test_table_and_how_to_read_it(outcome):
     table = operator_table(outcome)
-    assert table.title.endswith(": neither")
+    assert table.title.endswith(": no fault of mesh or body")
     assert table.head[-1] == "from the half-plane: what the thickness does"
     assert len(table.rows) == 10 and {len(row) for row in table.rows} == {4}
     assert table.rows[2][0].startswith("column at x = ")

@@ -99,7 +99,7 @@ class TestTelling:
         scene = replace(problem.scene, worn=replace(worn, status="passes spent", passes=passes))
         plan = make_plan(replace(problem, scene=scene), MODELS)
         short = [text for text in plan.assumptions if text.startswith("running-in")][1:]
-        assert "has not shaken down in" in short[0] and "-3e-05 m" in short[1]
+        assert "has not shaken down in" in short[0] and "from −30 µm" in short[1]
         said = running_in_in_words(scene)
         assert "it has not shaken down." in said and "an end of the trace" in said
 
@@ -112,7 +112,7 @@ class TestTelling:
             for text in make_plan(problem, MODELS).assumptions
             if "too coarse for the shortest waves" in text
         ]
-        assert f"{worn.pitch:g} m apart" in said
+        assert f"{1e6 * worn.pitch:#.3g} µm apart" in said
 
     def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Outcome):
         assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE)
