@@ -182,7 +182,7 @@ def _facts(outcome: Outcome) -> "Table":
     if scene.worn is not None:
         facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
     if outcome.budget is not None:
-        facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN)))
+        facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN).replace(" %", "%")))
     moved = coupling_line(outcome)
     if moved is not None:
         facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))

@@ -8,7 +8,8 @@ Columns
   difference, uncertainty, tolerance   relative, as result.json has them
   verdict                of the row; half_space: of the run
   own_error, own_error_uncertainty     of the half-plane, relative
-  effect_…               what of it is due to each assumption, relative; empty where not computed
+  effect_…               what of own_error is due to each assumption, relative, with the signs
+                         of the report; empty where not computed
   a_over_radius, …       the run's dimensionless groups
 
 What is unknown is empty in a CSV and null in a Parquet file.
@@ -169,6 +170,8 @@ def _compared(result: Mapping) -> Iterable[Row]:
         for row in rows:
             own = parts.get(row["friction"], {})
             error = own.get("own_error") or {}
+            # an effect that raises the finite elements' figure makes the half-plane's too low
+            sign = 1.0 if QUANTITIES[quantity].of_pair else -1.0
             effects = own.get("effects") or {}
             yield {
                 **row,
@@ -176,7 +179,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "unit": QUANTITIES[quantity].unit,
                 "own_error": error.get("value"),
                 "own_error_uncertainty": error.get("uncertainty"),
-                **{EFFECT_COLUMNS[name]: share["value"] for name, share in effects.items()},
+                **{EFFECT_COLUMNS[name]: sign * share["value"] for name, share in effects.items()},
             }
 
 

@@ -94,7 +94,7 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             look["facecolor"] = colours(share)
             if columns <= LETTERED:
                 ink = "white" if share > LIGHT else "black"
-                text = f"{100.0 * error:+.2g}".replace("-", "−")
+                text = f"{100.0 * error:+#.2g}".rstrip(".").replace("-", "−")
                 axes.text(
                     *middle,
                     text,

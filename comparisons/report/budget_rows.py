@@ -77,13 +77,14 @@ def parts_in_words(own: OwnError) -> tuple[str, ...]:
 
 def left_out_line(outcome: Outcome) -> str:
     """The effects that no model of the run has, each with its largest estimate on what is judged,
-    or on anything where nothing is."""
+    or on anything where nothing is; those that one reason keeps out stand together."""
     choice = outcome.budget.choice
     judged = set(outcome.problem.scene.tolerance)
-    parts = []
+    alike: dict[str, list[str]] = {}
     for name in (*choice.impossible, *choice.left_out):
         sizes = choice.estimates[name]
         largest = max((sizes[q] for q in judged & set(sizes)), default=max(sizes.values()))
-        why = f", {choice.impossible[name]}" if name in choice.impossible else ""
-        parts.append(f"{name} (at most {percent(largest)}{why})")
+        why = choice.impossible.get(name, "")
+        alike.setdefault(why, []).append(f"{name} (at most {percent(largest)})")
+    parts = [", ".join(named) + (f": {why}" if why else "") for why, named in alike.items()]
     return "; ".join(parts) or "nothing"

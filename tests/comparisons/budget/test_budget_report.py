@@ -70,7 +70,13 @@ def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
 
 def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
     assert left_out_line(split) == (
-        "plastic flow (at most 8.0 %, the body has no yield stress); circle (at most 0.15 %)"
+        "plastic flow (at most 8.0 %): the body has no yield stress; circle (at most 0.15 %)"
+    )
+    why = dict.fromkeys(("circle", "plastic flow"), "not asked for")
+    choice = replace(split.budget.choice, impossible=why, left_out=())
+    both = replace(split, budget=replace(split.budget, choice=choice))
+    assert left_out_line(both) == (
+        "circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
     )
 
 
@@ -131,4 +137,4 @@ def test_the_terminal_shows_it_in_80_columns(split: Outcome):
     assert max(map(len, text.splitlines())) <= 80
     flat = " ".join(text.split())
     assert re.search(r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite body -4\.0 displaced gap", flat)
-    assert "left out plastic flow (at most 8.0 %" in flat
+    assert "left out plastic flow (at most 8.0%" in flat
