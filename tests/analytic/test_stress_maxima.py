@@ -155,7 +155,7 @@ def test_rough_pressure_against_a_much_finer_search():
 
 
 def highest_by_brute_force(x, pressure, friction, quantity):
-    """Zooms on the five highest points of a fine field at once, each by 20 grids of 7 x 7 points."""
+    """Zooms on the five highest points of a fine field, each by 20 grids of 7 x 7 points."""
     levels, steps = np.linspace(0.0, 1.5, 121), 4
     field = stress_field(x, pressure, friction, (x[0], x[-1]), levels, steps)
     values = quantity(field.stress)

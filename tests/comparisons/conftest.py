@@ -4,7 +4,7 @@ The run that stands for the finite elements is the same solver on a body one per
 with a structured mesh beside it: what shows results needs results, not a factorisation.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
@@ -12,6 +12,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
+import meshes.build
 from analytic.contact import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators import HalfPlane
@@ -25,6 +26,8 @@ from comparisons.outcome import Outcome
 from comparisons.plan import make_plan
 from comparisons.problem import Problem, problem_of
 from comparisons.record import digest, record_of
+from comparisons.report.page import Pictures
+from comparisons.report.style import Picture
 from comparisons.resolve import resolve_tables
 from comparisons.result import result_of
 from comparisons.stages import silent
@@ -182,3 +185,41 @@ def smooth_outcome() -> Outcome:
 def wavy_outcome() -> Outcome:
     """Rough, with a hardness and two friction coefficients."""
     return finished_run(WAVY)
+
+
+@pytest.fixture(scope="session")
+def no_pictures() -> Callable[[Outcome], Pictures]:
+    """Stands in for `comparisons.report.page.draw`, which takes longer than all the rest of a run:
+    the page has all its words, and nothing to look at."""
+    blank = Picture("data:image/svg+xml;base64,", "", "")
+
+    def pictures(outcome: Outcome) -> Pictures:
+        worn = None if outcome.problem.scene.worn is None else blank
+        budget = None if outcome.budget is None else blank
+        return Pictures(blank, worn, blank, blank, blank, [], [], [], [], budget, blank)
+
+    return pictures
+
+
+@pytest.fixture(scope="module")
+def undrawn(no_pictures: Callable[[Outcome], Pictures]) -> Iterator[None]:
+    """The reports of a whole module without pictures."""
+    with patch("comparisons.report.page.draw", no_pictures):
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def meshed_once() -> Iterator[None]:
+    """gmsh is asked for each mesh once: most of its time goes into its start, and it gives the same
+    to the last bit (`tests/meshes`), as scenes of many modules do."""
+    made: dict[str, dict[str, np.ndarray]] = {}
+    mesh = meshes.build.run_worker
+
+    def kept(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
+        asked = digest(*(np.frombuffer(task[name].tobytes(), np.uint8) for name in sorted(task)))
+        if asked not in made:
+            made[asked] = mesh(task, timeout)
+        return {name: values.copy() for name, values in made[asked].items()}
+
+    with patch("meshes.build.run_worker", kept):
+        yield

@@ -256,15 +256,23 @@ def printing_to(output, arguments: list[str]) -> subprocess.CompletedProcess:
     )
 
 
-HALF_PLANE = ["run", "smooth", "--models", "half-plane", "--out"]
+SMALL = """
+roller = {radius = 0.01, rigid = true}
+body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
+load = {hertz_peak_pressure = 1e9}
+resolution = {pitch = "8 um"}
+"""
+HALF_PLANE = ["run", "small.toml", "--models", "half-plane", "--out"]
 
 
 @pytest.mark.parametrize("arguments", [["scenes"], ["--help"], HALF_PLANE, [*HALF_PLANE, "--json"]])
 def test_a_reader_that_goes_away(tmp_path, arguments):
     """`crosscheck … | head -0`: no traceback, and the status a shell expects."""
     if "--out" in arguments:
+        (tmp_path / "small.toml").write_text(SMALL)
         at = arguments.index("--out") + 1
         arguments = [*arguments[:at], str(tmp_path / "out"), *arguments[at:]]
+        arguments[1] = str(tmp_path / "small.toml")
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "w") as pipe:

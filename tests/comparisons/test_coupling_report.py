@@ -65,10 +65,10 @@ def coupling_estimate(problem, couplings) -> dict | None:
 
 
 @pytest.fixture(scope="module")
-def rigid(tmp_path_factory) -> Outcome:
+def rigid() -> Outcome:
     """Three friction coefficients, with a field."""
     scene = scene_of(RIGID | {"stress": FIELD})
-    return run(scene, tmp_path_factory.mktemp("rigid") / "out", HALF_PLANE)
+    return run(scene, None, HALF_PLANE)
 
 
 @pytest.fixture(scope="module")

@@ -39,6 +39,14 @@ effects = false
 # What a run measures of itself, and what is zero but for rounding.
 OF_THE_MACHINE = ("cost", "seconds", "checks", "iteration")
 COMMAND = ("-m", "comparisons.cli", "run")
+# Without the pictures: while one process draws, the other one waits at a core's full cost.
+UNDRAWN = """
+import sys
+import comparisons.report.page
+from comparisons.cli import main
+comparisons.report.page.render = lambda outcome: "page"
+sys.exit(main())
+"""
 
 
 def figures(found: object, name: str = "") -> dict[str, object]:
@@ -66,11 +74,12 @@ def table(said: str) -> list[str]:
     return [line for line in lines if not line.startswith(("time", "report", "figures"))]
 
 
-def test_two_processes_report_what_one_reports(tmp_path, launch, capsys):
+def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeypatch):
     scene, outs = tmp_path / "small.toml", (tmp_path / "one", tmp_path / "two")
     scene.write_text(SCENE)
-    end = launch(2, *COMMAND, scene, "--out", outs[1])
+    end = launch(2, "-c", UNDRAWN, "run", scene, "--out", outs[1])
     assert end.returncode == 0, end.stderr
+    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "page")
     assert main(["run", str(scene), "--out", str(outs[0])]) == 0
     assert table(end.stdout) == table(capsys.readouterr().out)
     assert files(outs[0]) == files(outs[1])

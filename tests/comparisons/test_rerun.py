@@ -20,6 +20,8 @@ from comparisons.rerun_table import rerun_summary
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.run import run
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
     "roller": {"radius": 7.5706e-3, **STEEL},
@@ -52,14 +54,6 @@ def change(path, alter):
     path.write_text(json.dumps(content))
 
 
-@pytest.fixture(scope="module", autouse=True)
-def undrawn():
-    """Without the pages of the reports, which take longer than all the rest."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("comparisons.report.page.render", lambda outcome: "")
-        yield
-
-
 @pytest.fixture(scope="module")
 def both(tmp_path_factory):
     """The folder of a run of both models."""
@@ -82,9 +76,15 @@ def figures(both):
     return json.loads((both / "result.json").read_text())
 
 
-def test_the_same_machine_repeats_every_figure_and_touches_nothing(both):
+def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures, monkeypatch):
+    """The effects on as many levels as recorded: where time ends those of a run, it does not end
+    those of its repetition."""
+    monkeypatch.setattr("comparisons.budget.budget._settled", lambda *_: False)
+    assert figures["budget"]["levels"] == 2
     before = contents(both)
     repetition = rerun(both)
+    assert repetition.levels[1] > 2
+    assert repetition.outcome.result["budget"]["levels"] == 2
     assert repetition.movement.moved == ()
     assert repetition.movement.rounding == repetition.movement.new == 0
     assert repetition.movement.same > 150
@@ -165,16 +165,6 @@ def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
     repetition = rerun(folder)
     assert repetition.levels == (5, 5)
     assert [row.path for row in repetition.movement.moved] == ["scene.budget.time"]
-
-
-def test_the_effects_on_as_many_levels_as_recorded(both, figures, monkeypatch):
-    """Where time ends a run's effects, it does not end those of its repetition."""
-    monkeypatch.setattr("comparisons.budget.budget._settled", lambda *_: False)
-    assert figures["budget"]["levels"] == 2
-    repetition = rerun(both)
-    assert repetition.levels[1] > 2
-    assert repetition.outcome.result["budget"]["levels"] == 2
-    assert repetition.movement.moved == ()
 
 
 class TestTrace:

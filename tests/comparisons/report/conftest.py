@@ -93,15 +93,33 @@ def without_field() -> dict:
 
 
 @pytest.fixture(scope="session")
-def wavy_page(wavy_outcome: Outcome) -> Page:
-    return Page(render(wavy_outcome))
+def half_plane_outcome(finish: Callable[..., Outcome], without_field: dict) -> Outcome:
+    return finish(without_field, ("half_plane",))
 
 
 @pytest.fixture(scope="session")
-def smooth_page(smooth_outcome: Outcome) -> Page:
-    return Page(render(smooth_outcome))
+def rendered() -> Callable[[Outcome], str]:
+    """`rendered(outcome)`: its page; drawn once for each of these fixtures' outcomes."""
+    kept: dict[int, tuple[Outcome, str]] = {}
+
+    def page(outcome: Outcome) -> str:
+        if id(outcome) not in kept:
+            kept[id(outcome)] = outcome, render(outcome)
+        return kept[id(outcome)][1]
+
+    return page
 
 
 @pytest.fixture(scope="session")
-def half_plane_page(finish: Callable[..., Outcome], without_field: dict) -> Page:
-    return Page(render(finish(without_field, ("half_plane",))))
+def wavy_page(wavy_outcome: Outcome, rendered: Callable[[Outcome], str]) -> Page:
+    return Page(rendered(wavy_outcome))
+
+
+@pytest.fixture(scope="session")
+def smooth_page(smooth_outcome: Outcome, rendered: Callable[[Outcome], str]) -> Page:
+    return Page(rendered(smooth_outcome))
+
+
+@pytest.fixture(scope="session")
+def half_plane_page(half_plane_outcome: Outcome, rendered: Callable[[Outcome], str]) -> Page:
+    return Page(rendered(half_plane_outcome))

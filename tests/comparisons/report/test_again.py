@@ -5,6 +5,7 @@ import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -17,23 +18,21 @@ from comparisons.write import write_files
 
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Outcome], Path]:
-    """`written(outcome)`: the folder that its run leaves; each is written once."""
+def written(
+    tmp_path_factory: pytest.TempPathFactory, rendered: Callable[[Outcome], str]
+) -> Callable[[Outcome], Path]:
+    """`written(outcome)`: the folder that its run leaves; each is written and drawn once."""
     folders: dict[int, Path] = {}
 
     def folder_of(outcome: Outcome) -> Path:
         if id(outcome) not in folders:
             folder = tmp_path_factory.mktemp("runs") / "run"
-            write_files(replace(outcome, directory=folder), silent)
+            with patch("comparisons.report.page.render", lambda _: rendered(outcome)):
+                write_files(replace(outcome, directory=folder), silent)
             folders[id(outcome)] = folder
         return folders[id(outcome)]
 
     return folder_of
-
-
-@pytest.fixture(scope="module")
-def half_plane_outcome(finish: Callable[..., Outcome], without_field: dict) -> Outcome:
-    return finish(without_field, ("half_plane",))
 
 
 @pytest.fixture
@@ -50,6 +49,9 @@ def forbidden(*_: object, **__: object) -> None:
 def test_the_page_drawn_again_is_the_same_and_nothing_is_solved_for_it(
     request, written, tmp_path, name, capsys, monkeypatch
 ):
+    """Whatever the settings of matplotlib."""
+    import matplotlib
+
     folder = Path(shutil.copytree(written(request.getfixturevalue(name)), tmp_path / "run"))
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     (folder / "report.html").write_text("lost")
@@ -60,7 +62,9 @@ def test_the_page_drawn_again_is_the_same_and_nothing_is_solved_for_it(
         "comparisons.finite_element.finite_element_level",
     ):
         monkeypatch.setattr(place, forbidden)
-    assert main(["report", str(folder)]) == 0
+    with matplotlib.rc_context({"font.size": 31.0, "axes.grid": False, "lines.linewidth": 9.0}):
+        assert main(["report", str(folder)]) == 0
+        assert matplotlib.rcParams["font.size"] == 31.0
     after = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     assert after == before
     assert str(folder / "report.html") in capsys.readouterr().out.replace("\n", "")
@@ -140,8 +144,9 @@ def test_one_wrong_folder_of_two_leaves_the_other_as_it_was(copied, tmp_path, ca
 
 
 def test_json_tells_what_was_made_and_without_a_browser_why_there_is_no_pdf(
-    copied, tmp_path, capsys, monkeypatch
+    copied, tmp_path, capsys, monkeypatch, no_pictures
 ):
+    monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
     summary = tmp_path / "over" / "summary.html"
     monkeypatch.setenv("PATH", "/nowhere")
     assert main(["report", str(copied), "--summary", str(summary), "--pdf", "--json"]) == 0

@@ -118,8 +118,10 @@ def capped(outcome: Outcome, one: float, other: float) -> Outcome:
 
 
 def test_peaks_that_the_hardness_holds_are_no_evidence(
-    wavy_outcome: Outcome, smooth_outcome: Outcome
+    wavy_outcome: Outcome, smooth_outcome: Outcome, monkeypatch, no_pictures
 ):
+    monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
+
     def notes(outcome: Outcome) -> list[str]:
         return [row.note for row in comparison_rows(outcome) if row.note]
 
@@ -163,7 +165,10 @@ def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcom
     assert "crosscheck rerun ." in wavy_page.text
 
 
-def test_the_headline_owns_up_to_a_solver_that_failed(smooth_outcome: Outcome, page_of):
+def test_the_headline_owns_up_to_a_solver_that_failed(
+    smooth_outcome: Outcome, page_of, monkeypatch, no_pictures
+):
+    monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
     run = smooth_outcome.runs["half_plane"]
     bad = replace(run.finest, solution=replace(run.finest.solution, converged=False))
     runs = {**smooth_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], bad))}

@@ -17,7 +17,8 @@ printf '%%PDF-1.4\\nprinted\\n%%%%EOF\\n' > "${a#*=}";; esac; done
 """
 
 
-def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, capsys):
+def test_a_run_is_printed_if_that_is_asked_for(tmp_path: Path, monkeypatch, capsys, no_pictures):
+    monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(SCENE, encoding="utf-8")
     given = ["run", str(scene), "--models", "half-plane", "--out", str(out)]

@@ -93,6 +93,7 @@ class TestProblem:
         assert scene.worn.pitch > pair.half_width / 2500.0
 
 
+@pytest.mark.usefixtures("undrawn")
 class TestRun:
     @pytest.fixture(scope="class")
     @classmethod

@@ -14,9 +14,11 @@ from comparisons.plan import MODELS, make_plan
 from comparisons.problem import problem_of
 from comparisons.report.headline import headline
 from comparisons.report.page import render
-from comparisons.report.running_in_picture import running_in_in_words
+from comparisons.report.running_in_picture import running_in_in_words, running_in_picture
 from comparisons.report.sheet import problem_sheet
 from comparisons.table import run_in_text, summary
+
+pytestmark = pytest.mark.usefixtures("undrawn")
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +42,7 @@ class TestTelling:
 
     def test_result_without_running_in(self, wavy_outcome: Outcome):
         assert wavy_outcome.result["running_in"] is None
+        assert running_in_picture(wavy_outcome) is None
         assert "running-in" not in render(wavy_outcome)
 
     def test_plan_and_assumptions(self, outcome: Outcome):
@@ -48,13 +51,12 @@ class TestTelling:
         assert "what flows is lost" in said
 
     def test_report_shows_both_surfaces_and_one_sentence(self, outcome: Outcome, monkeypatch):
-        from comparisons.report import running_in_picture
-
         figures = []
         monkeypatch.setattr(
-            running_in_picture, "data_uri", lambda figure: figures.append(figure) or "data:"
+            "comparisons.report.running_in_picture.data_uri",
+            lambda figure: figures.append(figure) or "data:",
         )
-        picture = running_in_picture.running_in_picture(outcome)
+        picture = running_in_picture(outcome)
         worn = outcome.problem.scene.worn
         assert len(figures) == 2  # wide and narrow
         for figure in figures:

@@ -18,7 +18,6 @@ import pytest
 from comparisons.outcome import Outcome
 from comparisons.pdf import browser as installed
 from comparisons.pdf import options
-from comparisons.report.page import render
 
 PATIENCE = 120.0  # s, for one answer
 # The browser reads its orders from the third file that it inherits, and answers on the fourth.
@@ -169,8 +168,12 @@ def tab(browser: Browser) -> Iterator[Callable[..., Tab]]:
 
 
 @pytest.fixture(scope="session")
-def wavy_file(wavy_outcome: Outcome, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def wavy_file(
+    wavy_outcome: Outcome,
+    rendered: Callable[[Outcome], str],
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
     """The report of a rough run with two friction coefficients, as a file."""
     page = tmp_path_factory.mktemp("wavy") / "report.html"
-    page.write_text(render(wavy_outcome), encoding="utf-8")
+    page.write_text(rendered(wavy_outcome), encoding="utf-8")
     return page

@@ -3,12 +3,13 @@
 import re
 from collections.abc import Callable
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 
 from comparisons.outcome import Outcome
 from comparisons.pdf import NoPdfError, print_pdf, print_report
-from comparisons.report.page import render
+from comparisons.report.page import Pictures, render
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0
@@ -30,12 +31,16 @@ CUT = """
 
 @pytest.fixture(scope="module")
 def levels_file(
-    finish: Callable[..., Outcome], smooth_tables: dict, tmp_path_factory: pytest.TempPathFactory
+    finish: Callable[..., Outcome],
+    smooth_tables: dict,
+    no_pictures: Callable[[Outcome], Pictures],
+    tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
-    """The report of a run with as many levels as there are columns for."""
+    """The words of the report of a run with as many levels as there are columns for."""
     page = tmp_path_factory.mktemp("levels") / "report.html"
     outcome = finish({**smooth_tables, "resolution": {"levels": 6}})
-    page.write_text(render(outcome), encoding="utf-8")
+    with patch("comparisons.report.page.draw", no_pictures):
+        page.write_text(render(outcome), encoding="utf-8")
     return page
 
 
