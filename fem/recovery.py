@@ -119,7 +119,7 @@ class _NearKinks:
 
     def samples(self, sampled: np.ndarray) -> np.ndarray:
         """sx, sz, txz (p, q, 3) of the kinks' displacement interpolated on the elements."""
-        near = np.diff(self.weights.indptr)[self.patches.patch] > 0
+        near = self.weights.count[self.patches.patch] > 0
         element = self.patches.element[near]
         moved = self._displacement(self.patches.patch[near], self.body.elements[element])
         samples = np.zeros((len(near), len(sampled), 3))
@@ -168,9 +168,17 @@ class _NearKinks:
         return self.kinks.stress(self.weights, ends, self.points, middle).reshape(-1, 2, 3)
 
     def _displacement(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body."""
-        body = self.body
-        return self.kinks.displacement(self.weights, patch, body.nodes, node, body.surface_material)
+        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body.
+
+        Elements of a patch share nodes: each is asked for once.
+        """
+        body, count = self.body, len(self.body.nodes)
+        pair, which = np.unique(patch[:, None] * count + node, return_inverse=True)
+        patch, point = np.divmod(pair, count)
+        moved = self.kinks.displacement(
+            self.weights, patch, body.nodes, point[:, None], body.surface_material
+        )
+        return moved[which.reshape(node.shape), 0]
 
 
 def _edge_slopes(at: np.ndarray, degree: int) -> np.ndarray:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.sparse import csr_matrix
 
 from analytic.material import Material
-from fem.kinks import REACH, Kinks
+from fem import kinks as module
+from fem.kinks import REACH, Kinks, Weights
 
 POINTS = json.loads(
     (Path(__file__).parents[1] / "data" / "hat_stress.json").read_text(encoding="utf-8")
@@ -18,7 +18,19 @@ MATERIAL = Material(3.0, 0.3)
 
 def all_of(kinks, count):
     """Weights 1 of every kink for `count` patches."""
-    return csr_matrix(np.ones((count, len(kinks.place))))
+    each = len(kinks.place)
+    first, start = np.zeros(count, dtype=int), each * np.arange(count + 1)
+    return Weights(first, start, np.ones(start[-1]))
+
+
+def as_table(weights, each):
+    """Weights (n, each) of all kinks, 0 where a patch does not see them."""
+    table = np.zeros((len(weights.first), each))
+    for row, first, count, start in zip(
+        table, weights.first, weights.count, weights.start, strict=False
+    ):
+        row[first : first + count] = weights.value[start : start + count]
+    return table
 
 
 def stress(kinks, place):
@@ -93,7 +105,7 @@ def test_weights_fade_with_the_distance_and_leave_out_other_materials():
     kinks = Kinks(np.arange(-20.0, 21.0) + 0j, np.ones(41, dtype=complex), np.ones(41) + 0j)
     centre = np.array([[0.3, 0.0], [0.3, 3.0], [0.3, 100.0], [0.3, 0.0]])
     seen = np.array([True, True, True, False])
-    weights = kinks.weights(centre, np.ones(4), seen).toarray()
+    weights = as_table(kinks.weights(centre, np.ones(4), seen), 41)
     distance = np.abs(centre @ [1.0, 1j] - kinks.place[:, None]).T
     np.testing.assert_array_equal(weights > 0.0, (distance < REACH) & seen[:, None])
     assert np.all(weights[0][distance[0] < 0.3 * REACH] > 0.97)
@@ -103,6 +115,29 @@ def test_weights_fade_with_the_distance_and_leave_out_other_materials():
 def test_a_body_without_kinks_has_no_weights():
     none = Kinks(np.empty(0, dtype=complex), np.empty(0, dtype=complex), np.empty(0, dtype=complex))
     weights = none.weights(np.zeros((3, 2)), np.ones(3), np.ones(3, dtype=bool))
-    assert weights.shape == (3, 0)
+    assert not weights.count.any()
     every = np.arange(3)
     assert not none.stress(weights, every, np.ones((3, 2)), every[:, None]).any()
+
+
+@pytest.mark.parametrize("pairs", [1, 7, 2**17])
+def test_sums_over_the_kinks_are_those_of_a_table(monkeypatch, pairs):
+    """However many are summed up at once, and whichever patches share a place."""
+    monkeypatch.setattr(module, "PAIRS", pairs)
+    rng = np.random.default_rng(5)
+    x = np.sort(rng.uniform(-20.0, 20.0, 30))
+    kinks = Kinks(x + 0j, np.ones(30, dtype=complex), rng.normal(size=30) + 1j)
+    centre = np.column_stack([rng.uniform(-30.0, 30.0, 40), rng.uniform(0.0, 9.0, 40)])
+    weights = kinks.weights(centre, rng.uniform(0.2, 2.0, 40), rng.random(40) < 0.8)
+    assert 0 < np.count_nonzero(weights.count) < 40
+    place = np.column_stack([rng.uniform(-20.0, 20.0, 50), rng.uniform(0.1, 5.0, 50)])
+    patch, point = rng.integers(0, 40, 60), rng.integers(0, 50, (60, 6))
+    found = kinks.stress(weights, patch, place, point)
+
+    single = [
+        Kinks(k[:1], k[1:2], k[2:])
+        for k in np.column_stack([kinks.place, kinks.tangent, kinks.jump])
+    ]
+    by_kink = np.array([stress(one, place) for one in single])
+    expected = np.einsum("rk,krqc->rqc", as_table(weights, 30)[patch], by_kink[:, point])
+    np.testing.assert_allclose(found, expected, atol=1e-13 * np.abs(expected).max())
