@@ -11,6 +11,7 @@ import sys
 import traceback
 import warnings
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import typer
@@ -44,6 +45,9 @@ WATCHED = {
     "verify": "nothing was written, the same command starts again",
     "paper": "nothing was written, the same command starts again",
 }
+# Options that name a place. Empty, as a variable that is not set leaves one, it would be the
+# working folder, and what stands there be replaced.
+PLACES = ("--out", "--summary", "--junit")
 FINISHED = (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE, ExitStatus.NOT_CONVERGED)
 
 app = typer.Typer(
@@ -82,6 +86,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if COMPLETION in os.environ:
         return app(prog_name="crosscheck")  # answers the shell, and exits
     is_own = arguments is None  # nobody else's work goes on in this process
+    if is_own:
+        _open_streams()
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.watch import watched
@@ -90,8 +96,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return as_one(lambda: _carry_out(arguments), FINISHED)
 
 
+def _open_streams() -> None:
+    """Have streams that were closed lead nowhere, and the others take every character.
+
+    The next file to be opened would get a closed one's number, and what libraries print.
+    """
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115
+    sys.stdout.reconfigure(errors="backslashreplace")  # a title in Latin-1, a unit in ASCII
+
+
+def _check_places(arguments: list[str]) -> None:
+    for option, value in pairwise([*arguments, "-"]):
+        name, assigned, given = option.partition("=")
+        if name in PLACES and not (given if assigned else value).strip():
+            raise InputError(f"{name}: is empty; allowed is a path")
+
+
 def _carry_out(arguments: list[str]) -> int:
     try:
+        _check_places(arguments)
         job = app(arguments or ["--help"], prog_name="crosscheck", standalone_mode=False)
         status = job() if callable(job) else job or ExitStatus.DONE
         sys.stdout.flush()

@@ -53,4 +53,5 @@ def show_file(path: Path) -> None:
 
 def show_json(content: object) -> None:
     """Print what `--json` asks for."""
-    print(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+    plain = not (sys.stdout.encoding or "").lower().startswith("utf")
+    print(json.dumps(content, indent=2, ensure_ascii=plain, allow_nan=False))

@@ -1,6 +1,7 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
 import difflib
+import sys
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Literal
@@ -10,7 +11,7 @@ import typer
 from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, say, show, show_json
-from comparisons.errors import InputError
+from comparisons.errors import InputError, SceneError
 from comparisons.rank import from_first, is_first
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
@@ -54,6 +55,7 @@ def _run(
 ) -> int:
     chosen = _models(models)
     from comparisons.files import check_writable
+    from comparisons.plausible import doubts_about, doubts_about_result
     from comparisons.resolve import load_scene
 
     resolved = from_first(lambda: load_scene(scene))
@@ -65,8 +67,14 @@ def _run(
     from_first(lambda: check_writable(directory))
     from comparisons.run import run as run_scene
 
+    doubts = doubts_about(resolved)
+    if sys.stderr.isatty():  # whoever waits need not wait for that
+        _say_doubts(doubts)
     with progress() as listener:
-        outcome = run_scene(resolved, directory, chosen, listener, fields)
+        try:
+            outcome = run_scene(resolved, directory, chosen, listener, fields)
+        except SceneError as error:
+            raise SceneError("; ".join([str(error), *doubts])) from error
         if pdf and is_first():
             listener("printing the report")
             _print(directory)
@@ -76,7 +84,17 @@ def _run(
         from comparisons.table import summary
 
         show(summary(outcome))
+    _say_doubts([*doubts, *doubts_about_result(outcome)])
     return outcome.exit_status
+
+
+def _say_doubts(doubts: list[str]) -> None:
+    if not (doubts and is_first()):
+        return
+    from comparisons.table import PLAIN
+
+    for doubt in doubts:
+        say(f"doubtful: {doubt.translate(PLAIN)}")
 
 
 def _print(directory: Path) -> None:

@@ -68,7 +68,9 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
     if os.path.lexists(out):
         if out.is_dir():
             raise InputError(f"{out}: is a folder; allowed is --out FILE.toml")
-        if not force or (profile.exists() and out.samefile(profile)):
+        if profile.exists() and out.samefile(profile):
+            raise InputError(f"{out}: is the profile itself; allowed is another --out")
+        if not force:
             raise InputError(f"{out}: is there already; allowed is --force, or another --out")
     if not out.parent.is_dir():
         raise InputError(f"{out}: {out.parent} is no folder; allowed is one that is there")

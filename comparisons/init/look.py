@@ -21,8 +21,10 @@ from comparisons.init.guess import (
     units_by_size,
     units_of_head,
 )
+from comparisons.report.numbers import with_unit
 
 MOST_BYTES = BYTES_PER_SAMPLE * MAX_SAMPLES + BYTES_OF_HEADER
+ROUNDING = 1e-9  # of the largest height, below which an rms is none
 ROUND = 0.5  # of the heights' rms that an arc takes off more than a line, beyond which it is form
 
 
@@ -62,6 +64,8 @@ def _complete(path: Path, given: dict[str, str]) -> tuple[dict[str, Guess], Meas
     """Guesses of what it takes to read the file at all, and what they read."""
     head, columns = _head(path)
     found: dict[str, Guess] = {}
+    if columns == 1 and "x_unit" in given:
+        raise InputError(f"{path}: holds heights alone; allowed is --spacing instead of --x-unit")
     if columns == 1 and "spacing" not in given:
         spacing = spacing_of_head(head)
         if spacing is None:
@@ -135,6 +139,7 @@ def _form(profile: Profile) -> tuple[str, str]:
         curved, removed = remove_form(profile, "arc")
     except ValueError:
         return "line", "no arc fits"
-    if np.std(curved.height) < ROUND * np.std(straight.height):
-        return "arc", f"its radius is {abs(removed.radius):.4g} m"
+    left, of = np.std(curved.height), np.std(straight.height)
+    if left < ROUND * of and of > ROUNDING * np.abs(profile.height).max():
+        return "arc", f"its radius is {with_unit(abs(removed.radius), 'm')}"
     return "line", "an arc would not take off much more"

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.init.begin import Begun
 from comparisons.init.dots import drawn
+from comparisons.plausible import doubts_about_surface
 from comparisons.report.numbers import significant, with_unit
 from comparisons.report.sheet import in_mm
 from comparisons.scene import ProfileInfo
@@ -40,6 +41,7 @@ def init_table(begun: Begun, columns: int | None, unicode: bool) -> "RenderableT
     parts += [table, ""]
     if info.standard is None:
         parts += [Text(f"none by ISO 21920-2: {info.standard_why}"), ""]
+    parts += [Text(f"doubtful: {doubt}".translate(PLAIN)) for doubt in doubts_about_surface(info)]
     for name, because in begun.look.guesses.items():
         parts.append(Text(f"{name} = {begun.look.fields[name]}: {because}"))
     parts += ["", Text(f"scene   {begun.path}"), Text(f"next    crosscheck run {begun.path}")]

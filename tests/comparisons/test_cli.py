@@ -55,6 +55,7 @@ def solver(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "comparisons.run", run)
     table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.table", table)
+    monkeypatch.setattr("comparisons.plausible.doubts_about_result", lambda outcome: [])
     monkeypatch.chdir(tmp_path)
     return run
 

@@ -138,7 +138,7 @@ def test_json(folder, capsys):
         ("trace.csv", rows(X, Z).encode(), ["--spacing", "1 um", "--x-unit", "um"], "beside"),
         ("trace.csv", rows(X, Z).encode(), ["--row", "1"], "is a line scan"),
         ("trace.csv", rows(X, Z).encode(), ["--out", "no/scene.toml"], "no is no folder"),
-        ("trace.csv", rows(X, Z).encode(), ["--out", "trace.csv", "--force"], "is there already"),
+        ("trace.csv", rows(X, Z).encode(), ["--out", "trace.csv", "--force"], "the profile itself"),
         ("trace.csv", rows(1e-3 * X[:9], Z[:9]).encode(), ["--x-unit", "um", "--z-unit", "um"],
          "trace.csv: load"),
     ],
