@@ -329,6 +329,13 @@ class TestPicture:
         with drawing():
             return map_figure(content).axes[0]
 
+    @pytest.mark.parametrize(
+        ("error", "told"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
+    )
+    def test_errors_are_told_in_two_digits(self, smooth_map, error, told):
+        axes = self.drawn(smooth_map(lambda x, y: error, 1e-9))
+        assert {text.get_text() for text in axes.texts} == {told}
+
     def test_only_what_is_told_has_a_colour(self, made):
         made["points"][0]["error"] = BELOW
         made["points"][1]["error"] = UNCLEAR
@@ -343,13 +350,6 @@ class TestPicture:
         assert len(crosses) == 1
         place = np.log10(made["x"]["values"][2]), np.log10(made["y"]["values"][0])
         assert np.allclose(crosses[0].get_xydata(), place)
-
-    @pytest.mark.parametrize(
-        ("error", "told"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
-    )
-    def test_errors_are_told_in_two_digits(self, smooth_map, error, told):
-        axes = self.drawn(smooth_map(lambda x, y: error, 1e-9))
-        assert {text.get_text() for text in axes.texts} == {told}
         words = [text.get_text() for text in axes.get_legend().get_texts()]
         assert words[4:] == [
             "not told from numerical error, below 1 %",
