@@ -6,6 +6,7 @@ with the results and not before.
 """
 
 import contextlib
+import errno
 import os
 import shutil
 import tempfile
@@ -48,6 +49,12 @@ def unfinished(out: Path) -> Path:
 
 def check_writable(out: Path) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write a run in."""
+    try:  # by the longest name that is used beside it
+        os.lstat(out.parent / f".{out.name}.part-12345678")
+    except OSError as error:
+        if error.errno == errno.ENAMETOOLONG:
+            message = f"{out}: cannot be written: {error.strerror}; allowed is a shorter name"
+            raise InputError(message) from error
     place = out
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent

@@ -59,6 +59,13 @@ def test_a_file_in_the_way_is_refused(tmp_path):
     assert (tmp_path / "taken").read_text() == "mine"
 
 
+@pytest.mark.parametrize("length", [245, 300])
+def test_a_name_that_no_disk_takes_is_refused(tmp_path, length):
+    with pytest.raises(InputError, match="cannot be written: File name too long"):
+        check_writable(tmp_path / ("a" * length))
+    check_writable(tmp_path / ("a" * 230))
+
+
 @pytest.fixture
 def unprivileged():
     """A new folder, and for the test a user whom permission bits hold back."""
