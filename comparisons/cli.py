@@ -122,7 +122,7 @@ def _carry_out(arguments: list[str]) -> int:
         sys.stdout.flush()
         return int(status)
     except KeyboardInterrupt as stop:
-        return _end(ExitStatus.INTERRUPTED, "; ".join(["interrupted", *map(str, stop.args)]))
+        return _end(ExitStatus.INTERRUPTED, _last_words(arguments, *map(str, stop.args)))
     except (BrokenPipeError, SystemExit) as end:
         if isinstance(end, SystemExit) and not end.code:  # the shell's completion is installed
             sys.stdout.flush()
@@ -136,13 +136,20 @@ def _carry_out(arguments: list[str]) -> int:
         return _end(ExitStatus.NOT_CONVERGED, str(error))
     except Exception as error:
         if _is_interrupt(error):
-            return _end(ExitStatus.INTERRUPTED, "interrupted")
+            return _end(ExitStatus.INTERRUPTED, _last_words(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
         if os.environ.get(TRACEBACK):
             traceback.print_exc()
             return int(_defect(error))
         return _end(_defect(error), f"{_account(error)} (set {TRACEBACK}=1 for the traceback)")
+
+
+def _last_words(arguments: list[str], *told: str) -> str:
+    """What an interrupt leaves: as the work tells, or else as its command always does; `run`
+    tells it as soon as there is something to keep."""
+    usual = [WATCHED[name] for name in arguments[:1] if name in WATCHED and name != "run"]
+    return "; ".join(["interrupted", *(told or usual)])
 
 
 def _end(status: ExitStatus, message: str) -> int:

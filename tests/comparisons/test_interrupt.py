@@ -185,3 +185,17 @@ def test_an_ignored_interrupt_stays_ignored(folder):
     (folder / "go on").touch()
     _, err = process.communicate(timeout=PATIENT)
     assert (process.returncode, err) == (5, "")
+
+
+@pytest.mark.parametrize(
+    ("command", "work"),
+    [("paper", "paper.reproduce.paper"), ("stability", "stability.run.run_stability")],
+)
+def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):
+    def interrupted(*given: object, **named: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(f"comparisons.{work}", interrupted)
+    assert main([command, "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
+    told = "interrupted; nothing was written, the same command starts again"
+    assert capsys.readouterr().err == f"crosscheck: {told}\n"
