@@ -64,7 +64,14 @@ def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Pic
     pitch = level.grid.pitch / hertz.half_width
     if depth <= SHALLOW:
         axes.axhline(pitch, color="#555555", linestyle="-.", linewidth=0.9)
-        axes.text(high, pitch, "one pressure element  ", ha="right", va="bottom", size=8)
+        axes.annotate(
+            "one pressure element",
+            (high, pitch),
+            (-4, 3),
+            textcoords="offset points",
+            ha="right",
+            size=8,
+        )
     axes.set(xlim=(low, high), ylim=(depth, 0.0), xlabel="stress/p₀", ylabel="z/a")
     axes.legend(
         loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, borderaxespad=0.1, handlelength=1.0

@@ -8,14 +8,13 @@ from typing import Literal
 from comparisons.outcome import Outcome
 from comparisons.quantities import QUANTITIES
 from comparisons.report.numbers import (
-    given,
     given_percent,
     percent,
     plain,
     significant,
     with_unit,
 )
-from comparisons.report.words import MODELS, label
+from comparisons.report.words import LABELS, MODELS, label
 from comparisons.verdict import Standing, half_space_verdict
 
 Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
@@ -126,7 +125,7 @@ def _one_model(outcome: Outcome) -> str:
 
 def _unconverged(outcome: Outcome) -> str:
     found = [
-        f"{MODELS[name]}, pressure elements of {given(level.grid.pitch, 'm')}"
+        f"{LABELS[name]}, pressure elements of {with_unit(level.grid.pitch, 'm', 3)}"
         for name, run in outcome.runs.items()
         for level in run.levels
         if not level.solution.converged

@@ -1,6 +1,7 @@
 """The paper computed anew at low resolution: what its page, numbers, files and pictures hold."""
 
 import json
+import re
 from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
@@ -92,6 +93,15 @@ def test_the_page_holds_every_claim_with_its_outcome(made, page):
             assert " ".join(said.split()) in text
     assert len(made.paper.judged) == len(claims())
     assert len(page.places) == len(set(page.places))
+
+
+def test_on_a_telephone_each_number_of_a_claim_has_its_name(made):
+    source = (made.out / "paper.html").read_text(encoding="utf-8")
+    table = source[source.index('<table class="claims') : source.index("</table>")]
+    heads = re.findall(r"<th scope=\"col\">(.*?)</th>", table)
+    for row in table.split("<tr ")[1:]:
+        assert re.findall(r"<td data-name=\"(.*?)\"", row) == heads[1:]
+        assert row.count("<td") == len(heads) - 1
 
 
 def test_the_page_needs_no_network(page):
