@@ -15,6 +15,7 @@ from comparisons.report import pressure_pictures, problem_picture
 from comparisons.report.budget_picture import LOOKS
 from comparisons.report.evidence import convergence_tables, effects_table, refinement_text
 from comparisons.report.field_layout import colour_bar, fill, layout, round_bands
+from comparisons.report.headline import headline
 from comparisons.report.operator import FOUND, READING
 from comparisons.report.sheet import problem_sheet
 from comparisons.report.style import drawing
@@ -177,3 +178,14 @@ def test_why_refinement_ended_is_said_in_words(smooth_outcome: Outcome):
 def test_every_finding_of_the_check_before_contact_has_words():
     assert set(FOUND) == set(READING)
     assert all(" " in words for words in FOUND.values())
+
+
+def test_a_level_that_did_not_converge_is_named_in_few_digits(smooth_outcome: Outcome):
+    run = smooth_outcome.runs["finite_element"]
+    solution = replace(run.finest.solution, converged=False)
+    levels = (*run.levels[:-1], replace(run.finest, solution=solution))
+    runs = {**smooth_outcome.runs, "finite_element": replace(run, levels=levels)}
+    said = headline(replace(smooth_outcome, runs=runs))
+    assert said.kind == "not converged"
+    pitch = f"{1e6 * run.finest.grid.pitch:#.3g}".rstrip(".")
+    assert f"(finite elements, pressure elements of {pitch} µm)" in said.sentence
