@@ -5,6 +5,7 @@ A file is there whole or not at all, and is good for the key that it was kept un
 
 import json
 import os
+import zlib
 from collections.abc import Iterable
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -15,6 +16,10 @@ import numpy as np
 from comparisons.files import ATTEMPTS
 
 PART = ".part.npz"
+# What a damaged file raises, by which bit of it is wrong; of an unknown compression, RuntimeError.
+DAMAGED = (
+    OSError, ValueError, KeyError, TypeError, EOFError, RuntimeError, BadZipFile, zlib.error,
+)  # fmt: skip
 
 
 def keep(path: Path, key: str, value: object) -> None:
@@ -45,7 +50,7 @@ def kept(path: Path, key: str, kinds: Iterable[type]) -> object | None:
             if outline["key"] != key:
                 return None
             return decoded(outline["value"], arrays, {kind.__name__: kind for kind in kinds})
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile):
+    except DAMAGED:
         return None
 
 

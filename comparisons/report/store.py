@@ -6,19 +6,17 @@ from mesh.msh, figures and record from their own files; nothing is solved or mes
 
 import json
 import typing
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
 from analytic.gap import roller_gap
 from analytic.profile import surface
 from comparisons.errors import InputError
-from comparisons.kept import decoded, encoded
+from comparisons.kept import DAMAGED, decoded, encoded
 from comparisons.level import Level, ModelRun
 from comparisons.outcome import Outcome
 from comparisons.problem import Problem
@@ -89,7 +87,7 @@ def _read(path: Path) -> dict:
                 return decoded(outline["outcome"], arrays, kinds())
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {_REMEDY}") from None
-    except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile, zlib.error) as error:
+    except DAMAGED as error:
         raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
     raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {_REMEDY}")
 
