@@ -25,6 +25,7 @@ from fem.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
+ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
 
 
 def pressed_finitely(
@@ -40,6 +41,7 @@ def pressed_finitely(
     where it finds none, and where only at finite deformation contact reaches the grid's ends.
     """
     scene, rough = problem.scene, operator.rough
+    weights, x = grid.weights, grid.x
     found = press_finitely(
         rough.body,
         rough.hats,
@@ -52,13 +54,17 @@ def pressed_finitely(
     )
     ends = [0, -1]  # on few elements the linear contact may reach them, too
     if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
-        raise FemError("the contact at finite deformation reaches beyond the pressure elements")
+        profile = problem.scene.profile
+        ended = profile is not None and (
+            x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
+        )
+        beyond = "the trace: a longer one would tell" if ended else "the pressure elements"
+        raise FemError(f"the contact at finite deformation reaches beyond {beyond}")
     counts = {
         "increments": len(found.solution.parts),
         "newton_steps": found.solution.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    weights, x = grid.weights, grid.x
     moved = (found.gap + found.approach) * weights
     solution = assessed(
         moved, found.pressure, np.zeros_like(moved), weights, found.approach, constraints, counts
