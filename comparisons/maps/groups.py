@@ -108,6 +108,11 @@ def _set_width(tables: dict, value: float, origin: Origin) -> None:
 
 def _set_radius(tables: dict, value: float, origin: Origin) -> None:
     """By the load: a = 2 p0 R / E*."""
+    if not tables["roller"].get("rigid"):
+        raise SceneError(
+            f"{origin.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
+            "deformation, is roller.rigid = true"
+        )
     modulus = smooth_problem(tables, origin).modulus
     tables["load"].pop("per_length", None)
     tables["load"]["hertz_peak_pressure"] = 0.5 * value * modulus

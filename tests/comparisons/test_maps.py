@@ -122,7 +122,7 @@ class TestGroups:
             (RIGID, "rms_slope", "profile:"),
             (RIGID, "modulus_ratio", "roller.rigid:"),
             (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
-            (ELASTIC, "a_over_radius", "finite_element.deformation:"),
+            (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
             (
                 ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]},
                 "friction_dundurs",
