@@ -10,7 +10,7 @@ import re
 import shlex
 import tomllib
 from contextlib import redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +31,7 @@ from comparisons.quantities import QUANTITIES
 from comparisons.report import overview
 from comparisons.report.style import drawing
 from comparisons.resolve import load_scene, resolve_tables
+from comparisons.scene import ResolvedScene
 from comparisons.scene_file import scene_names
 from comparisons.stages import Stages
 from comparisons.table import SHORT
@@ -80,8 +81,10 @@ def call(arguments: list[str], folder: Path) -> Call:
     """`crosscheck` with these arguments, in a folder."""
     outcomes, original = [], run_module.run
 
-    def watched(*given: object) -> Outcome:
-        outcomes.append(original(*given))
+    def watched(scene: ResolvedScene, *given: object) -> Outcome:
+        """With fewer points of the fields, which take half the time of all effects."""
+        stress = replace(scene.stress, points=(150, 60))
+        outcomes.append(original(replace(scene, stress=stress), *given))
         return outcomes[-1]
 
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(io.StringIO()) as printed:

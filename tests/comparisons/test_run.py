@@ -1,10 +1,8 @@
 """Whole runs of both models: files, figures against exact values, repetition, pruning, refusals."""
 
 import json
-import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +17,8 @@ from comparisons.plan import MODELS, make_plan, unpruned
 from comparisons.problem import problem_of
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.run import run, solve
+
+pytestmark = pytest.mark.usefixtures("undrawn")
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
@@ -265,19 +265,6 @@ class TestRefusals:
         assert "budget.memory" in outcome.result["refinement"]
         assert len(outcome.runs["finite_element"].levels) == 3
 
-    def test_an_interrupt_ends_soon_and_says_how_to_go_on(self, tmp_path):
-        command = [sys.executable, "-m", "comparisons.cli", "run", "ground-unrun", "--out"]
-        process = subprocess.Popen(
-            [*command, str(tmp_path / "out")], stderr=subprocess.PIPE, text=True, cwd=_ROOT
-        )
-        time.sleep(2.5)
-        process.send_signal(signal.SIGINT)
-        _, complaint = process.communicate(timeout=60)
-        assert process.returncode == ExitStatus.INTERRUPTED
-        assert complaint.count("\n") == 1
-        assert "interrupted" in complaint and "goes on" in complaint
-        assert not (tmp_path / "out").exists()
-
 
 def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smooth, monkeypatch):
     """Stopped in the second of its finite-element levels; the figures are those of one go."""
@@ -318,9 +305,6 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert kept.load("level") is None
     kept.discard()
     assert list(tmp_path.iterdir()) == []
-
-
-_ROOT = Path(__file__).parents[2]
 
 
 def test_approach_prescribed_on_a_layer(tmp_path):

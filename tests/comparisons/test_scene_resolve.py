@@ -210,6 +210,9 @@ CHOICES = st.fixed_dictionaries(
 )
 
 
+IN_NUMBERS = resolved(FULL)
+
+
 @settings(max_examples=60, deadline=None, derandomize=True)
 @given(CHOICES)
 def test_units_do_not_matter(units):
@@ -219,8 +222,8 @@ def test_units_do_not_matter(units):
         unit = units[section, name]
         tables[section][name] = f"{value.scaleb(-powers[unit])} {unit}"
     scene = resolved(tables)
-    assert scene == resolved(FULL)
-    assert np.array_equal(scene.profile.height, resolved(FULL).profile.height)
+    assert scene == IN_NUMBERS
+    assert np.array_equal(scene.profile.height, IN_NUMBERS.profile.height)
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

@@ -22,6 +22,8 @@ from comparisons.scene_file import scene_names
 from comparisons.stages import Stages
 from comparisons.uncertainty import grid_convergence
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 MEASURED = Path(__file__).parents[3] / "shared" / "profiles"
 
 
@@ -48,15 +50,20 @@ def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, pe
     assert peaks.limit / problem.hertz.peak_pressure == pytest.approx(peak, rel=0.02)
 
 
-def without_effects(name: str) -> ResolvedScene:
-    """A scene that comes along, without its error budget: what both models say alone."""
+def quick(name: str, effects: bool) -> ResolvedScene:
+    """A scene that comes along, with fewer points of the fields, which are not looked at here, and
+    no more levels of the effects than they need."""
     scene = load_scene(name)
-    return replace(scene, budget=replace(scene.budget, effects=False))
+    return replace(
+        scene,
+        stress=replace(scene.stress, points=(150, 60)),
+        budget=replace(scene.budget, effects=effects, levels=2),
+    )
 
 
 @pytest.fixture(scope="module")
-def unrun(tmp_path_factory):
-    return run(without_effects("ground-unrun"), tmp_path_factory.mktemp("unrun") / "out", MODELS)
+def unrun():
+    return run(quick("ground-unrun", effects=False), None, MODELS)
 
 
 class TestGroundUnrun:
@@ -146,9 +153,9 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
 
 @pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
 def test_other_scenes_agree(name, tmp_path):
-    outcome = run(without_effects(name), tmp_path / "out", MODELS)
+    outcome = run(quick(name, effects=False), tmp_path / "out", MODELS)
     assert outcome.exit_status == ExitStatus.DONE
-    assert (tmp_path / "out" / "report.html").stat().st_size > 100_000
+    assert "<html" in (tmp_path / "out" / "report.html").read_text()
 
 
 @pytest.mark.parametrize(
@@ -160,8 +167,8 @@ def test_other_scenes_agree(name, tmp_path):
         ("finite-strain", "holds", -5.2e-3, 5.5e-3),
     ],
 )
-def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length, tmp_path):
-    outcome = run(load_scene(name), tmp_path / "out", MODELS)
+def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
+    outcome = run(quick(name, effects=True), None, MODELS)
     assert outcome.result["half_space"]["verdict"] == verdict
     found = {row.quantity: row.difference for row in outcome.comparisons}
     assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)

@@ -21,8 +21,8 @@ BASE = {
     "body": dict(STEEL),
     "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
     "stress": {"points": [11, 5]},
-    "resolution": {"pitch": "16 um"},
-    "finite_element": {"block": 20},
+    "resolution": {"pitch": "20 um"},
+    "finite_element": {"block": 20, "growth": 0.5},
 }
 SWITCHES = {
     "rough": {
