@@ -25,7 +25,7 @@ def rng() -> np.random.Generator:
     return np.random.default_rng(29)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def launch() -> Callable[..., subprocess.CompletedProcess]:
     """launch(2, "-m", "comparisons.cli", …): Python in two processes under mpirun, in one without
     it; its status and what it said."""

@@ -61,7 +61,7 @@ def layer_errors(edges, friction, pressure_of, pitch=1.0, shift=0.0):
     found = []
     for layer in (0.0, 1.0, 2.0, 6.0):
         depths = (layer + np.linspace(0.05, 0.95, 6)) / edges
-        at = np.meshgrid(np.linspace(-1.05, 1.05, 1001) + 1e-4, depths)
+        at = np.meshgrid(np.linspace(-1.05, 1.05, 401) + 1e-4, depths)
         exact = np.stack(parts(stress_at(x, pressure, friction, *at)))
         off = np.stack(parts(evaluate(body, nodal, *at))) - exact
         found.append(np.sqrt(np.mean(off**2) / np.mean(exact**2)))
