@@ -27,10 +27,10 @@ def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0)
     count, pitch = grid.count, grid.pitch
     if not is_layered(scene):
         modulus = combined_modulus(scene.roller, scene.body)
-        beta = friction * dundurs_constants(scene.body, scene.roller)[1]
-        if not beta:
+        if not friction:
             return HalfPlane(count, pitch, modulus)
-        return CoupledHalfPlane(count, pitch, modulus, beta)
+        beta = dundurs_constants(scene.body, scene.roller)[1]
+        return CoupledHalfPlane(count, pitch, modulus, friction * beta)
     body = _layered_body(scene)
     normal = LayeredSurface(count, pitch, body)
     if scene.roller is not None:
