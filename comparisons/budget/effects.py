@@ -9,6 +9,7 @@ traction moves it, so that its effect is measured beside a linear body that has 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
+from comparisons.nearest_operator import is_layered
 from comparisons.problem import Problem
 from comparisons.scene import ResolvedScene
 
@@ -95,7 +96,7 @@ EFFECTS: dict[str, Effect] = {
         "sliding traction that moves the surfaces",
         lambda scene: scene.finite_element.coupled and not scene.coupled,
         lambda problem: (
-            problem.dundurs_beta != 0.0
+            (problem.dundurs_beta != 0.0 or is_layered(problem.scene))
             and any(problem.scene.friction)
             and not problem.scene.coupled
         ),

@@ -14,6 +14,7 @@ surfaces is measured on the half-plane (`comparisons.coupling`) where it is know
 
 from collections.abc import Iterable
 
+from analytic.material import dundurs_constants
 from analytic.roughness import shortest_wavelength
 from comparisons.coupling import Coupling
 from comparisons.problem import Problem
@@ -184,6 +185,9 @@ def _finite_strain(problem: Problem, peak: float, linear: set[str]) -> Sizes:
 # norms see, and stresses next to the surface at high friction.
 COUPLING_SQUARE, COUPLING_SHIFT = 0.25, 1.6
 COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 0.8, "txz_max_abs": 0.3}
+# A layer and a coat are moved otherwise than half-planes, like ones too: the pressures of steel on
+# steel by 10 %, 7 % and 3 % at a/t = 3, 1 and 1/4 and friction 0.3.
+FAR_SIDE, COAT_SIDE = 2.0, 3.0
 
 
 def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
@@ -193,16 +197,38 @@ def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
         return found
     measured = {coupling.friction: coupling.changes for coupling in couplings}
     for friction in problem.scene.friction:
-        size = abs(friction * problem.dundurs_beta)
-        sizes = _alike(COUPLING_SQUARE * size**2) | dict.fromkeys(NORMS, COUPLING_SHIFT * size)
-        sizes |= {name: factor * size for name, factor in COUPLING_OF_STRESS.items()}
+        sizes = _coupled(friction * abs(problem.dundurs_beta))
         for name, change in (measured.get(friction) or {}).items():
             if name in QUANTITIES:
                 moved = change.difference
                 if moved is None:  # zero without: by the scale that differences then take
                     moved = change.value / QUANTITIES[name].scale(problem.hertz)
                 sizes[name] = abs(moved)
-        found = {name: max(size, found.get(name, 0.0)) for name, size in sizes.items()}
+        layered = _coupled(friction * _layered_beta(problem))  # no half-plane tells of that
+        found = {
+            name: max(size, layered[name], found.get(name, 0.0)) for name, size in sizes.items()
+        }
+    return found
+
+
+def _coupled(size: float) -> Sizes:
+    """Of surfaces that traction moves by `size` = mu beta."""
+    sizes = _alike(COUPLING_SQUARE * size**2) | dict.fromkeys(NORMS, COUPLING_SHIFT * size)
+    return sizes | {name: factor * size for name, factor in COUPLING_OF_STRESS.items()}
+
+
+def _layered_beta(problem: Problem) -> float:
+    """What stands for Dundurs' beta where the body is a layer or has a coating: of the coating,
+    as deep as it reaches, and of the body on its own, as near as its far side is."""
+    scene, half_width = problem.scene, problem.hertz.half_width
+    found = 0.0
+    if scene.coating is not None:
+        beta = dundurs_constants(scene.coating.material, scene.roller)[1]
+        found += abs(beta) * min(1.0, COAT_SIDE * scene.coating.thickness / half_width)
+    if scene.thickness is not None:
+        alone = abs(dundurs_constants(scene.body, None)[1])
+        share = 2.0 * problem.modulus / scene.body.plane_strain_modulus
+        found += alone * share * min(1.0, FAR_SIDE * half_width / scene.thickness)
     return found
 
 
