@@ -123,6 +123,13 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     return found
 
 
+def reference_share(ratio: float) -> float:
+    """By how much the relative uncertainty of a reference counts in (figure - reference) /
+    reference, with `ratio` the figure over it: |ratio| to first order. Not less than whole, for a
+    figure that vanishes says nothing of what it is measured by."""
+    return max(1.0, abs(ratio))
+
+
 def length_resolution(pitch: float, patches: int) -> float:
     """How finely the length of contact [m] in a number of patches can be told.
 
@@ -206,8 +213,11 @@ def compare(
     for name in QUANTITIES:
         if name in one:
             first, second = one[name], other[name]
-            difference = (first - second) / (abs(second) or QUANTITIES[name].scale(problem.hertz))
-            doubt = doubt_one[name].total + doubt_other[name].total
+            least = QUANTITIES[name].scale(problem.hertz)
+            scale = abs(second) or least
+            difference = (first - second) / scale
+            doubt = (abs(first) or least) / scale * doubt_one[name].total
+            doubt += reference_share(first / scale) * doubt_other[name].total
         elif name in doubt_norm:
             first = second = None
             difference, doubt = doubt_norm[name].convergence.value, doubt_norm[name].total

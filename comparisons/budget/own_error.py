@@ -1,8 +1,10 @@
 """The half-plane's own error: what is left when numerics are accounted for, split into effects.
 
-Figures: what the models differ by on their finest level, and what the scene's own finite elements
-still lack of the whole, on the level that the effects were taken to. Norms do not add: theirs are
-those of the half-plane against the whole, on that level.
+All is relative to the whole, the finite elements with every effect, so that the same error is found
+whether they are added here or switched on in the scene. Figures: what the models differ by on their
+finest level, and what the scene's own finite elements still lack of the whole, on the level that
+the effects were taken to. Norms do not add: theirs are those of the half-plane against the whole,
+on that level; the far boundary counts as in the models' difference.
 """
 
 from dataclasses import dataclass
@@ -13,7 +15,12 @@ from comparisons.budget.answers import Answer, answer_of, sizes
 from comparisons.budget.bodies import strain_doubt
 from comparisons.budget.choice import Choice
 from comparisons.budget.parts import Parts
-from comparisons.compare import PRESSURE_PER_RESIDUAL, length_resolution
+from comparisons.compare import (
+    PRESSURE_PER_RESIDUAL,
+    length_resolution,
+    pair_history,
+    reference_share,
+)
 from comparisons.level import ModelRun, Window
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES
@@ -33,11 +40,11 @@ class Share:
 
 @dataclass(frozen=True)
 class OwnError:
-    """Of one quantity at one friction coefficient, relative to the finite elements.
+    """Of one quantity at one friction coefficient, relative to the whole.
 
     effects      by name, what each changes in the finite elements
     interaction  what the linear effects change together beyond their sum
-    value        (half-plane - whole) / finite elements, or the norm of that difference
+    value        (half-plane - whole) / whole, or the norm of that difference
     uncertainty  of `value`
     stand_in     the part of that which refinement cannot lower: how well the stand-in's strain
                  tells that of two bodies
@@ -66,7 +73,7 @@ def own_errors(
     history  the effects there on the first levels, coarse to fine
     """
     friction, last = rows[0].friction, history[-1]
-    base = [parts.own for parts in history]
+    whole = [parts.own + parts.lacking for parts in history]
     half_plane = [
         answer_of(level, problem, friction) for level in runs["half_plane"].levels[: len(history)]
     ]
@@ -79,20 +86,22 @@ def own_errors(
     edge = 2.0 * length_resolution(grid.grid.pitch, len(grid.patches)) / grid.contact_length
 
     def share(name: str, changes: list[Answer]) -> Share:
-        values = [
-            sizes(change, whole, problem, window)[name]
-            for change, whole in zip(changes, base, strict=True)
-        ]
+        if QUANTITIES[name].of_pair:
+            values = [
+                sizes(change, reference, problem, window)[name]
+                for change, reference in zip(changes, whole, strict=True)
+            ]
+        else:  # by one scale: a place may jump to the surface on one level alone
+            scale = _scale(whole[-1].figures[name], name, problem)
+            values = [change.figures[name] / scale for change in changes]
         if not any(values):
             return Share(0.0, 0.0)
         doubt = _doubt(values, name, edge)
         return Share(values[-1], doubt + PRESSURE_PER_RESIDUAL * residual)
 
     lacking = [parts.lacking for parts in history]
-    own = [
-        one - (whole + missing)
-        for one, whole, missing in zip(half_plane, base, lacking, strict=True)
-    ]
+    own = [one - other for one, other in zip(half_plane, whole, strict=True)]
+    pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
     found = []
     for row in rows:
         name = row.quantity
@@ -105,26 +114,50 @@ def own_errors(
             strain = effects["finite strain"]
             stand_in = strain_doubt(problem) * abs(strain.value)
             effects["finite strain"] = Share(strain.value, strain.uncertainty + stand_in)
-        if QUANTITIES[name].of_pair and _is_any(last.lacking):
-            whole = share(name, own)
-            value, doubt = whole.value, whole.uncertainty
+        numerical = np.inf if row.uncertainty is None else row.uncertainty
+        missing = share(name, lacking)
+        if not QUANTITIES[name].of_pair:
+            value, doubt = _of_figure(row, numerical, last.lacking.figures[name], missing, problem)
+        elif _is_any(last.lacking):
+            norm, there = share(name, own), pair.norms[len(history) - 1][name]
+            # norms of two levels may agree by chance: by parts, after the triangle's inequality
+            apart = numerical + abs(there - row.difference) + missing.uncertainty
+            value = norm.value
+            doubt = max(norm.uncertainty + pair.uncertainties[name].domain, apart)
         else:
-            missing = Share(0.0, 0.0) if QUANTITIES[name].of_pair else share(name, lacking)
-            value = row.difference - missing.value
-            numerical = np.inf if row.uncertainty is None else row.uncertainty
-            doubt = numerical + missing.uncertainty
+            value, doubt = row.difference, numerical
         found.append(
             OwnError(
                 name,
                 friction,
                 effects,
-                sizes(last.interaction, base[-1], problem, window)[name],
+                sizes(last.interaction, whole[-1], problem, window)[name],
                 value,
                 doubt + stand_in,
                 stand_in,
             )
         )
     return found
+
+
+def _of_figure(
+    row: Comparison, numerical: float, lacking: float, missing: Share, problem: Problem
+) -> tuple[float, float]:
+    """Error of a figure and its uncertainty, relative to the whole.
+
+    numerical  uncertainty of the models' difference, relative to the finite elements
+    lacking    what these lack of the whole [SI]; `missing` the same, relative to the whole
+    """
+    whole = row.finite_element + lacking
+    scale = _scale(whole, row.quantity, problem)
+    numerical *= _scale(row.finite_element, row.quantity, problem) / scale
+    doubt = numerical + reference_share(row.half_plane / scale) * missing.uncertainty
+    return (row.half_plane - whole) / scale, doubt
+
+
+def _scale(figure: float, name: str, problem: Problem) -> float:
+    """What differences are measured by [SI]: the figure, the Hertz contact's where it vanishes."""
+    return abs(figure) or QUANTITIES[name].scale(problem.hertz)
 
 
 def _doubt(values: list[float], name: str, edge: float) -> float:

@@ -1,5 +1,7 @@
 """Grid convergence: known sequences, coverage on made-up but realistic ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.gap import HatGrid, roller_gap
 from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
-from comparisons.compare import length_resolution, uncertainties
+from comparisons.compare import compare, length_resolution, uncertainties
 from comparisons.level import ModelRun
 from comparisons.outcome import Outcome
 from comparisons.uncertainty import DOMAIN, grid_convergence
@@ -142,3 +144,24 @@ def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
     assert found["contact_ratio"].discretisation == pytest.approx(expected)
     assert found["peak_pressure"].discretisation == 0.0
     assert length_resolution(1.0, 9) == pytest.approx(3.0 * length_resolution(1.0, 1))
+
+
+def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Outcome):
+    """Half-plane over finite elements is 3: both relative uncertainties count three times; at 1/3
+    the half-plane's by a third, the reference's still whole."""
+    pair = smooth_outcome.runs["half_plane"], smooth_outcome.runs["finite_element"]
+    problem = smooth_outcome.problem
+    one, other = (uncertainties(run, problem, 0.0)["peak_pressure"].total for run in pair)
+    for times, share, whole in ((3.0, 3.0, 3.0), (1.0 / 3.0, 1.0 / 3.0, 1.0)):
+        levels = tuple(
+            replace(
+                level,
+                solution=replace(level.solution, pressure=times * level.solution.pressure),
+            )
+            for level in pair[0].levels
+        )
+        scaled = replace(pair[0], levels=levels)
+        row = compare(scaled, pair[1], problem, 0.0, smooth_outcome.window)[0]
+        assert row.quantity == "peak_pressure"
+        assert row.difference == pytest.approx(times - 1.0, abs=0.02)
+        assert row.uncertainty == pytest.approx(share * one + whole * other, rel=0.01)
