@@ -1,10 +1,9 @@
 """What a level of finite elements will take, before anything is meshed."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from comparisons.errors import SceneError
+from comparisons.expected import Expected
 from comparisons.finite_element_mesh import Refinement, expected_unknowns
 from comparisons.plan import Plan
 from comparisons.problem import Problem
@@ -23,15 +22,6 @@ START_SECONDS = 0.3  # of gmsh's own process
 NONLINEAR_BYTES = 7000.0
 FINITE_SECONDS, FLOW_SECONDS = 1.0e-4, 1.2e-4
 FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
-
-
-@dataclass(frozen=True)
-class Expected:
-    """`unknowns`, `memory` [bytes] at the peak and `seconds` of a level, from measured laws."""
-
-    unknowns: int
-    memory: float
-    seconds: float
 
 
 def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray) -> Expected:

@@ -9,11 +9,20 @@ from analytic.operators import HalfPlane
 from analytic.patches import contact_patches
 from analytic.stress_field import friction_field
 from analytic.stress_maxima import stress_maxima
+from comparisons.expected import Expected
 from comparisons.level import Level, StressResult, Window
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.stages import Stages, peak_memory
 from comparisons.window import search_window
+
+# Of a level with stresses, measured from 5 000 to 160 000 nodes.
+SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
+
+
+def expected_of(count: int) -> Expected:
+    """What a level of so many pressure elements will take."""
+    return Expected(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
 
 
 def half_plane_level(
@@ -49,6 +58,7 @@ def half_plane_on(
             patches=contact_patches(grid.x, solution.pressure, solution.gap),
             seconds=stages.seconds,
             unknowns=grid.count,
+            expected_seconds=expected_of(grid.count).seconds,
         )
     if window is None:
         return replace(level, peak_memory=peak_memory())

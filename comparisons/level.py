@@ -79,8 +79,8 @@ class Level:
     unknowns      of the linear systems behind the compliance
     factor_memory bytes that their factors hold, 0 without any
     peak_memory   largest memory of the process when the level was done [bytes]
-    expected_seconds, expected_memory   [bytes] by the laws that a level is refused or planned by,
-                  0 without finite elements
+    expected_seconds, expected_memory   [bytes] by the laws that a level is refused or planned by;
+                  of memory 0 without finite elements
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
     operator      finite elements only: their compliance before the contact, where it was checked

@@ -20,8 +20,8 @@ Path = tuple[str | int, ...]
 # Relative: what two solutions may differ by that both count as converged. It is what other
 # processors and libraries leave; the same machine gives the same bits.
 ROUNDING = KKT_TOLERANCE
-# Observed orders jump where a sequence is not regular, clocks decide how many levels there are, and
-# estimates are no results.
+# Observed orders jump where a sequence is not regular, the machine's memory may decide how many
+# levels there are, and estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
 NO_FIGURES |= {"estimate", "unshown", "shared_effects"}
 HANGS_ON = {

@@ -182,9 +182,9 @@ class Resolution:
 
 @dataclass(frozen=True)
 class Budget:
-    """What a run may take: `time` [s] and `memory` [bytes]; and whether it computes the `effects`
-    that the scene's finite elements lack and that may matter, on how many `levels` at most (None:
-    as the time allows)."""
+    """What a run may take: `time` [s], as the laws of cost tell it and not a clock, and `memory`
+    [bytes]; and whether it computes the `effects` that the scene's finite elements lack and that
+    may matter, on how many `levels` at most (None: as the time allows)."""
 
     time: float
     memory: float
