@@ -6,6 +6,8 @@ import pytest
 
 from comparisons.verdict import Standing, half_space_verdict, judge
 
+LITTLE = 1e-15  # more than rounding of numbers below 1 loses
+
 
 @pytest.mark.parametrize(
     ("difference", "uncertainty", "tolerance", "verdict"),
@@ -43,6 +45,22 @@ def standing(quantity="peak_pressure", value=0.001, uncertainty=0.002, unshown=N
 )
 def test_only_what_no_doubt_can_move_counts(value, uncertainty, verdict):
     assert half_space_verdict([standing(value=value, uncertainty=uncertainty)])[0] == verdict
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
+    """|e| + U + E on the tolerance holds, |e| - U - E on it does not fail; numbers are exact."""
+
+    def verdict(value, uncertainty):
+        unshown = {"one": 0.0, "other": 0.125}
+        rows = [Standing("peak_pressure", 0.0, sign * value, uncertainty, unshown, 0.5)]
+        return half_space_verdict(rows)[0]
+
+    inside, outside = 0.5 - 0.125 - 0.0625, 0.5 + 0.125 + 0.0625
+    assert verdict(inside, 0.0625) == "holds"
+    assert verdict(inside + LITTLE, 0.0625) == "undecided"
+    assert verdict(outside, 0.0625) == "undecided"
+    assert verdict(outside + LITTLE, 0.0625) == "fails"
 
 
 def test_holds_names_the_quantity_nearest_to_its_tolerance():

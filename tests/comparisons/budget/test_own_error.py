@@ -101,6 +101,15 @@ class TestSmooth:
         one, other = (o.budget.of("peak_pressure", 0.0).effects[name].value for o in outcomes)
         assert 1.85 < other / one < 2.15
 
+    def test_the_parts_make_up_the_difference_to_what_the_models_say(self, outcomes):
+        """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
+        for row in (row for row in outcomes[1].comparisons if row.half_plane is not None):
+            own = outcomes[1].budget.of(row.quantity, 0.0)
+            whole = row.half_plane / (1.0 + own.value)
+            parts = sum(share.value for share in own.effects.values()) + own.interaction
+            models = (row.half_plane - row.finite_element) / whole
+            assert models - parts == pytest.approx(own.value, abs=2e-5)
+
     def test_the_verdict_is_taken_from_it(self, outcomes):
         """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
         last = outcomes[1]
@@ -123,6 +132,22 @@ class TestSmooth:
             assert _figures(plain.result[part]) == _figures(outcomes[0].result[part])
         assert plain.budget.choice.added == frozenset()
         assert plain.result["half_space"]["verdict"] == "undecided"
+
+
+def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
+    """A large roller under a light load: a/R and p/E of a thousandth and less."""
+    outcome = outcome_of(
+        {
+            "roller": {"radius": 0.1, "rigid": True},
+            "body": STEEL,
+            "load": {"hertz_peak_pressure": 1e8},
+            "tolerance": {"peak_pressure": 0.001, "contact_length": 0.01},
+        }
+    )
+    for quantity in ("peak_pressure", "contact_length", "pressure_l2"):
+        own = outcome.budget.of(quantity, 0.0)
+        assert abs(own.value) <= own.uncertainty < 0.02
+    assert outcome.result["half_space"]["verdict"] == "holds"
 
 
 def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
