@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.exact.hertz import hertz_from_load
 from comparisons import finite_element
 from comparisons.checkpoint import Checkpoint
-from comparisons.errors import SceneError
 from comparisons.exit_status import ExitStatus
 from comparisons.plan import MODELS, make_plan, unpruned
 from comparisons.problem import problem_of
@@ -223,49 +221,6 @@ class TestSliding:
         )
 
 
-class TestRefusals:
-    @pytest.mark.parametrize(
-        ("sections", "words"),
-        [
-            ({"body": {"hardness": 1e8, "width": 1e-2}}, "at this hardness .* reaches the end"),
-            ({"resolution": {"pitch": 1e-12}}, "pressure elements at the finest"),
-            ({"resolution": {"pitch": 1e-2}}, "allowed is at most"),
-            ({"body": {"width": 1e-3}}, "reaches the end of the body"),
-            ({"budget": {"memory": 1e7}}, "budget.memory"),
-            (
-                {
-                    "profile": {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
-                    | {"length": 6e-4}
-                },
-                "reaches the end of the trace",
-            ),
-        ],
-    )
-    def test_a_scene_that_cannot_be_solved_is_refused_and_writes_nothing(
-        self, tmp_path, sections, words
-    ):
-        with pytest.raises(SceneError, match=words) as refusal:
-            run(scene_of(changed(SMOOTH, **sections)), tmp_path / "out", MODELS)
-        assert "\n" not in str(refusal.value) and str(refusal.value).startswith("scene")
-        assert list(tmp_path.iterdir()) == []
-
-    def test_a_spent_budget_leaves_the_question_open(self, tmp_path):
-        tables = changed(
-            SMOOTH, budget={"time": 0.01}, tolerance={"tau1_max": 1e-5, "peak_pressure": 1e-5}
-        )
-        outcome = run(scene_of(tables), tmp_path / "out", MODELS)
-        assert "budget.time" in outcome.result["refinement"]
-        verdicts = {row.quantity: row.verdict for row in outcome.comparisons}
-        assert verdicts["peak_pressure"] == "indistinct"
-
-    def test_a_level_that_would_not_fit_is_not_begun(self, tmp_path):
-        """Room for the three planned levels and none for a fourth."""
-        tables = changed(SMOOTH, budget={"memory": 1.5e8}, tolerance={"peak_pressure": 1e-6})
-        outcome = run(scene_of(tables), tmp_path / "out", MODELS)
-        assert "budget.memory" in outcome.result["refinement"]
-        assert len(outcome.runs["finite_element"].levels) == 3
-
-
 def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smooth, monkeypatch):
     """Stopped in the second of its finite-element levels; the figures are those of one go."""
     calls = []
@@ -305,41 +260,6 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert kept.load("level") is None
     kept.discard()
     assert list(tmp_path.iterdir()) == []
-
-
-def test_approach_prescribed_on_a_layer(tmp_path):
-    tables = {
-        "roller": {"radius": 10e-3, "rigid": True},
-        "body": {"youngs_modulus": 3e9, "poissons_ratio": 0.35, "thickness": 4e-4},
-        "load": {"approach": 10e-6},
-        "budget": {"effects": False},
-    }
-    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
-    contact = outcome.result["models"]["finite_element"][0]["contact"]
-    assert contact["approach"] == pytest.approx(10e-6, rel=1e-3)
-    assert outcome.result["models"]["half_plane"][0]["contact"]["approach"] is None
-    assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
-
-
-@pytest.mark.parametrize("load", [1.0, 1e-3])
-def test_a_load_that_touches_one_crest_only(tmp_path, load):
-    """Both models find Hertz's contact on the crest's own curvature, however light the load."""
-    wavelength, amplitude = 50e-6, 0.2e-6
-    tables = {
-        "roller": {"radius": 10e-3, **STEEL},
-        "body": dict(STEEL),
-        "profile": {"kind": "sinusoid", "wavelength": wavelength, "amplitude": amplitude},
-        "load": {"per_length": load},
-        "budget": {"effects": False},
-    }
-    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
-    curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
-    crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
-    assert outcome.exit_status == ExitStatus.DONE
-    for model in MODELS:
-        contact = outcome.result["models"][model][0]["contact"]
-        assert contact["peak_pressure"] == pytest.approx(crest.peak_pressure, rel=2e-3)
-        assert contact["contact_length"] == pytest.approx(2.0 * crest.half_width, rel=5e-3)
 
 
 def test_plan_says_what_it_leaves_out():

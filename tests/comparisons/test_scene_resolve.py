@@ -11,11 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic.exact.hertz import hertz_from_load
-from analytic.material import Material, combined_modulus
+from analytic.material import Material
 from comparisons.errors import SceneError
 from comparisons.quantities import QUANTITIES
-from comparisons.resolve import load_scene, resolve_tables
+from comparisons.resolve import resolve_tables
 from comparisons.scene import (
     Budget,
     Coated,
@@ -25,7 +24,6 @@ from comparisons.scene import (
     Resolution,
     RunningIn,
 )
-from comparisons.scene_file import SCENES, scene_names
 from comparisons.scene_schema import SECTIONS, ToleranceTable
 
 STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
@@ -243,28 +241,6 @@ def test_a_number_is_si_and_equals_its_string():
     assert resolved(in_numbers) == resolved(BARE)
 
 
-@pytest.mark.parametrize("name", scene_names())
-def test_scenes_that_come_along_resolve(name):
-    scene = load_scene(name)
-    assert scene.name == name
-    assert scene.title != name
-    assert scene.stress is not None
-
-
-def test_scenes_of_the_ground_disc_share_their_load():
-    """p0 = 4.15 GPa and a = 544.6 um, half of the trace: Bailey and Sayles (1991)."""
-    for name in ("smooth", "smooth-sliding", "ground-unrun", "ground-run-in", "ground-polished"):
-        scene = load_scene(name)
-        modulus = combined_modulus(scene.roller, scene.body)
-        hertz = hertz_from_load(scene.load.value, scene.roller_radius, modulus)
-        assert hertz.peak_pressure == pytest.approx(4.15e9, rel=1e-5)
-        assert hertz.half_width == pytest.approx(544.578e-6, rel=1e-5)
-        if scene.profile is not None:
-            assert scene.position == 1118e-6
-            assert scene.profile.x[[0, -1]] == pytest.approx([-1118e-6, 1118e-6], rel=1e-12)
-            assert scene.profile_info.samples == 2237
-
-
 @pytest.mark.parametrize("tables", [BARE, FULL], ids=["bare", "full"])
 def test_written_out_tables_give_the_scene_again(tables):
     scene = resolved(tables)
@@ -280,34 +256,6 @@ def test_tolerances_of_stresses_are_written_out_with_stress_alone():
     assert with_stress == {**tolerances, "tau1_max": 0.02}
     with pytest.raises(SceneError, match=r"tolerance\.tau1_max: needs a \[stress\] section"):
         resolved({**BARE, "tolerance": {"tau1_max": 0.02}})
-
-
-@pytest.mark.parametrize("name", scene_names())
-def test_written_out_tables_of_a_scene_that_comes_along(name):
-    scene = load_scene(name)
-    again = resolve_tables(
-        json.loads(json.dumps(scene.tables)),
-        name=name,
-        folder=SCENES,
-        source="record.json",
-    )
-    assert again == scene
-    if scene.profile is not None:
-        assert np.array_equal(again.profile.x, scene.profile.x)
-        assert np.array_equal(again.profile.height, scene.profile.height)
-
-
-@pytest.mark.parametrize("name", scene_names())
-def test_as_dict_survives_json(name):
-    scene = load_scene(name)
-    plain = scene.as_dict()
-    assert json.loads(json.dumps(plain, allow_nan=False)) == plain
-    assert plain["name"] == name and plain["title"] == scene.title
-    assert plain["roller"]["radius"] == scene.roller_radius
-    assert plain["load"]["position"] == scene.position
-    assert plain["load"]["friction"] == list(scene.friction)
-    assert (plain["profile"] is None) == (scene.profile is None)
-    assert len(json.dumps(plain)) < 4000
 
 
 def test_as_dict_is_a_copy():

@@ -1,10 +1,10 @@
 """What acts on an inclined surface: tractions, kinks, and the turn into the surface's axes."""
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from analytic.material import Material
 from fem.elasticity import Support, elastic_body
+from fem.kinks import Weights
 from fem.surface_load import SurfaceLoad, from_surface, normal, to_surface
 
 
@@ -25,7 +25,8 @@ def test_the_kinks_exert_the_load(structured_block):
     load = inclined(structured_block, rise, hats, pressure)
     x = np.array([-0.8, -0.5, -0.2, 0.3, 0.7])
     place, every = np.column_stack([x, rise * x]), np.arange(len(x))
-    weights = csr_matrix(np.ones((len(x), len(load.kinks.place))))
+    count = len(load.kinks.place)
+    weights = Weights(0 * every, count * np.arange(len(x) + 1), np.ones(count * len(x)))
     sx, sz, txz = load.kinks.stress(weights, every, place, every[:, None])[:, 0].T
     n = normal(load.tangent(x))
     force = np.column_stack([sx * n[:, 0] + txz * n[:, 1], txz * n[:, 0] + sz * n[:, 1]])
