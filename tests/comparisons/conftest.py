@@ -4,7 +4,12 @@ The run that stands for the finite elements is the same solver on a body one per
 with a structured mesh beside it: what shows results needs results, not a factorisation.
 """
 
+import os
+import signal
+import subprocess
+import time
 from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
@@ -33,6 +38,7 @@ from comparisons.result import result_of
 from comparisons.stages import silent
 from meshes.block import BlockMesh, BlockSpec
 
+PROJECT = Path(__file__).resolve().parents[2]
 MODELS = ("half_plane", "finite_element")
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
@@ -223,3 +229,65 @@ def meshed_once() -> Iterator[None]:
 
     with patch("meshes.build.run_worker", kept):
         yield
+
+
+def running(leader: int) -> list[int]:
+    """Processes that run in a session; zombies have ended."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = path.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[3]) == leader and fields[0] != "Z":
+            found.append(int(path.parent.name))
+    return found
+
+
+@pytest.fixture(scope="session")
+def session() -> Callable[[int], list[int]]:
+    """`session(leader)`: numbers of the processes that run in it, as /proc tells them."""
+    return running
+
+
+@pytest.fixture(scope="session")
+def started() -> Callable[..., AbstractContextManager[subprocess.Popen]]:
+    """`with started("python", …) as process`: a command in a session of its own, of which nothing
+    is left in the end."""
+
+    @contextmanager
+    def opened(*command: object) -> Iterator[subprocess.Popen]:
+        process = subprocess.Popen(
+            list(map(str, command)),
+            cwd=PROJECT,
+            env=os.environ | {"PYTHONPATH": str(PROJECT)},
+            start_new_session=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        try:
+            yield process
+        finally:
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGKILL)
+            for number in running(process.pid):
+                os.kill(number, signal.SIGKILL)
+            process.communicate()
+
+    return opened
+
+
+@pytest.fixture(scope="session")
+def until() -> Callable[..., bool]:
+    """`until(condition, patience)`: whether it came true in so many seconds."""
+
+    def came_true(condition: Callable[[], bool], patience: float = 60.0) -> bool:
+        end = time.monotonic() + patience
+        while time.monotonic() < end:
+            if condition():
+                return True
+            time.sleep(0.02)
+        return False
+
+    return came_true

@@ -3,10 +3,7 @@
 import json
 import os
 import signal
-import subprocess
 import sys
-import time
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,7 +19,6 @@ from comparisons.cost_store import FOLDER, CostStore
 from comparisons.resolve import resolve_tables
 from comparisons.stages import silent
 
-PROJECT = Path(__file__).resolve().parents[2]
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
     "title": "Smooth",
@@ -204,35 +200,6 @@ class TestGoesOn:
         assert first.hertz.load_per_length == problem_of_approach(given, silent).constraints().load
 
 
-@contextmanager
-def started(*command: object):
-    """A command in a session of its own, of which nothing is left in the end."""
-    process = subprocess.Popen(
-        list(map(str, command)),
-        cwd=PROJECT,
-        env=os.environ | {"PYTHONPATH": str(PROJECT)},
-        start_new_session=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        yield process
-    finally:
-        if process.poll() is None:
-            os.killpg(process.pid, signal.SIGKILL)
-        process.communicate()
-
-
-def until(condition, patience: float = 60.0) -> bool:
-    end = time.monotonic() + patience
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.02)
-    return False
-
-
 @pytest.fixture
 def command(tmp_path) -> tuple:
     """`crosscheck cost` of a small scene, and its folder."""
@@ -247,7 +214,7 @@ def command(tmp_path) -> tuple:
     return (sys.executable, program, "cost", scene, "--repeats", 1, "--out", out), out
 
 
-def test_a_ctrl_c_ends_it_and_the_same_command_goes_on(command):
+def test_a_ctrl_c_ends_it_and_the_same_command_goes_on(command, started, until):
     words, out = command
     with started(*words) as process:
         assert until(lambda: len(kept(out)) >= 1)

@@ -4,10 +4,8 @@ import io
 import json
 import os
 import signal
-import subprocess
 import sys
 import threading
-import time
 from concurrent.futures import BrokenExecutor, Executor, Future
 from contextlib import contextmanager
 from pathlib import Path
@@ -27,7 +25,6 @@ from comparisons.maps.store import FOLDER, PointStore
 from comparisons.maps.sweep import DIED, sweep
 from comparisons.maps.table import map_table
 
-PROJECT = Path(__file__).resolve().parents[2]
 SCENE = """
 title = "Small"
 
@@ -79,52 +76,11 @@ def kept(out: Path) -> dict[str, int]:
     return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.json")}
 
 
-def session(leader: int) -> list[int]:
-    """Processes that run in a session; zombies have ended."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            fields = path.read_text().rpartition(")")[2].split()
-        except OSError:
-            continue
-        if int(fields[3]) == leader and fields[0] != "Z":
-            found.append(int(path.parent.name))
-    return found
-
-
-def until(condition, patience: float = 60.0) -> bool:
-    end = time.monotonic() + patience
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.02)
-    return False
-
-
-@contextmanager
-def started(*command: str | Path):
-    """A command in a session of its own, of which nothing is left in the end."""
-    environment = os.environ | {"PYTHONPATH": str(PROJECT)}
-    process = subprocess.Popen(
-        list(map(str, command)),
-        cwd=PROJECT,
-        env=environment,
-        start_new_session=True,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        yield process
-    finally:
-        for number in session(process.pid):
-            os.kill(number, signal.SIGKILL)
-        process.communicate()
-
-
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc to look in")
 class TestStopped:
-    def test_killed_and_interrupted_it_ends_with_the_same_map(self, scene, undisturbed, tmp_path):
+    def test_killed_and_interrupted_it_ends_with_the_same_map(
+        self, scene, undisturbed, started, session, until, tmp_path
+    ):
         """No worker outlives its map, and no finished point is computed again."""
         out, before = tmp_path / "out", {}
         for enough, stop, status in ((1, self.kill, -9), (2, self.interrupt, 130)):
