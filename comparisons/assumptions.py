@@ -1,5 +1,6 @@
 """What the models of a scene take for granted, in words: both alike, or the half-plane alone."""
 
+from comparisons.nearest_operator import is_layered
 from comparisons.problem import Problem
 from comparisons.running_in import running_in_assumptions
 from comparisons.scene import FiniteElementSettings
@@ -76,13 +77,15 @@ def _roller(settings: FiniteElementSettings, rigid: bool) -> str:
 
 def _friction(problem: Problem) -> str:
     scene, beta = problem.scene, problem.dundurs_beta
-    size = f"(friction times Dundurs' beta is {max(scene.friction) * abs(beta):.3g})"
-    moves = f"the sliding traction moves the surfaces {size}"
+    product = max(scene.friction) * abs(beta)
+    # by itself it tells how much of half-planes alone
+    size = "" if is_layered(scene) else f" (friction times Dundurs' beta is {product:.3g})"
+    moves = f"the sliding traction moves the surfaces{size}"
     still = "the sliding traction does not change the pressure"
     if scene.coupled == scene.finite_element.coupled:
         if scene.coupled:
             return moves
-        return still + (" (exact: Dundurs' beta is 0)" if beta == 0.0 else f" {size}")
+        return still + (" (exact: Dundurs' beta is 0)" if size and beta == 0.0 else size)
     which = ("half-plane", "finite elements")
     mover, other = which if scene.coupled else which[::-1]
     return f"{mover}: {moves}; {other}: {still}"

@@ -214,3 +214,12 @@ def test_assumptions_say_what_is_dropped(given, said, unsaid):
     spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, given))))
     assert said in spoken
     assert unsaid is None or unsaid not in spoken
+
+
+@pytest.mark.parametrize(("thickness", "exact"), [(None, True), (1e-3, False)])
+def test_friction_is_without_effect_on_half_planes_alone(thickness, exact):
+    """Of like bodies: a layer's surface is moved by it."""
+    body = STEEL if thickness is None else {**STEEL, "thickness": thickness}
+    tables = {**ELASTIC, "body": body, "load": {**ELASTIC["load"], "friction": 0.1}}
+    [spoken] = [s for s in assumptions_of(problem_of(scene_of(tables))) if "traction" in s]
+    assert ("Dundurs" in spoken) is exact
