@@ -171,7 +171,8 @@ def _facts(outcome: Outcome) -> "Table":
         for name, run in outcome.runs.items()
     )
     if outcome.budget is not None and outcome.budget.seconds:
-        times += f", error budget {with_unit(outcome.budget.seconds, 's', 3)}".translate(PLAIN)
+        seconds = with_unit(outcome.budget.seconds, "s", 3)
+        times += f", error budget {seconds} of all cores together".translate(PLAIN)
     facts = Table.grid(padding=(0, 2))
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")

@@ -21,7 +21,7 @@ COLUMNS = {
     **{name: label(name) for name in FIGURES},
     **{f"own_error_{name}": f"own error: {label(name)}" for name in QUANTITIES},
     **{f"seconds_{name}": f"time, {words}" for name, words in LABELS.items()},
-    "seconds_budget": "time, error budget",
+    "seconds_budget": "time of all cores, error budget",
 }
 
 
