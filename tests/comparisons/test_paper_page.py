@@ -231,7 +231,8 @@ def test_an_interrupt_leaves_nothing(monkeypatch, tmp_path, capsys, step):
     monkeypatch.setattr(reproduce, "claims", tuple)
     monkeypatch.setattr(reproduce, step, stopped)
     assert cli.main(["paper", "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
-    assert capsys.readouterr() == ("", "crosscheck: interrupted\n")
+    said = "crosscheck: interrupted; nothing was written, the same command starts again\n"
+    assert capsys.readouterr() == ("", said)
     assert list(tmp_path.iterdir()) == []
 
 
