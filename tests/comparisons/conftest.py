@@ -214,12 +214,17 @@ def undrawn(no_pictures: Callable[[Outcome], Pictures]) -> Iterator[None]:
         yield
 
 
-@pytest.fixture(scope="session", autouse=True)
-def meshed_once() -> Iterator[None]:
+@pytest.fixture(scope="session")
+def meshed() -> dict[str, dict[str, np.ndarray]]:
+    """What gmsh has answered so far, by what it was asked."""
+    return {}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def meshed_once(meshed: dict[str, dict[str, np.ndarray]]) -> Iterator[None]:
     """gmsh is asked for each mesh once: most of its time goes into its start, and it gives the same
-    to the last bit (`tests/meshes`), as scenes of many modules do."""
-    made: dict[str, dict[str, np.ndarray]] = {}
-    mesh = meshes.build.run_worker
+    to the last bit, as scenes of many modules do. Not so in `tests/meshes`, which tell of that."""
+    mesh, made = meshes.build.run_worker, meshed
 
     def kept(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
         asked = digest(*(np.frombuffer(task[name].tobytes(), np.uint8) for name in sorted(task)))

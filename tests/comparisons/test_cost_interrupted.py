@@ -47,8 +47,9 @@ def scene(**sections):
 
 
 def kept(out: Path) -> dict[str, int]:
-    """The measured settings, and when each was written."""
-    return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
+    """The measured settings, and when each was written; an interrupt may leave one in part."""
+    whole = (path for path in (out / FOLDER).glob("*.npz") if ".part." not in path.name)
+    return {path.name: path.stat().st_mtime_ns for path in whole}
 
 
 class Here:
