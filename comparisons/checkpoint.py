@@ -2,13 +2,15 @@
 
 The folder is hidden in the run's own, or beside it while there is none, and goes when the run
 has ended. What a level is good for is told by a key, the hash of everything that shapes it: scene,
-profile, models, versions, and the program's own text.
+profile, models, versions, and the program's own code.
 """
 
 import hashlib
 import json
+import marshal
 import shutil
 from pathlib import Path
+from types import CodeType
 
 from analytic.contact import ContactSolution, Residuals
 from analytic.gap import HatGrid
@@ -72,16 +74,26 @@ class Checkpoint:
 
 
 def key_of(scene: ResolvedScene, *others: object) -> str:
-    """Hash of a scene, its profile, what `others` say in JSON, versions and the program's text."""
+    """Hash of a scene, its profile, what `others` say in JSON, versions and the program's code."""
     profile = "" if scene.profile is None else digest(scene.profile.x, scene.profile.height)
-    parts = [scene.tables, profile, *others, versions(), program_text()]
+    parts = [scene.tables, profile, *others, versions(), program_code()]
     return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 
-def program_text() -> str:
-    """Hash of the program itself: another one may give other figures."""
-    text = hashlib.sha256()
+def program_code() -> str:
+    """Hash of what the program computes with: its code without comments, docstrings and places of
+    lines, which shape no figure."""
+    total = hashlib.sha256()
     for package in PACKAGES:
         for path in sorted((SOURCES / package).rglob("*.py")):
-            text.update(path.read_bytes())
-    return text.hexdigest()
+            code = compile(path.read_bytes(), path.name, "exec", dont_inherit=True, optimize=2)
+            total.update(
+                marshal.dumps(_placeless(code), 2)
+            )  # 2: without references, so always alike
+    return total.hexdigest()
+
+
+def _placeless(code: CodeType) -> CodeType:
+    """A module's or function's code without the lines that it stands on."""
+    constants = tuple(_placeless(c) if isinstance(c, CodeType) else c for c in code.co_consts)
+    return code.replace(co_consts=constants, co_firstlineno=0, co_linetable=b"")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from comparisons.checkpoint import program_text
+from comparisons.checkpoint import program_code
 from comparisons.errors import InputError, SceneError
 from comparisons.maps.axes import Axis, axis_of, counts_of, usual_axes
 from comparisons.maps.groups import Origin, finite_elements, tables_with
@@ -77,7 +77,7 @@ class MapRequest:
 
         Raises SceneError where no point can be asked for, with what is wrong at the first.
         """
-        program = [versions(), program_text()]
+        program = [versions(), program_code()]
         points = tuple(self._asked(x, y, program) for y in self.y.values for x in self.x.values)
         if all(point.tables is None for point in points):
             raise SceneError(points[0].why)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from comparisons import checkpoint
 from comparisons.checkpoint import Checkpoint
 
 
@@ -76,3 +77,17 @@ def test_one_process_of_several_keeps_levels(kept, level, monkeypatch):
     monkeypatch.setenv("PMIX_RANK", "1")
     kept.discard()
     assert names(kept.folder) == ["first.npz"]
+
+
+def test_the_key_follows_the_code_and_not_its_text(tmp_path, monkeypatch):
+    def key(text):
+        (tmp_path / "analytic").mkdir(exist_ok=True)
+        (tmp_path / "analytic/law.py").write_text(text)
+        return checkpoint.program_code()
+
+    monkeypatch.setattr(checkpoint, "SOURCES", tmp_path)
+    law = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
+    told = '"""Halves."""\n\n\ndef half(x):  # of x\n    """Half of x."""\n\n    return x / 2\n'
+    assert key(told) == key(law)
+    assert key(law.replace("2", "3")) != key(law)
+    assert key(law.replace("x / 2", "2 * x")) != key(law)

@@ -116,7 +116,7 @@ class TestStore:
         [
             ("comparisons.cost_store.machine", {"processor": "another"}),
             ("comparisons.checkpoint.versions", {"numpy": "0"}),
-            ("comparisons.checkpoint.program_text", "another"),
+            ("comparisons.checkpoint.program_code", "another"),
         ],
     )
     def test_another_machine_or_version_measures_anew(
