@@ -31,13 +31,13 @@ from typing import Literal
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.equilibrium import SET_TOLERANCE, Constraints
+from analytic.contact.equilibrium import SET_TOLERANCE, Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.hertz import hertz_from_load
-from analytic.form import trapezoid_widths
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
+from analytic.surface.form import trapezoid_widths
 
 SETTLED = 1e-3  # of all the volume moved: a sweep that moves no more is the last
 SWEEPS = 10  # at most, unless the caller says otherwise

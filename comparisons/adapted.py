@@ -3,8 +3,8 @@
 The half-plane predicts where the body is touched. Hats and element edges are graded towards the
 ends of contact (`meshes.end_grading`), the body is meshed and pressed; the solution then says
 where the ends are, how far its hats are from a smooth pressure on each patch
-(`analytic.smooth_pressure`) and which elements err (`fem.error_indicator`), and the next round
-takes hats and elements by that. Inside, the half-plane of the same hats leads the iteration.
+(`analytic.contact.smooth_pressure`) and which elements err (`fem.error_indicator`), and the next
+round takes hats and elements by that. Inside, the half-plane of the same hats leads the iteration.
 
 Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
 quarter and a thirteenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
@@ -15,15 +15,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.defect import solve_with_model
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid, hat_averages
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.smooth_pressure import Patch, smooth_pressure
+from analytic.grid import HatGrid, hat_averages
 from analytic.material import Material
-from analytic.operators import DenseCompliance, HalfPlane, SumOfBodies
-from analytic.patches import contact_patches
-from analytic.smooth_pressure import Patch, smooth_pressure
-from analytic.unequal_hats import half_plane_matrix, hat_weights
+from analytic.operators.half_plane import DenseCompliance, HalfPlane, SumOfBodies
+from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 from comparisons.adapted_refinement import FEWEST_EDGES, MOST_FINER, next_edges, next_sizes
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody, Support, elastic_body

@@ -10,7 +10,7 @@ fall with their number on a patch and with their size.
 
 import numpy as np
 
-from analytic.smooth_pressure import Patch
+from analytic.contact.smooth_pressure import Patch
 
 FEWEST_EDGES, MOST_FINER = 5, 4.0  # on half a patch; by how much a round may refine it
 

@@ -12,9 +12,9 @@ import shutil
 from pathlib import Path
 from types import CodeType
 
-from analytic.contact import ContactSolution, Residuals
-from analytic.gap import HatGrid
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.contact.problem import ContactSolution, Residuals
+from analytic.grid import HatGrid
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.files import unfinished
 from comparisons.kept import keep, kept
 from comparisons.level import Level, MeshField, StressResult

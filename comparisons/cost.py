@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from analytic.contact import ContactError
+from analytic.contact.problem import ContactError
 from comparisons.cost_choice import Assessed, Choice, choices, followed, pareto
 from comparisons.cost_methods import METHODS, Method
 from comparisons.cost_reference import Reference, error_of, references

@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.gap import HatGrid
-from analytic.operators import DenseCompliance, HalfPlane
-from analytic.plane_stress import Extremum
-from analytic.stress_field import friction_field
-from analytic.stress_maxima import stress_maxima
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.stress.field import friction_field
+from analytic.stress.maxima import stress_maxima
+from analytic.stress_state import Extremum
 from comparisons.compare import figures
 from comparisons.cost_methods import Method
 from comparisons.half_plane import half_plane_level
@@ -115,7 +115,7 @@ def _plain_half_plane(
 
 
 def _patches(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
-    from analytic.patches import contact_patches
+    from analytic.contact.patches import contact_patches
 
     return contact_patches(grid.x, solution.pressure, solution.gap)
 
@@ -165,7 +165,7 @@ def _stresses(
 
 def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: Stages) -> Answer:
     """On a mesh and hats that the contact chooses; a block with the half-plane's far field."""
-    from analytic.roughness import shortest_wavelength
+    from analytic.surface.roughness import shortest_wavelength
     from comparisons.adapted import Pressing, adapted_contact
     from comparisons.finite_element_stress import Pressed, stresses_of
     from fem.stress import nodal_stress

@@ -1,17 +1,17 @@
 """What the half-plane's figures become where sliding traction moves the surfaces.
 
 Traction that slides along unlike bodies also moves their surfaces up and down, by friction times
-Dundurs' beta (`analytic.coupling`), which the published method and the finite elements leave out.
-The half-plane is solved both ways on its finest pressure elements, so that the difference is that
-of the mechanics alone.
+Dundurs' beta (`analytic.operators.tangential`), which the published method and the finite elements
+leave out. The half-plane is solved both ways on its finest pressure elements, so that the
+difference is that of the mechanics alone.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.gap import HatGrid
-from analytic.patches import CLEAR
+from analytic.contact.patches import CLEAR
+from analytic.grid import HatGrid
 from comparisons.compare import figures, norms
 from comparisons.half_plane import half_plane_on
 from comparisons.level import Level, ModelRun, Window

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from comparisons.level import Level
 from comparisons.problem import Problem
 

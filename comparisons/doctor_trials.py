@@ -209,7 +209,7 @@ OPTIONAL = (
 import sys, tempfile
 from pathlib import Path
 sys.modules["mpi4py"] = None
-from analytic.profile_files import read_measured
+from analytic.surface.readers.files import read_measured
 SDF = (
     "aISO-1.0\\nNumPoints = 5\\nNumProfiles = 1\\nXscale = 1e-6\\nYscale = 1e-6\\nZscale = 1e-6\\n"
     "DataType = 7\\n*\\n0 1 0 2 0\\n*\\n"

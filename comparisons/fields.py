@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 from comparisons.level import ModelRun
 from comparisons.outcome import Outcome
 from comparisons.scene import ResolvedScene

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.patches import contact_patches
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
 from comparisons.finite_element_bodies import BodyStore, bodies_of
 from comparisons.finite_element_contact import mutual_compliance, solve_mutual
 from comparisons.finite_element_cost import expected, refuse_too_large

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.defect import solve_with_coupled_model, solve_with_model
-from analytic.dense_coupling import DenseCoupledCompliance
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid
-from analytic.operators import DenseCompliance, ModelOperator
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.operators.dense_tangential import DenseCoupledCompliance
+from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from comparisons.finite_element_bodies import Bodies
 from comparisons.problem import Problem
 from fem.compliance import FiniteElementCompliance

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact import ContactSolution, assessed
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid
-from analytic.patches import contact_patches
-from analytic.plane_stress import von_mises
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, assessed
+from analytic.grid import HatGrid
+from analytic.stress_state import von_mises
 from comparisons.finite_element_contact import MutualCompliance, roller_of
 from comparisons.finite_element_cost import flow_increments
 from comparisons.finite_element_stress import DeformedSurface, Pressed

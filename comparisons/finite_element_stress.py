@@ -5,10 +5,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from analytic.contact import ContactSolution
-from analytic.gap import HatGrid
-from analytic.patches import contact_patches
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.deformed import mean_height
 from comparisons.finite_element_contact import MutualCompliance, roller_normal
 from comparisons.level import MeshField, StressResult, Window

@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.gap import HatGrid
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
-from analytic.stress_field import friction_field
-from analytic.stress_maxima import stress_maxima
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.patches import contact_patches
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.field import friction_field
+from analytic.stress.maxima import stress_maxima
 from comparisons.expected import Expected
 from comparisons.level import Level, StressResult, Window
 from comparisons.plan import Plan

@@ -4,9 +4,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from analytic.contact import ContactSolution
-from analytic.gap import HatGrid
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.operator_check import OperatorCheck
 from meshes.block import BlockMesh
 

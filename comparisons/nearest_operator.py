@@ -4,13 +4,13 @@ It predicts where finite elements will touch, and is the model of their outer it
 answer is checked on the finite elements themselves.
 """
 
-from analytic.coupling import CoupledHalfPlane, CoupledPair
-from analytic.gap import HatGrid
-from analytic.layer import LayeredSurface
-from analytic.layer_coupling import TangentialLayer
-from analytic.layered import LayeredBody
+from analytic.grid import HatGrid
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.layers.tangential import TangentialLayer
 from analytic.material import combined_modulus, dundurs_constants
-from analytic.operators import HalfPlane, ModelOperator, SumOfConvolutions
+from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
+from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
 from comparisons.scene import ResolvedScene
 
 

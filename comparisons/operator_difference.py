@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.coupling import CoupledHalfPlane
-from analytic.gap import HatGrid
-from analytic.operators import ComplianceOperator, ModelOperator
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import ComplianceOperator, ModelOperator
+from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.nearest_operator import is_layered
 from comparisons.operator_check import Column, Differences, OperatorCheck, Wave, judged
 from comparisons.problem import Problem

@@ -10,17 +10,17 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.equilibrium import Constraints
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
-from analytic.gap import HatGrid, roller_gap
+from analytic.grid import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
-from analytic.operators import ModelOperator
-from analytic.patches import contact_patches
+from analytic.operators.half_plane import ModelOperator
+from analytic.operators.tangential import CoupledHalfPlane
 from analytic.profile import surface
-from analytic.roughness import shortest_wavelength
+from analytic.surface.roughness import shortest_wavelength
 from comparisons.errors import SceneError
 from comparisons.nearest_operator import is_layered, nearest_operator
 from comparisons.running_in import run_in_scene

@@ -12,7 +12,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from analytic.contact import KKT_TOLERANCE
+from analytic.contact.problem import KKT_TOLERANCE
 
 Value = float | int | bool | str | None
 Path = tuple[str | int, ...]

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from analytic.profile import Profile
-from analytic.profile_files import MeasuredProfile
+from analytic.surface.readers.files import MeasuredProfile
 from comparisons.errors import InputError
 from comparisons.plan import MODELS
 from comparisons.record import SCHEMA, digest

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from analytic.contact import ContactError
+from analytic.contact.problem import ContactError
 from comparisons.budget.budget import error_budget
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compared, pair_histories

@@ -4,13 +4,13 @@ from dataclasses import asdict, replace
 
 import numpy as np
 
-from analytic.contact import ContactError
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactError
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
 from analytic.profile import Profile
-from analytic.roughness import roughness, shortest_wavelength
 from analytic.running_in import run_in
+from analytic.surface.roughness import roughness, shortest_wavelength
 from comparisons.errors import SceneError
 from comparisons.report.numbers import given, with_unit
 from comparisons.scene import ResolvedScene

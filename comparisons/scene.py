@@ -9,12 +9,12 @@ import math
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
-from analytic.form import RemovedForm
 from analytic.material import Material
 from analytic.profile import Profile
-from analytic.roughness import Roughness
-from analytic.roughness_standard import StandardRoughness
 from analytic.running_in import RunIn
+from analytic.surface.form import RemovedForm
+from analytic.surface.roughness import Roughness
+from analytic.surface.roughness_standard import StandardRoughness
 
 
 @dataclass(frozen=True)

@@ -7,20 +7,20 @@ from math import hypot, sqrt
 from pathlib import Path
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.filters import check_cutoff, filtered
-from analytic.form import RemovedForm, remove_form
 from analytic.material import Material, combined_modulus
 from analytic.profile import Profile
-from analytic.profile_files import MeasuredProfile, MissingUnitError, read_measured
-from analytic.roughness import roughness
-from analytic.roughness_standard import (
+from analytic.surface.filters import check_cutoff, filtered
+from analytic.surface.form import RemovedForm, remove_form
+from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
+from analytic.surface.readers.topography import MapLine
+from analytic.surface.roughness import roughness
+from analytic.surface.roughness_standard import (
     standard_cutoff,
     standard_roughness,
     standard_short_cutoff,
 )
-from analytic.synthetic import ground_texture, self_affine, sinusoid
-from analytic.topography import MapLine
-from analytic.turned import turned
+from analytic.surface.synthetic import ground_texture, self_affine, sinusoid
+from analytic.surface.turned import turned
 from comparisons.errors import SceneError
 from comparisons.scene import Load, ProfileInfo
 from comparisons.scene_profile_fields import AUTOMATIC
@@ -156,7 +156,8 @@ def _chosen(table: Mapping) -> MapLine | None:
 
 
 def _made(table: Mapping, source: str, kept: KeptTrace | None) -> tuple[Profile, dict]:
-    """The profile that `analytic.synthetic` makes, about its mean line, and where it comes from."""
+    """The profile that `analytic.surface.synthetic` makes, about its mean line, and where it comes
+    from."""
     parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
     try:
         trace = kept.read.profile if kept else _MAKERS[table["kind"]](**parameters)

@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import model_validator
 
 from analytic.profile import MAX_SAMPLES
-from analytic.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
+from analytic.surface.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
 from comparisons.scene_fields import Choice, Number, Text, Unit, Whole
 from comparisons.scene_profile_fields import CutOff, Segment
 from comparisons.scene_table import FieldError, Length, Table, allowed
@@ -20,8 +20,8 @@ Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 class ProfileTable(Table):
     """A measured profile (`file`) or a made one (`kind`).
 
-    The parameters of a made profile are those of `analytic.synthetic`, which also checks how
-    they fit together.
+    The parameters of a made profile are those of `analytic.surface.synthetic`, which also checks
+    how they fit together.
     """
 
     file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.cases import ExactContact
 from analytic.exact.gallery import exact_contacts
 from analytic.exact.layer_references import LayerReference, layer_references
-from analytic.gap import HatGrid, roller_gap
-from analytic.layer import LayeredSurface
-from analytic.layered import LayeredBody
+from analytic.grid import HatGrid, roller_gap
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators import HalfPlane, ModelOperator
-from analytic.patches import contact_patches
-from analytic.periodic import PeriodicHalfPlane
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.compare import PRESSURE_PER_RESIDUAL, length_resolution
 from comparisons.quantities import QUANTITIES
 from comparisons.uncertainty import grid_convergence

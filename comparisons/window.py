@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.stress_field import graded_depths
+from analytic.stress.field import graded_depths
 from comparisons.errors import SceneError
 from comparisons.level import Window
 from comparisons.problem import Problem

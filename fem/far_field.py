@@ -43,7 +43,8 @@ class FarField:
     body      of one material, held all round by Support("bonded", "fixed"), perhaps with `within`
     centre    of the moments [m]              reach   half of the stretch [m]
     terms     moments of each traction, by TRUNCATION
-    datum     L [m]: stop - start, that of `analytic.operators.HalfPlane` on the same hats
+    datum     L [m]: stop - start, that of `analytic.operators.half_plane.HalfPlane` on the same
+              hats
     moments   (2 terms, 2k) those of unit forces at the surface's nodes; of x forces first
     lifted    (2k, 2 terms) [m^2/N] displacement of the surface that goes with unit moments: one
               back-substitution each

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 from fem import compat
 from fem.elasticity import ElasticBody, quadrature_degree
 from fem.just_in_time import compiled

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analytic.plane_stress import Extremum
+from analytic.stress_state import Extremum
 from fem.elasticity import ElasticBody
 from fem.stress import NodalStress, within
 from fem.stress_nodes import MaterialStress

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.plane_stress import PlaneStress, von_mises
+from analytic.stress_state import PlaneStress, von_mises
 from fem.plasticity import PlasticBody
 from fem.press_plastic import PlasticContact
 from fem.triangle import GAUSS, reference_nodes

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 from fem.elasticity import ElasticBody
 from fem.kinks import Kinks
 from fem.recovery import recovered_stress

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 from fem.elasticity import ElasticBody
 
 

@@ -13,7 +13,7 @@ from analytic.exact.hertz import hertz_extremes, hertz_from_peak_pressure
 from analytic.exact.rounded_punch import rounded_punch_from_half_width
 from analytic.exact.sliding import sliding_from_load
 from analytic.exact.westergaard import westergaard_from_mean_pressure
-from analytic.gap import roller_gap
+from analytic.grid import roller_gap
 from analytic.material import Material, combined_modulus, dundurs_constants
 
 Curve = Callable[[np.ndarray], np.ndarray]

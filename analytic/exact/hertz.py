@@ -25,8 +25,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import root
 
-from analytic.checks import check_positive
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.numerics import check_positive
+from analytic.stress_state import Extremum, PlaneStress
 
 _OfShear = Callable[[np.ndarray], np.ndarray]
 _OfSlope = Callable[[complex, np.ndarray], np.ndarray]

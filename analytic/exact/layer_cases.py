@@ -9,7 +9,7 @@ from analytic.exact.layer_limits import (
     thin_compressible_layer,
     thin_incompressible_layer,
 )
-from analytic.layered import Base, LayeredBody
+from analytic.layers.layered import Base, LayeredBody
 from analytic.material import Material
 
 NYLON = Material(3e9, 0.3)

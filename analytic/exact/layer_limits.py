@@ -39,9 +39,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import quad
 
-from analytic.checks import check_positive
-from analytic.layered import Base
+from analytic.layers.layered import Base
 from analytic.material import Material
+from analytic.numerics import check_positive
 
 _LAST = 50.0  # w at which 1 - K, about 4 w^2 e^-2w, is long below rounding
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from analytic.layered import Base
+from analytic.layers.layered import Base
 
 TABLE = Path(__file__).with_name("layer_contact.json")
 

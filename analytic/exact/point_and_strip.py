@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
 from analytic.material import Material
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 
 _FAR = 3.0  # distance from the middle in a, from which Gauss's points stand for the load
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)  # (3 + sqrt 8)^-48 is left out there

@@ -34,8 +34,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi
 
-from analytic.checks import check_positive
-from analytic.plane_stress import PlaneStress
+from analytic.numerics import check_positive
+from analytic.stress_state import PlaneStress
 
 # Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
 # points the remainder is below (2 - sqrt 3)^64.

@@ -11,7 +11,7 @@ from analytic.exact.point_and_strip import (
     strip_load_stress,
     triangle_load_stress,
 )
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 
 Field = Callable[[np.ndarray, np.ndarray], PlaneStress]
 Curve = Callable[[np.ndarray], np.ndarray]

@@ -32,9 +32,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic.checks import check_positive
 from analytic.exact.differences import sinh_minus_argument
-from analytic.plane_stress import PlaneStress
+from analytic.numerics import check_positive
+from analytic.stress_state import PlaneStress
 
 # Depth pi z/lambda from which nothing of the wave is left and its hyperbolic functions overflow.
 _DEEP = 300.0

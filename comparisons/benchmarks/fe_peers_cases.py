@@ -16,12 +16,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators import HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from comparisons.benchmarks.fe_peers_task import Answer, Task, gap
 
 MATERIAL = Material(1.0, 0.3)

@@ -3,7 +3,7 @@
 Block, elastic body, its compliance on hats, and the contact on it with the half-plane as the model
 of the outer iteration. The first argument of the program gives the degree of the displacements and
 how many hats stand on an element edge, in two digits; an s after them asks for the smooth curves
-behind the hats (`analytic.smooth_pressure`) in place of the hats.
+behind the hats (`analytic.contact.smooth_pressure`) in place of the hats.
 """
 
 import sys
@@ -16,8 +16,8 @@ from comparisons.benchmarks.fe_peers_task import Task, run_program
 SAMPLES = 200  # of the smooth curve of a patch
 
 if TYPE_CHECKING:
-    from analytic.contact import ContactSolution
-    from analytic.equilibrium import Constraints
+    from analytic.contact.equilibrium import Constraints
+    from analytic.contact.problem import ContactSolution
 
 
 def contact_of(
@@ -27,10 +27,10 @@ def contact_of(
 
     Raises RuntimeError where the contact has not converged.
     """
-    from analytic.defect import solve_with_model
-    from analytic.gap import HatGrid
+    from analytic.contact.defect_correction import solve_with_model
+    from analytic.grid import HatGrid
     from analytic.material import Material
-    from analytic.operators import HalfPlane
+    from analytic.operators.half_plane import HalfPlane
     from fem.compliance import FiniteElementCompliance
     from fem.elasticity import elastic_body
     from fem.support import Support
@@ -56,7 +56,7 @@ def contact_of(
 
 def smooth_curves(feet: np.ndarray, solution: "ContactSolution") -> tuple[np.ndarray, np.ndarray]:
     """Places [m], dense towards the ends of each patch, and the smooth pressure [Pa] there."""
-    from analytic.smooth_pressure import smooth_pressure
+    from analytic.contact.smooth_pressure import smooth_pressure
 
     share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, SAMPLES)))
     places, pressure = [], []
@@ -70,7 +70,7 @@ def smooth_curves(feet: np.ndarray, solution: "ContactSolution") -> tuple[np.nda
 
 def main(settings: str, *files: str) -> None:
     """Solve the task in the first file into the second."""
-    from analytic.equilibrium import Constraints
+    from analytic.contact.equilibrium import Constraints
 
     def solve(task: Task) -> tuple[np.ndarray, np.ndarray, int, int]:
         degree, hats = map(int, settings[:2])

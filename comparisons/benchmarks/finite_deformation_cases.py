@@ -11,13 +11,13 @@ from typing import Literal
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.gap import HatGrid, roller_gap
+from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material
-from analytic.operators import HalfPlane
-from analytic.synthetic import self_affine
+from analytic.operators.half_plane import HalfPlane
+from analytic.surface.synthetic import self_affine
 
 MATERIAL = Material(1.0, 0.3)
 BLOCK = 400.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.patches import contact_patches
+from analytic.contact.patches import contact_patches
 from comparisons.benchmarks.finite_deformation_cases import BLOCK, MATERIAL, Case
 from fem.compliance import FiniteElementCompliance
 from fem.contact_terms import Contact, LinearContact, LinearResponse

@@ -40,12 +40,12 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from analytic.contact import ContactError, solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactError, solve_contact
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.gap import HatGrid, roller_gap
+from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material
-from analytic.operators import HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
 from fem.press_plastic import press_plastically

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.defect import solve_with_model
-from analytic.equilibrium import Constraints
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.smooth_pressure import Patch, smooth_pressure
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators import HalfPlane
-from analytic.smooth_pressure import Patch, smooth_pressure
+from analytic.operators.half_plane import HalfPlane
 from comparisons.adapted import Pressing, adapted_contact, half_plane_block
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body

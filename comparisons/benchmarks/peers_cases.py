@@ -18,12 +18,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
 from analytic.exact.westergaard import westergaard_from_half_width
-from analytic.periodic import PeriodicHalfPlane
-from analytic.synthetic import self_affine
+from analytic.operators.periodic import PeriodicHalfPlane
+from analytic.surface.synthetic import self_affine
 
 CONTACT_SHARE = 0.1  # of the rough line in contact
 HALF_WIDTH = 0.25  # a/L of the smooth cases

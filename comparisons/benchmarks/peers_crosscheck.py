@@ -10,10 +10,10 @@ from typing import Literal
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
-from analytic.operators import HalfPlane, ModelOperator
-from analytic.periodic import PeriodicHalfPlane
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.benchmarks.peers_cases import Case
 from comparisons.benchmarks.peers_code import Answer, Code, decades
 

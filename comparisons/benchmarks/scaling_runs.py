@@ -9,11 +9,11 @@ from functools import lru_cache, partial
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.convolution import Convolution
-from analytic.equilibrium import Constraints
-from analytic.operators import HalfPlane, ModelOperator
-from analytic.periodic import PeriodicHalfPlane
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.operators.convolution import Convolution
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.benchmarks import peers_cases
 from comparisons.benchmarks.scaling_growth import Growth
 from comparisons.benchmarks.scaling_memory import peak_memory

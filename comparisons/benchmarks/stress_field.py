@@ -2,8 +2,8 @@
 
     python -m comparisons.benchmarks.stress_field
 
-A field on a grid by convolution (`analytic.stress_field`) and scattered points by the tree
-(`analytic.stress_tree`), both beside the sums of `comparisons.benchmarks.direct_stress`.
+A field on a grid by convolution (`analytic.stress.field`) and scattered points by the tree
+(`analytic.stress.tree`), both beside the sums of `comparisons.benchmarks.direct_stress`.
 
 Exit status 0 only if the field takes at most 1/300 of the time of the textbook's sum over hats, the
 closed form of every element at every point, and differs by no more than 1e-12 of the largest stress
@@ -21,12 +21,12 @@ from typing import TypeVar
 import numpy as np
 
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.plane_stress import PlaneStress
-from analytic.stress import stress_at
-from analytic.stress_elements import FrictionStress
-from analytic.stress_field import friction_field, stress_field
-from analytic.stress_kernels import circle
-from analytic.stress_line import direct_stress
+from analytic.stress.elements import FrictionStress
+from analytic.stress.field import friction_field, stress_field
+from analytic.stress.kernels import circle
+from analytic.stress.line import direct_stress
+from analytic.stress.points import stress_at
+from analytic.stress_state import PlaneStress
 from comparisons.benchmarks.direct_stress import FRICTION, direct, hats, shared_nodes, strips
 
 _BLOCK = 2**15  # values of a kernel at a time

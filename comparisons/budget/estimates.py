@@ -15,7 +15,7 @@ surfaces is measured on the half-plane (`comparisons.coupling`) where it is know
 from collections.abc import Iterable
 
 from analytic.material import dundurs_constants
-from analytic.roughness import shortest_wavelength
+from analytic.surface.roughness import shortest_wavelength
 from comparisons.coupling import Coupling
 from comparisons.problem import Problem
 from comparisons.quantities import QUANTITIES

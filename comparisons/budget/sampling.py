@@ -8,7 +8,7 @@ samples themselves leave unknown as if that fell by half with the distance betwe
 from collections.abc import Sequence
 from dataclasses import replace
 
-from analytic.gap import roller_gap
+from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
 from comparisons.budget.answers import answer_of, sizes
 from comparisons.half_plane import half_plane_level

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.contact import ContactError
+from analytic.contact.problem import ContactError
 from comparisons.budget.answers import Answer, answer_of
 from comparisons.budget.bodies import Body, problem_with
 from comparisons.budget.effects import contained, is_taken_apart

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.form import remove_form
 from analytic.profile import MAX_SAMPLES, Profile
-from analytic.profile_files import MeasuredProfile, MissingUnitError, read_measured
-from analytic.profile_readers import BYTES_OF_HEADER, BYTES_PER_SAMPLE
-from analytic.profile_table import read_table
-from analytic.profile_text import ProfileError, read_lines
-from analytic.topography import MapLine, UnchosenLineError
+from analytic.surface.form import remove_form
+from analytic.surface.readers.columns import BYTES_OF_HEADER, BYTES_PER_SAMPLE
+from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
+from analytic.surface.readers.lines import ProfileError, read_lines
+from analytic.surface.readers.rows import read_table
+from analytic.surface.readers.topography import MapLine, UnchosenLineError
 from comparisons.errors import InputError
 from comparisons.init.guess import (
     Guess,

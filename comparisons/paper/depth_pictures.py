@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.stress_sections import depth_profile
+from analytic.stress.sections import depth_profile
 from comparisons.outcome import Outcome
 from comparisons.paper.readings import NEAR, SLIDING, peak_column
 from comparisons.paper.surfaces import POLISHED, SMOOTH, UNRUN

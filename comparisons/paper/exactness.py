@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.plane_stress import PlaneStress
-from analytic.stress import stress_at
-from analytic.stress_potential import Element
+from analytic.stress.points import stress_at
+from analytic.stress.potential import Element
+from analytic.stress_state import PlaneStress
 from comparisons.paper.readings import SLIDING
 from comparisons.paper.views import Reading, View
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.stress_field import StressField, friction_field
+from analytic.stress.field import StressField, friction_field
 from comparisons.outcome import Outcome
 from comparisons.paper.trace import trace_surfaces
 from comparisons.report.field_layout import round_bands

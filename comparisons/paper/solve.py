@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from analytic.contact import ContactError
+from analytic.contact.problem import ContactError
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compare
 from comparisons.errors import SolverError

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from analytic.stress import friction_stress_at
+from analytic.stress.points import friction_stress_at
 from comparisons.outcome import Outcome
 from comparisons.paper.subsurf import SubsurfFile, Value
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from analytic.gap import HatGrid
-from analytic.operators import HalfPlane
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import HalfPlane
 from comparisons.deformed import mean_height
 from comparisons.outcome import Outcome
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.compare import PRESSURE_PER_RESIDUAL
 from comparisons.level import Level, Window
 from comparisons.outcome import Outcome

@@ -4,7 +4,7 @@ import re
 import shlex
 from dataclasses import dataclass
 
-from analytic.contact import KKT_TOLERANCE
+from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.budget.effects import EFFECTS
 from comparisons.compare import (
     Uncertainty,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.outcome import Outcome
 from comparisons.report.field_layout import (
     COVERED,

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.gap import roller_gap
+from analytic.grid import roller_gap
 from analytic.profile import surface
 from comparisons.errors import InputError
 from comparisons.kept import DAMAGED, decoded, encoded

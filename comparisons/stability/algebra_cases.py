@@ -9,13 +9,13 @@ from functools import partial
 
 import numpy as np
 
-from analytic.convolution import Convolution
-from analytic.coupling import CoupledHalfPlane
-from analytic.elements import at_whole_offsets, hat_galerkin
-from analytic.layer import LayeredSurface
-from analytic.layered import LayeredBody
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators import DenseCompliance, HalfPlane
+from analytic.operators.convolution import Convolution
+from analytic.operators.elements import at_whole_offsets, hat_galerkin
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.stability.backward import THRESHOLD, backward_ratio, product_ratio
 from comparisons.stability.many_digits import galerkin_log
 from comparisons.stability.row import Case, Figure, Findings

@@ -5,12 +5,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic.contact import ContactSolution
-from analytic.defect import solve_with_coupled_model, solve_with_model
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid
-from analytic.operators import ComplianceOperator, ModelOperator
-from analytic.patches import contact_patches
+from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import ComplianceOperator, ModelOperator
 from comparisons.stability.pressing import residual_figures
 from comparisons.stability.row import Figure, Findings
 from fem.compliance import FiniteElementCompliance

@@ -10,10 +10,10 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid
+from analytic.contact.equilibrium import Constraints
+from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators import HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from comparisons.stability.finite_bodies import (
     FinitePressed,
     compliance_of,

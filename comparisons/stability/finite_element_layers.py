@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact import solve_contact
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import Material, combined_modulus
 from comparisons.nearest_operator import nearest_operator

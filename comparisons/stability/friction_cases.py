@@ -8,12 +8,12 @@ from functools import partial
 
 import numpy as np
 
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.equilibrium import Constraints
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
 from analytic.exact.sliding import sliding_from_load
-from analytic.gap import HatGrid, roller_gap
+from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material, combined_modulus, dundurs_constants
+from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.stability.pressing import (
     SAME,
     Pressed,

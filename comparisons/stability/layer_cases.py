@@ -10,19 +10,19 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.layer_limits import (
     LayerLimit,
     thick_layer,
     thin_compressible_layer,
     thin_incompressible_layer,
 )
-from analytic.gap import HatGrid, roller_gap
-from analytic.layer import LayeredSurface
-from analytic.layered import LayeredBody, normal_compliance
+from analytic.grid import HatGrid, roller_gap
+from analytic.layers.layered import LayeredBody, normal_compliance
+from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators import HalfPlane, ModelOperator
+from analytic.operators.half_plane import HalfPlane, ModelOperator
 from comparisons.stability.many_digits import wave_sinking
 from comparisons.stability.pressing import (
     Pressed,

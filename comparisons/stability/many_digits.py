@@ -12,7 +12,7 @@ harmless.
 from decimal import Decimal, localcontext
 from functools import cache
 
-from analytic.layered import LayeredBody
+from analytic.layers.layered import LayeredBody
 from analytic.material import Material
 
 DIGITS = 100

@@ -7,14 +7,14 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.optimize import lsq_linear
 
-from analytic.contact import KKT_TOLERANCE, ContactSolution, solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.elements import hat_galerkin
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane, ModelOperator
-from analytic.patches import contact_patches
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import KKT_TOLERANCE, ContactSolution, solve_contact
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.elements import hat_galerkin
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.stability.row import Figure
 
 APPLICATIONS = 300  # of the operator, the most that a contact may take

@@ -8,10 +8,10 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile, surface
 from comparisons.stability.pressing import SAME, Pressed, departure
 from comparisons.stability.rough_cases import held

@@ -9,11 +9,11 @@ from functools import partial
 
 import numpy as np
 
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
 from analytic.exact.westergaard import westergaard_from_mean_pressure
-from analytic.operators import HalfPlane
-from analytic.periodic import PeriodicHalfPlane, hat_aliases
-from analytic.synthetic import self_affine
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
+from analytic.surface.synthetic import self_affine
 from comparisons.stability.pressing import (
     SAME,
     Pressed,

@@ -11,16 +11,16 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.equilibrium import Constraints
-from analytic.layer import LayeredSurface
-from analytic.layered import LayeredBody
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
-from analytic.stress import stress_at
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.points import stress_at
 from comparisons.stability.rough_cases import rough
 from comparisons.stability.row import Case, Figure, Findings, Model
 

@@ -9,8 +9,8 @@ from functools import cache, partial
 
 import numpy as np
 
-from analytic.contact import ContactError
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactError
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.material import Material, combined_modulus

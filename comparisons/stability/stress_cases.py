@@ -10,10 +10,10 @@ from functools import partial
 import numpy as np
 
 from analytic.exact.hertz import HertzContact, hertz_stress
-from analytic.plane_stress import PlaneStress
-from analytic.stress import stress_at
-from analytic.stress_elements import hat_stress
-from analytic.stress_field import stress_field
+from analytic.stress.elements import hat_stress
+from analytic.stress.field import stress_field
+from analytic.stress.points import stress_at
+from analytic.stress_state import PlaneStress
 from comparisons.stability.many_digits import hat_parts, hertz_parts
 from comparisons.stability.row import Case, Figure, Findings
 

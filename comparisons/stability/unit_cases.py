@@ -4,8 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from analytic.equilibrium import Constraints
-from analytic.operators import HalfPlane
+from analytic.contact.equilibrium import Constraints
+from analytic.operators.half_plane import HalfPlane
 from comparisons.stability.pressing import SAME, departure, press
 from comparisons.stability.rough_cases import COUNT, held, rough
 from comparisons.stability.row import Case, Figure, Findings

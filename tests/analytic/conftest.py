@@ -5,13 +5,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from analytic.contact import ContactSolution, solve_contact
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.equilibrium import Constraints
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_load
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
 
 Gap = Callable[[np.ndarray], np.ndarray]
 

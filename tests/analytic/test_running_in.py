@@ -9,18 +9,18 @@ import pytest
 from scipy.ndimage import gaussian_filter1d
 
 import analytic.running_in
-from analytic.contact import ContactError, solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactError, solve_contact
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.form import trapezoid_widths
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
-from analytic.profile_readers import read_profile
 from analytic.running_in import SETTLED, RunIn, run_in
-from analytic.synthetic import ground_texture, sinusoid, smooth
+from analytic.surface.form import trapezoid_widths
+from analytic.surface.readers.columns import read_profile
+from analytic.surface.synthetic import ground_texture, sinusoid, smooth
 
 LOAD, RADIUS, MODULUS = 1e6, 8e-3, 115e9
 HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)

@@ -18,11 +18,11 @@ import numpy as np
 import pytest
 
 import meshes.build
-from analytic.contact import solve_contact
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
-from analytic.plane_stress import Extremum, PlaneStress
+from analytic.operators.half_plane import HalfPlane
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.budget.budget import error_budget
 from comparisons.checkpoint import Checkpoint
 from comparisons.compare import compared, pair_histories

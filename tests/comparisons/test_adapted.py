@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators import DenseCompliance, HalfPlane
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from comparisons.adapted import Pressing, adapted_contact, half_plane_block
 from comparisons.adapted_refinement import joined_patches, next_sizes
 from fem.compliance import FiniteElementCompliance

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.stress import stress_at
+from analytic.stress.points import stress_at
 from comparisons.benchmarks.direct_stress import FRICTION, direct, hats, shared_nodes, strips
 from comparisons.benchmarks.stress_field import (
     Row,

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.operators import HalfPlane
-from analytic.periodic import PeriodicHalfPlane
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.benchmarks import half_plane_peers, half_plane_scaling, peers_crosscheck
 from comparisons.benchmarks.peers_cases import CONTACT_SHARE, REFINED, cylinder, rough, sinusoid
 from comparisons.benchmarks.peers_code import Answer, Code, decades

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.gap import HatGrid
-from analytic.operators import HalfPlane
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import HalfPlane
 from comparisons import (
     finite_element_bodies,
     finite_element_mesh,

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from analytic.contact import ContactSolution, Residuals
+from analytic.contact.problem import ContactSolution, Residuals
 from analytic.exact.hertz import HertzContact, hertz_stress
-from analytic.gap import HatGrid
-from analytic.plane_stress import Extremum, PlaneStress
-from analytic.stress import stress_at
+from analytic.grid import HatGrid
+from analytic.stress.points import stress_at
+from analytic.stress_state import Extremum, PlaneStress
 from comparisons.level import Level, StressResult, Window
 from comparisons.paper import exactness as e
 from comparisons.paper import readings as r

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.contact import solve_contact
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
+from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
 from comparisons.finite_element_mesh import Refinement, block_spec
 from comparisons.problem import problem_of

@@ -9,7 +9,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
-from analytic.synthetic import ground_texture, self_affine
+from analytic.surface.synthetic import ground_texture, self_affine
 from comparisons.errors import SceneError
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.scene_profile import SINUSOID_REACH, SINUSOID_WAVES

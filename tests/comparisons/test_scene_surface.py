@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from analytic.filters import filtered
-from analytic.roughness import roughness
-from analytic.roughness_standard import standard_roughness
-from analytic.turned import turned, turned_height
+from analytic.surface.filters import filtered
+from analytic.surface.roughness import roughness
+from analytic.surface.roughness_standard import standard_roughness
+from analytic.surface.turned import turned, turned_height
 from comparisons.errors import SceneError
 from comparisons.report.sheet import filter_text, problem_sheet
 from comparisons.resolve import resolve_tables

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from comparisons.compare import figures
 from comparisons.exit_status import ExitStatus
 from comparisons.finite_element_bodies import BodyStore, bodies_of
@@ -115,9 +115,9 @@ class TestGroundUnrun:
 
 def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
-    from analytic.defect import solve_with_model
-    from analytic.operators import HalfPlane
-    from analytic.patches import contact_patches
+    from analytic.contact.defect_correction import solve_with_model
+    from analytic.contact.patches import contact_patches
+    from analytic.operators.half_plane import HalfPlane
     from fem.variational_inequality import solve_variational_inequality
 
     problem = problem_of(load_scene("sinusoid"))

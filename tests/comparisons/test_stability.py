@@ -16,11 +16,14 @@ import pytest
 from rich.console import Console
 
 import comparisons.stability.run as stability_run
-from analytic import contact, layered, operators, stress_elements
-from analytic.elements import hat_galerkin
+from analytic.contact import problem as contact
 from analytic.exact.layer_limits import base_deficit
-from analytic.layered import LayeredBody
+from analytic.layers import layered
+from analytic.layers.layered import LayeredBody
 from analytic.material import Material
+from analytic.operators import half_plane as operators
+from analytic.operators.elements import hat_galerkin
+from analytic.stress import elements as stress_elements
 from comparisons.cli import main
 from comparisons.exit_status import ExitStatus
 from comparisons.stability import (
@@ -214,7 +217,7 @@ def test_a_broken_solver_fails_the_rows(monkeypatch):
     def loose(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
         return np.linalg.solve(matrix, right).astype(np.float32).astype(float)
 
-    monkeypatch.setattr("analytic.convolution.cholesky_solve", loose)
+    monkeypatch.setattr("analytic.operators.convolution.cholesky_solve", loose)
     row = row_of(algebra_cases, "half-plane, 120 scattered nodes")
     assert not row.passed and row.telling.value > 1e3 * THRESHOLD
     assert not row_of(rough_cases, "plateau, heavy").passed

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from analytic.contact import solve_contact
-from analytic.equilibrium import Constraints
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
-from analytic.gap import HatGrid, roller_gap
-from analytic.operators import HalfPlane
-from analytic.patches import contact_patches
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
 from comparisons.compare import compare, length_resolution, uncertainties
 from comparisons.level import ModelRun
 from comparisons.outcome import Outcome

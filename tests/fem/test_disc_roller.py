@@ -10,13 +10,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from analytic.contact import solve_contact
-from analytic.defect import solve_with_model
-from analytic.equilibrium import Constraints
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators import HalfPlane, SumOfBodies
+from analytic.operators.half_plane import HalfPlane, SumOfBodies
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
 from fem.surface import hat_nodes

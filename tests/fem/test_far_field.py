@@ -6,14 +6,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from analytic.contact import solve_contact
-from analytic.coupling import TangentialHalfPlane
-from analytic.defect import solve_with_model
-from analytic.equilibrium import Constraints
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus
-from analytic.operators import HalfPlane, SumOfBodies
+from analytic.operators.half_plane import HalfPlane, SumOfBodies
+from analytic.operators.tangential import TangentialHalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Coating, elastic_body
 from fem.far_field import FarField, multipoles
@@ -94,7 +94,8 @@ def test_series_of_a_load_off_the_centre_converges_with_its_distance(away):
 
 @pytest.mark.parametrize("size", [4.0, 20.0])
 def test_compliance_is_the_half_planes_datum_and_all(size):
-    """Errors of order 4, in the displacement under sliding traction too (`analytic.coupling`)."""
+    """Errors of order 4, in the displacement under sliding traction too
+    (`analytic.operators.tangential`)."""
     count, pitch = 21, 0.1
     hats = hat_nodes(-1.0, pitch, count)
     every = np.arange(count)

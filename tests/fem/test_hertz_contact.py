@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.patches import contact_patches
+from analytic.contact.patches import contact_patches
 
 
 def half_width(case):

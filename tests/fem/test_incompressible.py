@@ -12,10 +12,10 @@ import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from analytic.layer import LayeredSurface
-from analytic.layered import LayeredBody
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators import HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import ElasticBody, Support, elastic_body
 from fem.surface import hat_nodes

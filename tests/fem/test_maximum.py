@@ -5,7 +5,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
-from analytic.plane_stress import PlaneStress
+from analytic.stress_state import PlaneStress
 from fem.elasticity import Coating, Support, elastic_body
 from fem.maximum import maximum
 from fem.stress import at_mesh_points, nodal_stress

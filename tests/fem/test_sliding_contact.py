@@ -12,17 +12,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.coupled_contact import solve_coupled
-from analytic.coupling import CoupledHalfPlane
-from analytic.defect import solve_with_coupled_model
-from analytic.dense_coupling import DenseCoupledCompliance
-from analytic.equilibrium import Constraints
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_coupled_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
 from analytic.exact.sliding import SlidingContact, sliding_from_load
-from analytic.gap import HatGrid
+from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators import SumOfBodies
-from analytic.patches import contact_patches
-from analytic.synthetic import self_affine
+from analytic.operators.dense_tangential import DenseCoupledCompliance
+from analytic.operators.half_plane import SumOfBodies
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.surface.synthetic import self_affine
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support, elastic_body
 from fem.surface import hat_nodes

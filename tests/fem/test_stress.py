@@ -6,11 +6,11 @@ from scipy.integrate import trapezoid
 from scipy.interpolate import CubicSpline
 
 from analytic.exact.hertz import hertz_stress
-from analytic.layer_stress import layer_field
-from analytic.layered import LayeredBody
+from analytic.layers.layered import LayeredBody
+from analytic.layers.stress import layer_field
 from analytic.material import Material
-from analytic.plane_stress import PlaneStress
-from analytic.stress import stress_at
+from analytic.stress.points import stress_at
+from analytic.stress_state import PlaneStress
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Coating, Support, elastic_body
 from fem.stress import at_mesh_points, evaluate, nodal_stress, within

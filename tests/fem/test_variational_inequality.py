@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from analytic.defect import solve_with_model
-from analytic.equilibrium import Constraints
-from analytic.operators import HalfPlane
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.operators.half_plane import HalfPlane
 from fem.compliance import FiniteElementCompliance
 from fem.elasticity import Support
 from fem.surface import hat_forces

@@ -9,8 +9,8 @@ import pytest
 
 import comparisons.running_in
 from analytic.profile import Profile
-from analytic.roughness import roughness
 from analytic.running_in import run_in
+from analytic.surface.roughness import roughness
 from comparisons.outcome import Outcome
 from comparisons.plan import make_plan
 from comparisons.problem import problem_of

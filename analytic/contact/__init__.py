@@ -1,0 +1,1 @@
+"""Contact on any compliance operator: active set, equilibrium, friction, defect correction."""

@@ -1,0 +1,183 @@
+"""Contact on an expensive compliance operator, by way of a cheap model of it.
+
+The operator C (finite elements: one back-substitution an application) is close to a model D (the
+Galerkin half-plane of the same hats, the surfaces moved by friction included). Each step solves
+the contact problem of the model with what it leaves out carried to the linear term,
+
+    p = solution of the model's problem with G + r for G,     r wanted such that r = (C - D) p.
+
+The misfit f(r) = (C - D) p - r is exactly the gap by which p misses the contact conditions on C.
+Repeating r <- r + f shrinks it by what the model leaves out of C. Secants through the last steps
+do better (Anderson 1965; Walker and Ni 2011): with F and R the differences of misfits and of r,
+
+    y = argmin |f - F y| over the nodes in contact,    r <- r - R y + s (f - F y),    s = 1,
+
+which makes a model of the wrong stiffness, or a layer thinner than the contact, harmless. Mixing
+r instead of p keeps every p within the constraints. There is no energy to descend on where
+friction makes C unsymmetric. Instead, when PATIENCE steps in a row have not improved on the best
+one, the iteration goes back to it, forgets the secants and halves s.
+
+A half-plane's displacements are defined up to a constant, a body's are not. Under a prescribed
+load the approach takes that up. Under a prescribed approach a half-plane of another datum carries
+another load, and half of the steps would go on that: one application to some pressure p comes
+first, and the model gets the datum with which (C - D) p does no work on p.
+Symbols as in `analytic.contact.problem`.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import SET_TOLERANCE, Constraints
+from analytic.contact.problem import (
+    KKT_TOLERANCE,
+    ContactSolution,
+    assessed,
+    common_gap,
+    solve_contact,
+)
+from analytic.operators.half_plane import ComplianceOperator, HalfPlane, ModelOperator
+from analytic.operators.tangential import CoupledOperator
+
+MAX_STEPS = 40
+SECANTS = 2  # with one, half as many steps again over 144 cases; with three, no fewer
+PATIENCE = 3  # four lose time on what does not lead on, two lose secants that do
+SECANT_RANK = 1e-10  # of the larger difference: below, the two point the same way
+
+_Solver = Callable[..., ContactSolution]
+
+
+def solve_with_model(
+    operator: ComplianceOperator,
+    model: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+    tolerance: float = KKT_TOLERANCE,
+) -> ContactSolution:
+    """Solve the contact problem of `operator`; residuals are those of `operator` itself.
+
+    gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
+    A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
+    the best of all steps, with `converged` False.
+    `iterations` counts the steps and the applications of C and of D; C is applied once more than
+    there are steps where an approach is prescribed and the model is a half-plane.
+    """
+    return _solve(operator, model, solve_contact, gap, weights, constraints, start, tolerance)
+
+
+def solve_with_coupled_model(
+    operator: ComplianceOperator,
+    model: CoupledOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+    tolerance: float = KKT_TOLERANCE,
+) -> ContactSolution:
+    """As `solve_with_model`, where sliding traction moves the surfaces.
+
+    `operator` turns pressures into displacements under them and under the traction that they drag
+    along; nothing is asked of it but that its symmetric part is positive definite. `model` is such
+    an operator, too (`analytic.operators.tangential`); without a skew part it serves a frictionless
+    contact.
+    """
+    return _solve(operator, model, solve_coupled, gap, weights, constraints, start, tolerance)
+
+
+def _solve(
+    operator: ComplianceOperator,
+    model: ModelOperator,
+    solver: _Solver,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None,
+    tolerance: float,
+) -> ContactSolution:
+    common, constraints = common_gap(gap, weights, constraints)
+    gap = gap - common * weights
+    pressure, carried, share = start, np.zeros_like(gap), 1.0
+    path: list[tuple[np.ndarray, np.ndarray]] = []  # r and f of the last steps
+    best, model_applications, probes = None, 0, 0
+    if constraints.approach is not None and isinstance(model, HalfPlane):
+        model = _at_datum_of(operator, model, weights, start)
+        model_applications, probes = 1, 1
+    for step in range(1, MAX_STEPS + 1):
+        trial = solver(model, gap + carried, weights, constraints, pressure)
+        model_applications += 1 + trial.iterations["applications"]
+        pressure = trial.pressure
+        displacement = operator.apply(pressure)
+        counts = {
+            "steps": step,
+            "applications": step + probes,
+            "model_applications": model_applications,
+        }
+        free = _free(pressure, constraints)
+        approach = _approach(displacement, pressure, gap, weights, constraints)
+        solution = assessed(
+            displacement, pressure, gap, weights, approach, constraints, counts, tolerance
+        )
+        misfit = displacement - model.apply(pressure) - carried
+        if constraints.approach is None:  # the approach takes up what is common to all nodes
+            misfit -= (weights @ misfit) / (weights @ weights) * weights
+        if best is None or solution.residuals.worst < best.residuals.worst:
+            best, since = solution, 0
+            back = carried, misfit
+        else:
+            since += 1
+        if solution.converged:
+            break
+        if since == PATIENCE:
+            pressure, (carried, misfit) = best.pressure, back
+            free, path = _free(pressure, constraints), []
+            share, since = 0.5 * share, 0
+        path = [*path[-SECANTS:], (carried, misfit)]
+        carried = _onward(path, free, share)
+    return replace(best, approach=best.approach + common, iterations=counts)
+
+
+def _at_datum_of(
+    operator: ComplianceOperator, model: HalfPlane, weights: np.ndarray, start: np.ndarray | None
+) -> HalfPlane:
+    """The model at the datum of the operator, as seen under `start` or an even pressure."""
+    pressure = start if start is not None and start.any() else np.ones_like(weights)
+    work = pressure @ (operator.apply(pressure) - model.apply(pressure))
+    return model.on_base(work / (weights @ pressure) ** 2)
+
+
+def _onward(
+    path: list[tuple[np.ndarray, np.ndarray]], nodes: np.ndarray, share: float
+) -> np.ndarray:
+    """The next r (n,) [m^2] from the pairs (r, f) of the last steps, the newest last."""
+    carried, misfit = path[-1]
+    if len(path) > 1:
+        steps = np.stack([carried - former for former, _ in path[:-1]], axis=1)
+        changes = np.stack([misfit - former for _, former in path[:-1]], axis=1)
+        amounts = np.linalg.lstsq(changes[nodes], misfit[nodes], rcond=SECANT_RANK)[0]
+        carried, misfit = carried - steps @ amounts, misfit - changes @ amounts
+    return carried + share * misfit
+
+
+def _free(pressure: np.ndarray, constraints: Constraints) -> np.ndarray:
+    """Which nodes (n,) touch and are below the hardness; where there are none, all that touch."""
+    touching = pressure > 0.0
+    free = touching & (pressure < constraints.hardness * (1.0 - SET_TOLERANCE))
+    return free if free.any() else touching
+
+
+def _approach(
+    displacement: np.ndarray,
+    pressure: np.ndarray,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+) -> float:
+    """The approach as prescribed, or the one that closes the mean gap of the free nodes [m]."""
+    if constraints.approach is not None:
+        return constraints.approach
+    carriers = np.where(_free(pressure, constraints), pressure, 0.0)
+    return float(carriers @ (gap + displacement) / (carriers @ weights))

@@ -1,0 +1,98 @@
+"""A start for the contact problem from the same problem on hats twice as wide.
+
+Coarse hats are sums of fine ones, node j of the coarse grid is node 2j + 1 of the fine one: gaps
+and weights are restricted by the hats' own sums, pressures interpolated. Near an edge pressures
+fall as the root of the distance, so that their squares tell on which side of the middle between
+two coarse nodes the edge lies.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from analytic.contact.equilibrium import EquilibriumProblem
+
+COARSEST = 512  # nodes; below this a coarser start saves nothing
+FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
+SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
+
+Settle = Callable[[EquilibriumProblem, np.ndarray], np.ndarray]
+
+
+def coarse_start(
+    problem: EquilibriumProblem, settle: Settle, coarsest: int = COARSEST
+) -> np.ndarray:
+    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle.
+
+    settle    pressures of a coarse problem, whose edges may be off, from a start
+    coarsest  nodes below which no coarser grid is made
+    """
+    count, periodic = len(problem.gap), problem.operator.periodic
+    operator = problem.operator.coarsened() if count >= coarsest else None
+    if operator is None:
+        return foundation_start(problem)
+    coarse = type(problem)(
+        operator,
+        restricted(problem.gap, periodic),
+        restricted(problem.weights, periodic),
+        problem.constraints,
+        problem.spent,
+    )
+    pressure = settle(coarse, coarse_start(coarse, settle, coarsest))
+    return prolonged(np.clip(pressure, 0.0, problem.constraints.hardness), count, periodic)
+
+
+def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
+    """Pressures (n,) [Pa] on independent springs in place of the body.
+
+    Under a prescribed load the springs sink, on the average over the grid, by FOUNDATION times
+    what the body does under an even pressure of that load.
+    """
+    weights, constraints = problem.weights, problem.constraints
+    height, count = problem.gap / weights, len(weights)
+    softness = FOUNDATION * np.mean(np.abs(problem.apply(np.ones(count)) / weights))
+    if constraints.load is None:
+        level = constraints.approach
+    else:
+        sinking = softness * constraints.load / weights.sum()
+        reached = np.sort(height)
+        # the lowest k share the sinking of all; k is the first that leaves the next one open
+        shared = (sinking * count + np.cumsum(reached)) / np.arange(1, count + 1)
+        level = shared[np.argmax(np.append(shared[:-1] <= reached[1:], True))]
+    pressure = np.maximum(level - height, 0.0) / softness
+    return np.minimum(pressure, constraints.hardness)
+
+
+def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:
+    """Integrals over the coarse hats (n // 2,) from those over the fine ones (n,)."""
+    half, odd = divmod(len(values), 2)
+    coarse = values[1::2] + 0.5 * values[0 : 2 * half : 2]
+    coarse[:-1] += 0.5 * values[2 : 2 * half : 2]
+    # an even count leaves the last coarse hat half a fine one short: a copy stands for it
+    coarse[-1] += 0.5 * (values[-1] if odd or not periodic else values[0])
+    return coarse
+
+
+def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:
+    """Pressures on the fine grid (count,) from those on the coarse one, >= 0; edges between nodes.
+
+    A fine node between a touching and an open coarse node is open where the pressures' squares,
+    continued straight, vanish before they reach it.
+    """
+    outer = pressure[[-1, 0]] if periodic else np.zeros(2)
+    padded = np.concatenate((outer[:1], pressure, outer[1:]))
+    between = 0.5 * (padded[:-1] + padded[1:])
+    between[1:][_ends_short(padded)] = 0.0
+    between[:-1][_ends_short(padded[::-1])[::-1]] = 0.0
+    if periodic:  # the first and the last are the same place
+        between[0] = min(between[0], between[-1])
+    fine = np.empty(count)
+    fine[1::2] = pressure[: len(fine[1::2])]
+    fine[0::2] = between[: len(fine[0::2])]
+    return fine
+
+
+def _ends_short(padded: np.ndarray) -> np.ndarray:
+    """Whether the contact of each inner node ends before the middle to the next node, open."""
+    square = padded**2
+    return (padded[1:-1] > 0.0) & (padded[2:] == 0.0) & (square[:-2] > 3.0 * square[1:-1])

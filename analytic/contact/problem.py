@@ -1,0 +1,213 @@
+"""Frictionless contact on hat pressures: a box-constrained quadratic program with one load.
+
+    minimise  1/2 p'Cp + (G - d w)'p   over  0 <= p <= H,   with  w'p = P  (or d given)
+
+    p   nodal pressures [Pa]                G   weighted initial gap, integral phi_i g0 dx [m^2]
+    C   compliance [m^2/Pa]                 w   weights, integral phi_i dx [m]
+    d   approach [m]                        P   load per length [N/m]
+    H   hardness [Pa]                       g   weighted gap G + Cp - dw [m^2]
+
+Its solution satisfies g >= 0 where p = 0, g = 0 where 0 < p < H, g <= 0 where p = H (the overlap
+that plastic flow would remove).
+
+Method: a primal-dual active set (`analytic.contact.active_set`) on nested grids, each started from
+the next coarser one (`analytic.contact.nested_start`); on a fixed set conjugate gradients
+(`analytic.contact.equilibrium`).
+"""
+
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from analytic.contact.active_set import exchange_blocks
+from analytic.contact.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
+from analytic.contact.nested_start import SETTLED, coarse_start
+from analytic.operators.half_plane import ModelOperator
+
+EVEN = 1e-5  # of the displacement: rounding, 1e-14 of it, must not count as a residual
+KKT_TOLERANCE = 1e-8  # all residuals of a solution that counts as converged
+
+
+class ContactError(ArithmeticError):
+    """The contact problem has no solution, or none was found."""
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """How well the contact conditions hold; all dimensionless, zero when exact.
+
+    load_balance       |w'p - P| / P (zero when the approach is prescribed)
+    complementarity    p'|g| over the nodes below the hardness and p'g over those at it that are
+                       open / (P times the displacement scale)
+    penetration        largest overlap where p < H / the displacement scale
+    negative_pressure  largest tension / the largest pressure
+    excess_pressure    largest pressure above H / H
+
+    The displacement scale is the range of Cp/w over all nodes, or EVEN of its largest amount
+    where the surface moves as a whole; with the approach prescribed it is the largest amount.
+    """
+
+    load_balance: float
+    complementarity: float
+    penetration: float
+    negative_pressure: float
+    excess_pressure: float
+
+    @property
+    def worst(self) -> float:
+        """The largest of them; not a number if one is none."""
+        return float(np.max(astuple(self)))
+
+
+@dataclass(frozen=True)
+class ContactSolution:
+    """Solution of the contact problem on one grid.
+
+    pressure    (n,) [Pa]
+    gap         (n,) weighted gap over weight, g_i / w_i [m]; negative at capped nodes
+    approach    d [m], relative to the operator's datum
+    load        w'p [N/m]
+    residuals   the contact conditions, evaluated once more with the operator itself
+    iterations  set exchanges and operator applications, on all grids together
+    converged   all residuals below KKT_TOLERANCE
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    approach: float
+    load: float
+    residuals: Residuals
+    iterations: dict
+    converged: bool
+
+
+def contact_residuals(
+    displacement: np.ndarray,
+    pressure: np.ndarray,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    approach: float,
+    constraints: Constraints,
+) -> tuple[np.ndarray, Residuals]:
+    """Gap (n,) [m] and residuals, from Cp (n,) [m^2], weighted initial gap (n,) and approach."""
+    hardness = constraints.hardness
+    actual = (gap + displacement) / weights - approach
+    lowered = displacement / weights
+    largest = np.max(np.abs(lowered))
+    scale = largest if constraints.load is None else max(np.ptp(lowered), EVEN * largest)
+    scale = scale or max(0.0, -np.min(actual)) or 1.0  # overlapping without pressure
+    load = weights @ pressure
+    highest = np.max(pressure)
+    free = pressure < hardness * (1.0 - SET_TOLERANCE)
+    error = 0.0 if constraints.load is None else abs(load - constraints.load) / constraints.load
+    apart = np.where(free, np.abs(actual), np.maximum(actual, 0.0))
+    work = np.sum(weights * np.abs(pressure) * apart)
+    residuals = Residuals(
+        load_balance=error,
+        complementarity=work / load / scale if load > 0.0 else 0.0,
+        penetration=max(0.0, -np.min(actual[free], initial=0.0)) / scale,
+        negative_pressure=max(0.0, -np.min(pressure)) / highest if highest > 0.0 else 0.0,
+        excess_pressure=max(0.0, highest / hardness - 1.0),
+    )
+    return actual, residuals
+
+
+def assessed(
+    displacement: np.ndarray,
+    pressure: np.ndarray,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    approach: float,
+    constraints: Constraints,
+    iterations: dict[str, int],
+    tolerance: float = KKT_TOLERANCE,
+) -> ContactSolution:
+    """Pressures (n,) [Pa] with their Cp (n,) [m^2] as a solution, `converged` to `tolerance`."""
+    actual, residuals = contact_residuals(
+        displacement, pressure, gap, weights, approach, constraints
+    )
+    return ContactSolution(
+        pressure=pressure,
+        gap=actual,
+        approach=float(approach),
+        load=float(weights @ pressure),
+        residuals=residuals,
+        iterations=dict(iterations),
+        converged=bool(residuals.worst <= tolerance),
+    )
+
+
+def solve_contact(
+    operator: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+    tolerance: float = TIGHT,
+) -> ContactSolution:
+    """Solve the contact problem of this module.
+
+    gap        G (n,) [m^2]         weights  w (n,) [m]
+    start      pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
+    tolerance  residual of the last equilibrium over the displacements that it balances
+
+    Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
+    KKT_TOLERANCE is returned with `converged` False.
+    """
+    check_load(constraints, weights)
+    spent = {"exchanges": 0, "applications": 0}
+    common, constraints = common_gap(gap, weights, constraints)
+    gap = gap - common * weights
+    problem = EquilibriumProblem(operator, gap, weights, constraints, spent, tolerance)
+    if start is None:
+        start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
+    pressure = exchange_blocks(problem, start)
+    pressure = np.clip(pressure, 0.0, constraints.hardness)
+    solution = assessed(
+        problem.applied(pressure),
+        pressure,
+        gap,
+        weights,
+        problem.approach,
+        constraints,
+        spent,
+    )
+    return replace(solution, approach=solution.approach + common)
+
+
+def check_load(constraints: Constraints, weights: np.ndarray) -> None:
+    """Raise ContactError if a prescribed load exceeds what the hardness can carry."""
+    most = constraints.hardness * weights.sum()
+    if constraints.load is not None and constraints.load >= most:
+        raise ContactError(
+            f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
+            f"hardness: {most:g} N/m"
+        )
+
+
+def solve_contacts(
+    operator: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Sequence[Constraints],
+) -> tuple[ContactSolution, ...]:
+    """One surface under several loads, approaches or hardnesses, in the order given.
+
+    Operators and their coarser versions are made once for all. Each load starts from its own
+    coarse grids: that costs less than the way from another load a tenth away.
+    """
+    return tuple(solve_contact(operator, gap, weights, each) for each in constraints)
+
+
+def common_gap(
+    gap: np.ndarray, weights: np.ndarray, constraints: Constraints
+) -> tuple[float, Constraints]:
+    """The part of the gap [m] that the approach absorbs, and the constraints without it.
+
+    Far larger than what a light load closes, it would drown that in rounding.
+    """
+    if constraints.approach is None:
+        return float(np.min(gap / weights)), constraints
+    return constraints.approach, replace(constraints, approach=0.0)

@@ -1,0 +1,1 @@
+"""Surface compliance of half-planes as operators: pressure in, weighted displacement out."""

@@ -1,0 +1,219 @@
+"""Surface compliance as an operator: pressure in, weighted normal displacement out.
+
+Pressures are hats on a uniform grid: nodal values p_i [Pa] at x_i = x_0 + i h, linear between,
+zero one pitch beyond the ends. An operator C maps them to the Galerkin averages of the normal
+displacement, (C p)_i = integral phi_i u_z dx [m^2], u_z [m] positive into the body. C is
+symmetric. The contact solver knows nothing else of the body.
+
+The half-plane also comes with the uniform strips of Webster and Sayles, p_i over its own pitch and
+the displacement taken at the middle of the strip, (C p)_i = h u_z(x_i): their method as published,
+for comparison.
+
+    h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
+    phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
+"""
+
+from typing import Literal, Protocol
+
+import numpy as np
+import scipy.linalg
+
+from analytic.operators.convolution import Convolution, cholesky_solve, made_once
+from analytic.operators.elements import at_whole_offsets, hat_galerkin, strip_displacement
+
+Element = Literal["hat", "strip"]
+
+RIDGE = 1e-9  # of the largest diagonal entry, added before a dense matrix is factored
+FURTHEST = 500.0  # ln(L'/L) of a datum L': the largest that numbers of any unit of length hold
+
+
+class ComplianceOperator(Protocol):
+    """Anything that turns hat pressures (n,) [Pa] into weighted displacements (n,) [m^2]."""
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray: ...
+
+
+class ModelOperator(ComplianceOperator, Protocol):
+    """A compliance that also offers an approximate inverse and a coarser version of itself.
+
+    count         nodes
+    periodic      whether the grid closes on itself: node `count` is node 0
+    ring          nodes of the closed line that `precondition` takes displacements on;
+                  None where it takes those of the grid
+    precondition  a positive definite approximation of the inverse
+    solve         pressures (m, k) of few nodes (m,) alone that sink by given right sides (m, k),
+                  or None: they are not so few, or nothing can be factored
+    block         the matrix's rows and columns of some nodes
+    cropped       the same on a stretch that holds a number of nodes in a row, or None
+    coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
+    """
+
+    count: int
+    periodic: bool
+    ring: int | None
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None: ...
+
+    def block(self, nodes: np.ndarray) -> np.ndarray: ...
+
+    def cropped(self, span: int) -> "ModelOperator | None": ...
+
+    def coarsened(self) -> "ModelOperator | None": ...
+
+
+class HalfPlane(Convolution):
+    """Compliance of a half-plane, exact log-kernel coefficients, applied by FFT.
+
+    u_z(x) = -(2 / (pi E*)) integral p(s) ln(|x - s| / L) ds (Johnson 1985, eq. 2.25).
+    The plane-strain half-plane leaves displacements undefined up to a constant; the datum L is
+    the length of the grid's support, four times its logarithmic capacity, which makes the
+    operator positive definite and scale with the unit of length.
+    With E* of two bodies the displacement is the sum of both.
+
+    count    number of elements      pitch    h [m]
+    modulus  E* [Pa], or E' of one body
+    datum    L [m]; default the support (count + 1) h
+    element  "hat" (Galerkin) or "strip" (uniform, collocated)
+    """
+
+    def __init__(
+        self,
+        count: int,
+        pitch: float,
+        modulus: float,
+        datum: float | None = None,
+        element: Element = "hat",
+    ) -> None:
+        self.element = element
+        self.pitch = pitch
+        self.modulus = modulus
+        self.datum = (count + 1) * pitch if datum is None else datum
+        self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
+        kernel = hat_galerkin if element == "hat" else strip_displacement
+        log_integral = at_whole_offsets(kernel, count)
+        scale = 2.0 * pitch**2 / (np.pi * modulus)
+        column = -scale * (log_integral + np.log(pitch / self.datum))
+        super().__init__(column, self._symbol)
+
+    @made_once
+    def coarsened(self) -> "HalfPlane":
+        """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        half = self.count // 2
+        return HalfPlane(half, 2.0 * self.pitch, self.modulus, self.datum, self.element)
+
+    def on_base(self, compliance: float) -> "HalfPlane":
+        """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.
+
+        That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST.
+        """
+        further = np.clip(0.5 * np.pi * self.modulus * compliance, 0.0, FURTHEST)
+        datum = self.datum * float(np.exp(further))
+        return HalfPlane(self.count, self.pitch, self.modulus, datum, self.element)
+
+    def _symbol(self, cycles: np.ndarray) -> np.ndarray:
+        """2 / (E* |k|) seen through the elements, with the nearest aliases [m^2/Pa].
+
+        A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc. On
+        a datum beyond the support the mean sinks further, c h^2 a node of the ring (`on_base`):
+        without it a search for pressures first moves off, and may end as rounding what is none.
+        """
+        c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
+        sine = np.sin(np.pi * c) / np.pi
+        own, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)
+        if self.element == "hat":  # each (sine / |c + j|)^4 / |c + j|
+            seen = sum(
+                (sine * alias) ** 2 * (sine * alias) ** 2 * alias for alias in (own, lower, upper)
+            )
+        else:
+            seen = sine * (own**2 + lower**2 - upper**2)
+        seen[cycles == 0.0] += 2.0 * self._further / cycles[1]
+        return self.pitch**2 / (np.pi * self.modulus) * seen
+
+
+class SumOfBodies:
+    """Compliances of several bodies on the same hats, each times a factor, added.
+
+    A factor stands for a body of the same shape and Poisson's ratio but another modulus.
+    """
+
+    def __init__(self, *bodies: ComplianceOperator, factors: tuple[float, ...] = ()) -> None:
+        self.bodies = bodies
+        self.factors = factors or (1.0,) * len(bodies)
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Mutual weighted displacement (n,) [m^2] of the surfaces."""
+        pairs = zip(self.bodies, self.factors, strict=True)
+        return sum(factor * body.apply(pressure) for body, factor in pairs)
+
+
+class SumOfConvolutions(Convolution):
+    """Two surfaces or more on the same elements as one: their matrices and symbols added.
+
+    bodies  with the same count, pitch and periodicity, of any kind
+    """
+
+    def __init__(self, *bodies: Convolution) -> None:
+        if len({(body.count, body.periodic) for body in bodies}) != 1:
+            raise ValueError("bodies to be added must have the same elements")
+        self.bodies = bodies
+        inverse = 1.0 / sum(1.0 / body.inverse_symbol for body in bodies)
+        super().__init__(
+            sum(body.column for body in bodies),
+            lambda cycles: 1.0 / inverse,
+            None if all(body.symmetric for body in bodies) else sum(body.row for body in bodies),
+            periodic=bodies[0].periodic,
+        )
+
+    @made_once
+    def coarsened(self) -> "SumOfConvolutions | None":
+        """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        coarser = [body.coarsened() for body in self.bodies]
+        return None if None in coarser else SumOfConvolutions(*coarser)
+
+
+class DenseCompliance:
+    """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+
+    periodic = False
+    ring = None
+
+    def __init__(self, matrix: np.ndarray) -> None:
+        self.matrix = 0.5 * (matrix + matrix.T)
+        self.count = len(matrix)
+        # hats finer than a body's elements leave it rank-deficient where nothing touches
+        ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
+        self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
+        return self.matrix @ pressure
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+        """The inverse but for a small ridge, close while every element is in contact."""
+        return scipy.linalg.cho_solve(self._factor, displacement)
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where hats finer than a body's elements leave nothing to factor.
+        """
+        return cholesky_solve(self.block(nodes), right)
+
+    def block(self, nodes: np.ndarray) -> np.ndarray:
+        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
+        return self.matrix[np.ix_(nodes, nodes)]
+
+    def cropped(self, span: int) -> None:
+        """No part of a body has a compliance that depends on distances alone."""
+
+    @made_once
+    def coarsened(self) -> "DenseCompliance":
+        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
+        inner = 2 * np.arange(self.count // 2) + 1
+        spread = np.zeros((self.count, len(inner)))
+        for offset, share in ((-1, 0.5), (0, 1.0), (1, 0.5)):
+            inside = inner + offset < self.count
+            spread[(inner + offset)[inside], np.flatnonzero(inside)] = share
+        return DenseCompliance(spread.T @ self.matrix @ spread)

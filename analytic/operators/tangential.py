@@ -1,0 +1,201 @@
+"""Normal displacement of the surfaces under sliding traction, and compliances that contain it.
+
+A traction q = mu p that acts on a half-plane in +x moves its surface not only along x: ahead of
+the load the surface is pushed into the body, behind it it rises, each by the same constant.
+Integrating e_z = (1+nu)/E ((1-nu) sz - nu sx) of the simple radial field of a tangential line load
+(Johnson 1985, eq. 2.20) over the depth gives
+
+    u_z(x) = (1-2nu)(1+nu)/(2E) integral q(s) sign(x - s) ds,     positive into the body.
+
+The roller takes -q and is turned over: its displacement is subtracted. With Dundurs' beta of body
+and roller (`analytic.material.dundurs_constants`) the mutual displacement is
+
+    u(x) = (beta / E*) integral q(s) sign(x - s) ds,
+
+nothing for equal materials. It changes sign with the sliding direction and when the bodies change
+places. Being odd in x - s it does no work, p'Tp = 0: with it the compliance is not symmetric but
+positive definite as before, and its contact problem has exactly one solution.
+
+    h      pitch [m]             E*    modulus [Pa]           L    period [m]
+    phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
+    C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]
+"""
+
+from typing import Protocol
+
+import numpy as np
+import scipy.linalg
+from numpy.typing import ArrayLike
+
+from analytic.operators.convolution import DIRECT, Convolution, made_once
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+
+
+class SkewOperator(Protocol):
+    """Hat tractions (n,) [Pa] to weighted normal displacements (n,) [m^2] that do no work."""
+
+    def apply(self, traction: np.ndarray) -> np.ndarray: ...
+
+    def coarsened(self) -> "SkewOperator | None": ...
+
+
+class CoupledOperator(ModelOperator, Protocol):
+    """A compliance that is not symmetric: the surfaces under pressures and what they drag along.
+
+    normal  its symmetric part, positive definite
+    skew    whether there is anything beside it
+    """
+
+    normal: ModelOperator
+    skew: bool
+
+    def coarsened(self) -> "CoupledOperator | None": ...
+
+
+def hat_sign(offset: ArrayLike) -> np.ndarray:
+    """The sign of the distance of two hats, averaged over both, `offset` pitches apart, any shape.
+
+    int int (1-|s|) (1-|t|) sign(offset + t - s) ds dt: odd, 11/12 at 1 and exactly 1 from 2 on;
+    between them the integral of the cubic spline that two hats make.
+    """
+    offset = np.asarray(offset, dtype=float)
+    x = np.abs(offset)
+    near = x * (4.0 / 3.0 + x**2 * (x / 4.0 - 2.0 / 3.0))
+    far = 1.0 - np.maximum(2.0 - x, 0.0) ** 4 / 12.0
+    return np.sign(offset) * np.where(x < 1.0, near, far)
+
+
+class TangentialHalfPlane(Convolution):
+    """T: normal displacement of two half-planes under hats of tangential traction in +x.
+
+    count     number of elements         pitch    h [m]
+    modulus   E* [Pa] of both bodies     dundurs  their beta; for one body alone
+              modulus E' and (1-2nu) / (2(1-nu))
+    periodic  the hats repeat after L = count h. What the mean traction would tilt the surface
+              by is taken off: it shears the bodies and leaves them level.
+    """
+
+    def __init__(
+        self, count: int, pitch: float, modulus: float, dundurs: float, periodic: bool = False
+    ) -> None:
+        self.pitch, self.modulus, self.dundurs = pitch, modulus, dundurs
+        offset = np.arange(count, dtype=float)
+        average = hat_sign(offset)
+        if periodic:
+            images = hat_sign(offset - count) + hat_sign(offset + count)
+            average = average + images - 2.0 * offset / count
+        column = dundurs * pitch**2 / modulus * average
+        # in a circulant the entries above the diagonal follow from the column
+        super().__init__(column, _nothing, row=-column, periodic=periodic)
+
+    @made_once
+    def coarsened(self) -> "TangentialHalfPlane | None":
+        """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        if self.periodic and self.count % 2:
+            return None
+        half = self.count // 2
+        return TangentialHalfPlane(
+            half, 2.0 * self.pitch, self.modulus, self.dundurs, self.periodic
+        )
+
+
+class CoupledHalfPlane(Convolution):
+    """C + mu T of two half-planes in one convolution: an application costs what C alone does.
+
+    count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`
+    friction_dundurs  mu beta, positive for sliding traction on the body in +x
+    normal            C alone
+    """
+
+    def __init__(
+        self,
+        count: int,
+        pitch: float,
+        modulus: float,
+        friction_dundurs: float,
+        datum: float | None = None,
+    ) -> None:
+        self.pitch, self.modulus, self.friction_dundurs = pitch, modulus, friction_dundurs
+        self.datum = (count + 1) * pitch if datum is None else datum
+        self.skew = friction_dundurs != 0.0
+        self.normal = HalfPlane(count, pitch, modulus, self.datum)
+        even = self.normal.column
+        odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
+        super().__init__(even + odd, self._symbol, row=even - odd)
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where there are so many that iterating is faster.
+        """
+        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
+
+    @made_once
+    def coarsened(self) -> "CoupledHalfPlane":
+        """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        return CoupledHalfPlane(
+            self.count // 2, 2.0 * self.pitch, self.modulus, self.friction_dundurs, self.datum
+        )
+
+    def _symbol(self, cycles: np.ndarray) -> np.ndarray:
+        """2/(E*|k|) (1 - i mu beta sign k) seen through two hats, with the nearest aliases."""
+        c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
+        seen = (np.sin(np.pi * c) / np.pi) ** 4
+        even = seen * (c**-5 + (1.0 - c) ** -5 + (1.0 + c) ** -5)
+        odd = seen * (c**-5 - (1.0 - c) ** -5 + (1.0 + c) ** -5)
+        return self.pitch**2 / (np.pi * self.modulus) * (even - 1j * self.friction_dundurs * odd)
+
+
+class CoupledPair:
+    """C + mu T of any two operators on the same grid; the approximate inverse is that of C.
+
+    normal      C, symmetric positive definite
+    tangential  T: normal displacement under hats of traction q in +x, skew
+    friction    mu
+    """
+
+    def __init__(self, normal: ModelOperator, tangential: SkewOperator, friction: float) -> None:
+        self.normal, self.tangential, self.friction = normal, tangential, friction
+        self.count, self.periodic, self.ring = normal.count, normal.periodic, normal.ring
+        self.skew = friction != 0.0
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Weighted displacements (n,) [m^2] of pressures (n,) [Pa] and the tractions mu p."""
+        return self.normal.apply(pressure) + self.tangential.apply(self.friction * pressure)
+
+    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+        """Approximate inverse of C, positive definite."""
+        return self.normal.precondition(displacement)
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
+
+        None where there are so many that iterating is faster, or no matrices to take them from.
+        """
+        normal, tangential = self.normal, self.tangential
+        if not (isinstance(normal, Convolution) and isinstance(tangential, Convolution)):
+            return None
+        if len(nodes) > DIRECT:
+            return None
+        return eliminated(normal.block(nodes) + self.friction * tangential.block(nodes), right)
+
+    def cropped(self, span: int) -> None:
+        """Not offered: the parts may be bodies whose compliance depends on more than distances."""
+
+    @made_once
+    def coarsened(self) -> "CoupledPair | None":
+        """The same bodies on elements twice as wide, centred on nodes 1, 3, 5, …"""
+        normal, tangential = self.normal.coarsened(), self.tangential.coarsened()
+        if normal is None or tangential is None:
+            return None
+        return CoupledPair(normal, tangential, self.friction)
+
+
+def eliminated(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Solution (m, k) by Gauss' elimination: Cholesky's factor needs symmetry."""
+    return scipy.linalg.solve(matrix, right, check_finite=False)
+
+
+def _nothing(cycles: np.ndarray) -> np.ndarray:
+    """A symbol with the inverse zero: a skew operator approximates no positive one."""
+    return np.full(len(cycles), np.inf)

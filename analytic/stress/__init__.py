@@ -1,0 +1,1 @@
+"""Stresses in a half-plane under a line of pressure and traction elements."""

@@ -1,0 +1,190 @@
+"""Stresses in a half-plane under one uniform strip or one hat of pressure and of traction.
+
+Nomenclature: p pressure (positive in compression) and q traction (in +x) at the element's
+peak, both 1 here; r, t distance and angle from an end of the element, t = atan2(z, x - end).
+
+The traction adds nothing new to two of its three components: sz under q is txz under p, and txz
+under q is sx under p. Four arrays therefore hold what any friction needs.
+
+Written as in the sources, the formulas are sums of angles and logarithms that cancel: sz falls
+like z^3/x^4 while its terms do not fall at all. Each is recast here into terms of one sign, or,
+for hats away from the element, replaced by `stress_multipoles`; every component keeps its
+relative accuracy at any distance along the surface and away from it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import xlogy
+
+from analytic.exact.differences import angle_minus_sine
+from analytic.stress.multipoles import NEAREST, hat_multipoles
+from analytic.stress_state import PlaneStress
+
+
+@dataclass(frozen=True)
+class FrictionStress:
+    """Stresses [Pa] under a pressure p and, by superposition, a traction q = friction * p.
+
+    normal       under p alone
+    traction_sx  sx under q = p in +x, which is sx a unit of friction
+    """
+
+    normal: PlaneStress
+    traction_sx: np.ndarray
+
+    @property
+    def traction(self) -> PlaneStress:
+        """Under q = p in +x alone."""
+        return PlaneStress(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
+
+    def at(self, friction: float, besides: "FrictionStress | None" = None) -> PlaneStress:
+        """Under p and q = friction * p + t together, `besides` being those of t as a pressure."""
+        stress = self.normal
+        if friction != 0.0:
+            stress = _sum(stress, friction, self.traction)
+        return stress if besides is None else _sum(stress, 1.0, besides.traction)
+
+
+def _sum(stress: PlaneStress, factor: float, other: PlaneStress) -> PlaneStress:
+    return PlaneStress(
+        sx=stress.sx + factor * other.sx,
+        sz=stress.sz + factor * other.sz,
+        txz=stress.txz + factor * other.txz,
+    )
+
+
+def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
+    """Under unit p and unit q on |x| < half_width, at x, z [m] (broadcast together), z >= 0.
+
+    Bailey and Sayles 1991, eq. (1) and (2), with t1 = atan2(z, x - a), t2 = atan2(z, x + a).
+    On the surface the ends x = -a, a belong half to the strip, and sx under q is infinite there.
+    """
+    x, z = _points(x, z)
+    return strip_between(x + half_width, x, x - half_width, z)
+
+
+def strip_between(
+    left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray
+) -> FrictionStress:
+    """`strip_stress` by `left` = x + a, x and `right` = x - a, each known to rounding [m].
+
+    With D = t1 - t2 and S = t1 + t2 the equations read
+        sz, sx = -(1/pi) {(D - sin D) + 2 sin D (sin^2, cos^2)(S/2)}, txz = -(1/pi) sin S sin D,
+    and with v = sinh ln(r2/r1) = 2 a x/(r1 r2), sx under q = -(2/pi) (asinh v - v z^2/(r1 r2)).
+    """
+    side, x = np.where(x < 0.0, -1.0, 1.0), np.abs(x)
+    left, right = np.where(side < 0.0, -right, left), np.where(side < 0.0, -left, right)
+    product = np.hypot(left, z) * np.hypot(right, z)
+    end = product == 0.0
+    product = np.where(end, 1.0, product)
+    angle = np.arctan2((left - right) * z, left * right + z**2)
+    sine = (left - right) * z / product
+    sine_sum = 2.0 * x * z / product
+    half = 0.5 * (np.arctan2(z, left) + np.arctan2(z, right))
+    upright = np.sin(half)
+    # Below the strip's centre S nears pi, where its cosine would lose what sin S still holds.
+    steep = half > 0.25 * np.pi
+    flat = np.where(steep, 0.5 * sine_sum / np.where(steep, upright, 1.0), np.cos(half))
+    rest = np.where(end, 0.5 * np.pi, angle_minus_sine(angle))
+    return FrictionStress(
+        normal=PlaneStress(
+            sx=-(rest + 2.0 * sine * flat**2) / np.pi,
+            sz=-(rest + 2.0 * sine * upright**2) / np.pi,
+            txz=-side * sine_sum * sine / np.pi,
+        ),
+        traction_sx=-side * np.where(end, np.inf, _strip_stretch(left, x, right, z, product)),
+    )
+
+
+def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
+    """Under unit p and q at x = 0 that fall linearly to zero at -pitch, pitch.
+
+    At x, z [m] (broadcast together), z >= 0. Finite everywhere, the surface included.
+    """
+    x, z = _points(x, z)
+    return hat_at(x / pitch, z / pitch)
+
+
+def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
+    """`hat_stress` by x and z in pitches."""
+    parts = np.empty((4, *x.shape))
+    near = np.hypot(x, z) < NEAREST
+    parts[:, near] = _hat_closed(x[near], z[near])
+    parts[:, ~near] = hat_multipoles(x[~near], z[~near])
+    return FrictionStress(PlaneStress(*parts[:3]), parts[3])
+
+
+def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """sx, sz, txz under p and sx under q (4, n) close to the hat, lengths in pitches.
+
+    With y = x + 1, x, x - 1, weights c = 1, -2, 1 and t = atan2(z, y), from the potential
+    (1/pi) sum c w ln w, w = y + i z:
+        pi sz = sum c y t, pi sx = pi sz + 2 z sum c ln r, pi txz = -z sum c t,
+        pi sx under q = 3 z sum c t - 2 sum c y ln r.
+    """
+    side, x = np.where(x < 0.0, -1.0, 1.0), np.abs(x)
+    y = np.stack([x + 1.0, x, x - 1.0])
+    radius, angle = np.hypot(y, z), np.arctan2(z, y)
+    logs = _second_difference(np.log(np.where(radius > 0.0, radius, 1.0)))
+    stretch = _second_difference(xlogy(y, radius))
+    shallow = z < x
+    # Around the axis angles from the vertical leave exactly nothing of what is odd in x.
+    upright = np.arctan2(1.0 - x, z) - np.arctan2(1.0 + x, z) + 2.0 * np.arctan2(x, z)
+    turn = np.where(shallow, _second_difference(angle), upright)
+    # y t = |y| atan(z/|y|) + pi min(y, 0), and the difference of the latter is -pi times the hat;
+    # taking z off the former leaves what is of third order in z away from the nodes.
+    steady = _second_difference(_shortfall(np.abs(y), z)) - np.pi * np.maximum(1.0 - x, 0.0)
+    sz = np.where(shallow, steady, _second_difference(y * angle)) / np.pi
+    return np.stack(
+        [
+            sz + 2.0 * z * logs / np.pi,
+            sz,
+            -side * z * turn / np.pi,
+            side * (3.0 * z * turn - 2.0 * stretch) / np.pi,
+        ]
+    )
+
+
+def _second_difference(at: np.ndarray) -> np.ndarray:
+    """Of three rows; the outer two first, so that opposite ones cancel exactly."""
+    return at[0] + at[2] - 2.0 * at[1]
+
+
+def _shortfall(y: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """y atan(z/y) - z for y, z >= 0, which is -z^3/(3 y^2) + … for small z/y."""
+    small = z < 0.25 * y
+    square = np.where(small, z / np.where(small, y, 1.0), 0.0) ** 2
+    series = np.zeros_like(square)
+    for n in range(14, 0, -1):
+        series = -square * (series + 1.0 / (2.0 * n + 1.0))
+    return np.where(small, z * series, y * np.arctan2(z, y) - z)
+
+
+def _strip_stretch(
+    left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray, product: np.ndarray
+) -> np.ndarray:
+    """(2/pi) (asinh v - v z^2/(r1 r2)), v = 2 a x/(r1 r2) >= 0, for `product` = r1 r2.
+
+    Deep below the strip both terms tend to v: there v - asinh v is summed as a series, and
+    1 - z^2/(r1 r2) formed from (r1 r2)^2 - z^4 = (x^2 - a^2)^2 + 2 z^2 (x^2 + a^2).
+    """
+    v = (left - right) * x / product
+    fraction = z**2 / product
+    square = np.minimum(v, 0.1) ** 2
+    series, coefficients = np.zeros_like(square), [1.0]
+    for n in range(1, 9):
+        coefficients.append(-coefficients[-1] * (2 * n - 1) / (2 * n))
+    for n in range(8, 0, -1):
+        series = square * (series + coefficients[n] / (2 * n + 1))
+    fall = (left * right) ** 2 + z**2 * (left**2 + right**2)
+    deep = v * (series + fall / (product * (product + z**2)))
+    return 2.0 / np.pi * np.where(v < 0.1, deep, np.arcsinh(v) - v * fraction)
+
+
+def _points(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
+    if np.any(z < 0.0):
+        raise ValueError("z must not be negative: it points into the body")
+    return x, z

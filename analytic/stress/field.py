@@ -1,0 +1,224 @@
+"""Whole fields of stress under a line of pressure elements, layer by layer by convolution.
+
+On a level z the stress is the convolution of the nodal pressures with one element's stress, so
+a zero-padded real FFT sums all elements at all points of the level at once. The field may be
+sampled finer than the nodes stand: the elements keep their pitch, the pressures are spaced out
+with zeros between. Four kernels a level serve every friction coefficient and every load.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import brentq
+
+from analytic.stress.convolution import EACH, Products, convolve, mixed, on_grid, surface_load
+from analytic.stress.elements import FrictionStress
+from analytic.stress.grid import check_element, uniform_pitch
+from analytic.stress.kernels import circle
+from analytic.stress.potential import Element
+from analytic.stress.ring import ring
+from analytic.stress_state import PlaneStress
+
+
+@dataclass(frozen=True)
+class StressField:
+    """Stresses [Pa] of shape (len(z), len(x)) on levels `z` (k,) and columns `x` (m,) [m]."""
+
+    x: np.ndarray
+    z: np.ndarray
+    stress: PlaneStress
+
+
+@dataclass(frozen=True)
+class FrictionField:
+    """A field for every friction: `stress.at(friction)` [Pa] of shape (len(z), len(x))."""
+
+    x: np.ndarray
+    z: np.ndarray
+    stress: FrictionStress
+
+    def at(self, friction: float) -> StressField:
+        """The field under p and q = friction * p in +x."""
+        return StressField(self.x, self.z, self.stress.at(friction))
+
+
+def stress_field(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    friction: float,
+    x_range: tuple[float, float],
+    z: np.ndarray,
+    subdivisions: int = 1,
+    element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
+) -> StressField:
+    """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
+
+    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
+    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
+    any sign. The grid contains the nodes' places and divides each pitch into `subdivisions`,
+    within and beyond the nodes' extent. On z = 0, sz = -p and txz = -q exactly. Each level is
+    right to rounding of its own largest stress.
+
+    With `periodic` the nodes are one period of n pitches, repeated without end; what the mean
+    pressure then does to sx is told in `stress_periodic`.
+
+    Raises ValueError for input out of these bounds, for a window without a grid point, and for
+    strips whose ends, where sx under q is infinite, fall on points of the surface.
+    """
+    load = np.array(pressure, dtype=float)
+    loads, products = load[None], mixed(0, friction)
+    if traction is not None:
+        uniform_pitch(x_nodes, traction)
+    own = traction is not None and np.any(traction)  # of its own shape
+    if own:
+        loads, products = np.array([load, friction * load + traction]), mixed(1, 1.0)
+    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, 1)
+    parts, on_surface = _fields(grid, loads, products, periodic)
+    if on_surface is not None:
+        parts[1, 0] = -on_surface[0]
+        if own:
+            parts[2, 0] = -on_surface[1]
+        else:
+            parts[2, 0] = -friction * on_surface[0]
+            if friction == 0.0:
+                parts[0, 0] = -on_surface[0]
+    return StressField(grid.x, grid.z, PlaneStress(*parts))
+
+
+def friction_field(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    x_range: tuple[float, float],
+    z: np.ndarray,
+    subdivisions: int = 1,
+    element: Element = "hat",
+    stride: int = 1,
+    *,
+    periodic: bool = False,
+) -> FrictionField:
+    """`stress_field` for every friction at once; of the grid's points every `stride`-th is kept."""
+    load = np.array(pressure, dtype=float)
+    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, stride)
+    parts, on_surface = _fields(grid, load[None], EACH, periodic)
+    if on_surface is not None:
+        parts[:2, 0] = -on_surface[0]
+    return FrictionField(grid.x, grid.z, FrictionStress(PlaneStress(*parts[:3]), parts[3]))
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Columns `x` and levels `z` [m]; each pitch [m] of the nodes divided into `subdivisions`.
+
+    `first` and `last` column, counted in these steps from the first node; every `stride`-th kept.
+    """
+
+    x: np.ndarray
+    z: np.ndarray
+    pitch: float
+    subdivisions: int
+    first: int
+    last: int
+    stride: int
+    element: Element
+
+
+def _grid(
+    x_nodes: np.ndarray,
+    load: np.ndarray,
+    x_range: tuple[float, float],
+    z: np.ndarray,
+    subdivisions: int,
+    element: Element,
+    stride: int,
+) -> _Grid:
+    pitch = uniform_pitch(x_nodes, load)
+    check_element(element)
+    z = np.asarray(z, dtype=float)
+    _check_levels(z)
+    for name, number in (("subdivisions", subdivisions), ("stride", stride)):
+        if number < 1 or number != int(number):
+            raise ValueError(f"{name} must be a whole number from 1, not {number}")
+    if element == "strip" and z[0] == 0.0 and subdivisions % 2 == 0:
+        raise ValueError(
+            "uniform strips have no finite sx at their ends on the surface: take z > 0, "
+            "an odd number of subdivisions, or hats"
+        )
+    first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
+    x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
+    return _Grid(x, z, pitch, subdivisions, first, last, stride, element)
+
+
+def _fields(
+    grid: _Grid, loads: np.ndarray, products: Products, periodic: bool
+) -> tuple[np.ndarray, np.ndarray | None]:
+    """Stresses (products, levels, columns) [Pa] under loads (k, n) [Pa].
+
+    And the loads (k, columns) [Pa] on the surface if that is the first level, else None.
+    """
+    parts = np.zeros((len(products), len(grid.z), len(grid.x)))
+    sources, start = on_grid(loads, grid.subdivisions, whole=periodic)
+    places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
+    if sources.size:
+        make = ring if periodic else circle
+        closed = make(
+            grid.z / grid.pitch,
+            sources.shape[1],
+            grid.first - start,
+            grid.last - start,
+            grid.stride,
+            grid.subdivisions,
+            grid.element,
+        )
+        convolve(sources, closed, products, parts)
+    if grid.z[0] > 0.0:
+        return parts, None
+    surface = [
+        surface_load(source, places, grid.subdivisions, grid.element, periodic)
+        for source in sources
+    ]
+    return parts, np.array(surface)
+
+
+def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
+    """`count` levels from 0 to `depth` [m], the first at `first` [m], growing by a fixed ratio.
+
+    Raises ValueError where equal steps already exceed `depth`: 0 < first <= depth/(count - 1).
+    """
+    intervals = count - 1
+    if count < 3:
+        raise ValueError(f"count must be at least 3, not {count}")
+    if not 0.0 < first * intervals <= depth * (1.0 + 1e-12):
+        raise ValueError(
+            f"first must be above 0 and at most {depth / intervals:g} m, not {first:g} m"
+        )
+    order = np.arange(intervals)
+
+    def excess(log_ratio: float) -> float:
+        return np.log(first / depth * np.sum(np.exp(log_ratio * order)))
+
+    # The last step alone may not exceed the depth, which bounds the ratio.
+    bound = np.log(depth / first) / (intervals - 1)
+    log_ratio = brentq(excess, 0.0, bound, xtol=1e-15) if excess(0.0) < 0.0 else 0.0
+    levels = np.concatenate([[0.0], np.cumsum(np.exp(log_ratio * order))])
+    return depth * levels / levels[-1]
+
+
+def _window(x_range: tuple[float, float], origin: float, step: float) -> tuple[int, int]:
+    """First and last step of the grid from `origin` within `x_range`, ends included."""
+    low, high = ((bound - origin) / step for bound in x_range)
+    first, last = int(np.ceil(low - 1e-6)), int(np.floor(high + 1e-6))
+    if last < first:
+        raise ValueError(
+            f"no point of the grid of {step:g} m lies between {x_range[0]:g} and {x_range[1]:g} m"
+        )
+    return first, last
+
+
+def _check_levels(z: np.ndarray) -> None:
+    if z.ndim != 1 or len(z) == 0 or not np.all(np.isfinite(z)):
+        raise ValueError("z must be one-dimensional, finite and not empty")
+    if z[0] < 0.0 or np.any(np.diff(z) <= 0.0):
+        raise ValueError("z must ascend strictly from z >= 0, into the body")

@@ -1,0 +1,76 @@
+"""Stresses in a half-plane under any line of pressure elements, at any points.
+
+Nodal pressures p_i stand on a uniform grid x_i; as "hat" they are joined linearly and fall to
+zero one pitch beyond the ends, as "strip" each holds over its own pitch. Tractions have the same
+shape. A field on a grid of columns and levels is quicker by `stress_field`.
+
+A few pairs of point and element are summed one by one, which keeps the relative accuracy of every
+component; more by a tree (`stress_tree`), in a time proportional to their numbers' sum. The two
+agree to 1e-13 of the largest load, wherever the nodes stand.
+
+Nodes count as whole pitches apart, and a place by its distance from the nearest one: at a node,
+given as in `x_nodes`, no rounding of the coordinates enters. Between nodes that of x and x_i moves
+the place by up to eps |x| (eps 1.1e-16), which changes a stress by about eps |x|/h times the
+difference between neighbouring pressures, h the pitch: 5e-12 of it at h = 1 um, 5 cm from the
+origin.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from analytic.stress.elements import FrictionStress
+from analytic.stress.grid import check_element, uniform_pitch
+from analytic.stress.line import line_stress
+from analytic.stress.periodic import periodic_stress
+from analytic.stress.potential import Element
+from analytic.stress_state import PlaneStress
+
+
+def stress_at(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    friction: float,
+    x: ArrayLike,
+    z: ArrayLike,
+    element: Element = "hat",
+    *,
+    traction: np.ndarray | None = None,
+    periodic: bool = False,
+) -> PlaneStress:
+    """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, tension positive.
+
+    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
+    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
+    any sign. With `periodic` the nodes are one period of n pitches, repeated without end; what
+    the mean pressure then does to sx is told in `stress_periodic`.
+
+    Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
+    """
+    besides = (
+        []
+        if traction is None
+        else [friction_stress_at(x_nodes, traction, x, z, element, periodic=periodic)]
+    )
+    stress = friction_stress_at(x_nodes, pressure, x, z, element, periodic=periodic)
+    return stress.at(friction, *besides)
+
+
+def friction_stress_at(
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    x: ArrayLike,
+    z: ArrayLike,
+    element: Element = "hat",
+    *,
+    periodic: bool = False,
+) -> FrictionStress:
+    """`stress_at` under q = friction * p, for every friction at once."""
+    pitch = uniform_pitch(x_nodes, pressure)
+    check_element(element)
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
+    if np.any(z < 0.0):
+        raise ValueError("z must not be negative: it points into the body")
+    sum_up = periodic_stress if periodic else line_stress
+    parts = sum_up(x_nodes, pressure, pitch, x.ravel(), z.ravel(), element)
+    parts = parts.reshape(4, *x.shape)
+    return FrictionStress(PlaneStress(*parts[:3]), parts[3])

@@ -1,0 +1,1 @@
+"""Rough surfaces: reading, filtering, measuring and making them."""

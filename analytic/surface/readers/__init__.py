@@ -1,0 +1,1 @@
+"""Measured profiles from the files of any program or instrument."""

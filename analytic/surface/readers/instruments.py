@@ -1,0 +1,97 @@
+"""Files of measuring instruments (X3P, OPD, Talysurf, Mitutoyo and others), by SurfaceTopography.
+
+That library is optional. It runs in a process of its own (`instrument_worker`): what it loads
+(HDF5, MPI) must not meet dolfinx's, and a reader that crashes or hangs is a message.
+"""
+
+import json
+import os
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from analytic.surface.readers.lines import ProfileError, shown
+from analytic.surface.readers.topography import Topography
+
+WORKER = (sys.executable, "-m", "analytic.surface.readers.instrument_worker")
+PATIENCE = 300.0  # s; the largest maps take ten
+ROOT = Path(__file__).resolve().parents[3]
+
+
+class AbsentReaderError(ProfileError):
+    """SurfaceTopography is not installed."""
+
+
+def install_command() -> str:
+    """The line to type that brings SurfaceTopography into this environment."""
+    constraints = Path(sys.prefix) / "constraints.txt"  # keeps numpy where dolfinx needs it
+    held = ["--constraint", str(constraints)] if constraints.exists() else []
+    editable = (ROOT / "pyproject.toml").exists()
+    what = ["--editable", f"{ROOT}[surface]"] if editable else ["crosscheck[surface]"]
+    return shlex.join([sys.executable, "-m", "pip", "install", *held, *what])
+
+
+def read_instrument_file(path: Path) -> Topography:
+    """The default channel of a file that SurfaceTopography knows.
+
+    Raises ProfileError, one line, where the library is absent (with the way to get it), does not
+    know the file, or fails on it.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "heights.npz"
+        answer = _ask(path, target)
+        if "absent" in answer:
+            raise AbsentReaderError(
+                path,
+                "is no text, and files of instruments are read by SurfaceTopography, which is "
+                f"not installed ({answer['absent']}); to install it: {install_command()}",
+            )
+        if "problem" in answer:
+            raise ProfileError(path, answer["problem"])
+        with np.load(target) as arrays:
+            heights = arrays["heights"]
+            x = arrays["x"] if "x" in arrays.files else None
+    if answer["unit"] is None and answer["unit_name"]:
+        name = shown(answer["unit_name"])
+        raise ProfileError(path, f"counts in {name}, which is no length; a profile has heights")
+    unit = answer["unit"]
+    factor = 1.0 if unit is None else unit
+    pitch = answer["pitch"]
+    return Topography(
+        path=path,
+        heights=heights * factor,
+        pitch=None if pitch is None else (pitch[0] * factor, pitch[1] * factor),
+        x=None if x is None else x * factor,
+        unit=unit,
+        format=f"{answer['format']}, by SurfaceTopography {answer['version']}",
+    )
+
+
+def _ask(path: Path, target: Path) -> dict:
+    """What the worker says of a file, {"problem": one line} if it fails; arrays are in `target`."""
+    paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "OMP_NUM_THREADS": "1"}
+    try:
+        done = subprocess.run(
+            [*WORKER, str(path.resolve()), str(target)],
+            capture_output=True,
+            stdin=subprocess.DEVNULL,
+            text=True,
+            errors="replace",
+            env=environment,
+            timeout=PATIENCE,
+        )
+    except subprocess.TimeoutExpired:
+        return {"problem": f"SurfaceTopography has not read it within {PATIENCE:g} s"}
+    if done.returncode != 0:
+        lines = done.stderr.strip().splitlines()
+        said = lines[-1] if lines else "it said nothing"
+        if done.returncode < 0:
+            said = f"{signal.Signals(-done.returncode).name}; {said}"
+        return {"problem": f"SurfaceTopography crashes on it ({said[:200]})"}
+    return json.loads(done.stdout.splitlines()[-1])

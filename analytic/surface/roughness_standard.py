@@ -1,0 +1,172 @@
+"""Roughness parameters as drawings and instruments state them: filtered, over section lengths.
+
+The profile is filtered (`filters`), cut into whole section lengths of one cut-off each in the
+middle of the trace, at least half a cut-off from its ends, and its parameters are those of
+ISO 21920-2:2021 (up to its name for the length, those of ISO 4287:1997). At most five sections
+count, as is usual; a shorter trace has fewer. As everywhere, the curve is the spline, and
+integrals are exact.
+
+The automatic cut-off is that of ISO 4288:1996, table 1 (ISO 21920-3:2021, classes Sc1 to Sc5):
+the shortest one whose Ra does not exceed the range that belongs to it.
+
+Nomenclature: lambda_c cut-off [m], lambda_s short cut-off [m].
+"""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from analytic.profile import Profile
+from analytic.surface.filters import (
+    LONGEST_CUTOFF,
+    REACH,
+    SHORTEST_CUTOFF,
+    check_cutoff,
+    filtered,
+)
+from analytic.surface.roughness import crossings, figures_of, stretch_of, turning_points
+
+SECTIONS = 5
+# ISO 4288:1996, table 1: largest Ra [m] of a cut-off [m]; ISO 3274:1996, table 1: its lambda_s [m].
+CLASSES = (
+    (0.02e-6, 0.08e-3, 2.5e-6),
+    (0.1e-6, 0.25e-3, 2.5e-6),
+    (2.0e-6, 0.8e-3, 2.5e-6),
+    (10.0e-6, 2.5e-3, 8e-6),
+    (80.0e-6, 8e-3, 25e-6),
+)
+HEIGHT_DISCRIMINATION = 0.1  # of Rz: lower hills and shallower dales do not end an element
+
+END_SAMPLES = 30  # over which the ends of a spline are forgotten, to rounding
+
+
+@dataclass(frozen=True)
+class StandardRoughness:
+    """Parameters of the filtered profile (ISO 21920-2:2021) over `sections` cut-offs.
+
+    cutoff, short_cutoff  [m] lambda_c; lambda_s or None
+    sections   section lengths in the evaluation length
+    start      [m] place on the trace where the first section begins
+    ra, rq     [m] mean and root mean square of |z|
+    rsk, rku   skewness and kurtosis (0 for a flat profile)
+    rt         [m] highest peak to deepest valley of the whole evaluation length
+    rz         [m] the same of each section, averaged
+    rdq        root mean square of dz/dx
+    rsm        [m] mean width of the profile's elements, a hill and a dale each, told apart by a
+               tenth of Rz; None where there is no whole one
+    """
+
+    cutoff: float
+    short_cutoff: float | None
+    sections: int
+    start: float
+    ra: float
+    rq: float
+    rsk: float
+    rku: float
+    rt: float
+    rz: float
+    rdq: float
+    rsm: float | None
+
+
+def standard_roughness(
+    profile: Profile, cutoff: float, short_cutoff: float | None = None
+) -> StandardRoughness:
+    """Parameters at a cut-off [m]; raises ValueError as `filtered` does.
+
+    profile       without its form, unfiltered
+    short_cutoff  [m] None: short waves stay
+    """
+    check_cutoff(profile, cutoff)
+    sections = min(SECTIONS, int((profile.length / cutoff - 1.0) * (1.0 + 1e-9)))
+    length = sections * cutoff
+    start = float(profile.x[0]) + 0.5 * (profile.length - length)
+    # What lies farther away than the filters reach would only cost time.
+    margin = REACH * (cutoff + (short_cutoff or 0.0)) + END_SAMPLES * profile.spacing
+    near = (profile.x >= start - margin) & (profile.x <= start + length + margin)
+    part = Profile(profile.x[near], profile.height[near])
+    whole = filtered(part, cutoff, short_cutoff).spline()
+    curve = stretch_of(whole, start, start + length)
+    figures = figures_of(curve, level=0.0)
+    ends = start + cutoff * np.arange(sections + 1)
+    pieces = [stretch_of(whole, a, b) for a, b in pairwise(ends)]
+    rz = float(np.mean([np.ptp(piece(turning_points(piece))) for piece in pieces]))
+    return StandardRoughness(
+        cutoff=cutoff,
+        short_cutoff=short_cutoff,
+        sections=sections,
+        start=start,
+        ra=figures.ra,
+        rq=figures.rq,
+        rsk=figures.rsk,
+        rku=figures.rku,
+        rt=figures.rt,
+        rz=rz,
+        rdq=figures.rms_slope,
+        rsm=_mean_width(curve, HEIGHT_DISCRIMINATION * rz),
+    )
+
+
+def standard_cutoff(profile: Profile) -> float:
+    """The cut-off [m] that ISO 4288:1996, table 1 gives by Ra.
+
+    Raises ValueError where the trace is too short for the cut-off that its Ra asks for, too
+    coarse for any, or rougher than the table.
+    """
+    for most, cutoff, _ in CLASSES:
+        if cutoff < SHORTEST_CUTOFF * profile.spacing:
+            continue
+        if cutoff > LONGEST_CUTOFF * profile.length:
+            raise ValueError(
+                f"the trace of {profile.length:.4g} m is too short for the standard's cut-off of "
+                f"{cutoff:g} m, which its roughness asks for; allowed is a cut-off in figures"
+            )
+        if standard_roughness(profile, cutoff).ra <= most:
+            return cutoff
+    raise ValueError(
+        "no cut-off of the standard (0.08 mm to 8 mm, Ra up to 80 um) suits the trace; "
+        "allowed is a cut-off in figures"
+    )
+
+
+def standard_short_cutoff(profile: Profile, cutoff: float) -> float | None:
+    """lambda_s [m] that belongs to `cutoff` [m] (ISO 3274:1996, table 1).
+
+    None where the samples are too far apart for it: they are what limits the short waves then.
+    """
+    fitting = (short for _, given, short in CLASSES if given >= cutoff * (1.0 - 1e-9))
+    short = next(fitting, CLASSES[-1][2])
+    if short >= cutoff:
+        return None
+    try:
+        check_cutoff(profile, short)
+    except ValueError:
+        return None
+    return short
+
+
+def _mean_width(curve: PPoly, height: float) -> float | None:
+    """Mean width [m] of whole elements, from one upward crossing of the mean line to the next.
+
+    Hills lower than `height` [m], and dales that are shallower, are taken as part of what lies
+    beside them; so are the stretches before the first and after the last crossing.
+    """
+    places = crossings(curve)
+    if len(places) < 3:
+        return None
+    starts = places[:-1]
+    # their middles see to it that every stretch between two crossings has a place
+    inside = np.sort(np.append(turning_points(curve), starts + 0.5 * np.diff(places)))
+    inside = inside[(inside > places[0]) & (inside < places[-1])]
+    first = np.searchsorted(inside, starts)
+    heights = curve(inside)
+    high, low = np.maximum.reduceat(heights, first), np.minimum.reduceat(heights, first)
+    counts = np.maximum(high, -low) >= height
+    hill, starts = (high > -low)[counts], starts[counts]
+    upward = starts[hill & np.concatenate(([True], ~hill))[: len(hill)]]
+    if len(upward) < 2:
+        return None
+    return float((upward[-1] - upward[0]) / (len(upward) - 1))

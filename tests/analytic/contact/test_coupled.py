@@ -1,0 +1,221 @@
+"""Sliding contact with the surfaces moved by friction: exact solution, symmetries, matrix."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import toeplitz
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import contact_residuals
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.operators.tangential import (
+    CoupledHalfPlane,
+    CoupledPair,
+    TangentialHalfPlane,
+    hat_sign,
+)
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+REFERENCES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text(encoding="utf-8"))
+SLIDING = REFERENCES["sliding_cylinder"]
+
+
+class Reference:
+    """A row of the tabulated sliding cylinder, under the roller's load, in metres and pascals."""
+
+    def __init__(self, row: dict, roller) -> None:
+        top, _, bottom = row["beta"].partition("/")
+        self.friction_dundurs = float(top) / float(bottom or 1.0) * float(row["mu"])
+        load = float(row["P_R_over_Estar_ahalf2"])
+        self.half = np.sqrt(roller.load * roller.radius / (roller.modulus * load))
+        unit = roller.modulus * self.half / roller.radius
+        self.edges = self.half * np.array(
+            [-float(row["b_trailing_over_ahalf"]), float(row["c_leading_over_ahalf"])]
+        )
+        self.peak = float(row["peak_p_R_over_Estar_ahalf"]) * unit
+        self.centroid = float(row["load_line_x_over_ahalf"]) * self.half
+        profile = row["profile_about_contact_centre"]
+        self.x = self.edges.mean() + self.half * np.array([float(p["xi"]) for p in profile])
+        self.pressure = unit * np.array([float(p["p_R_over_Estar_ahalf"]) for p in profile])
+
+
+CASES = [pytest.param(row, id=f"beta {row['beta']} mu {row['mu']}") for row in SLIDING]
+
+
+def exact_pressure(roller, friction_dundurs: float):
+    """Edges (2,) [m] and pressure(x) [Pa] of the header's formula, for any mu beta."""
+    shift = np.arctan(friction_dundurs) / np.pi
+    half = roller.hertz.half_width / np.sqrt(1.0 - 4.0 * shift**2)
+    leading, trailing = 0.5 + shift, 0.5 - shift
+    b, c = 2.0 * leading * half, 2.0 * trailing * half
+
+    def pressure(x):
+        sides = np.maximum(c - x, 0.0) ** leading * np.maximum(x + b, 0.0) ** trailing
+        return roller.modulus / (2.0 * roller.radius) * np.sin(np.pi * leading) * sides
+
+    return np.array([-b, c]), pressure
+
+
+def sliding_errors(roller, friction_dundurs: float, elements: int):
+    """L2 and peak error and largest edge error [pitches], over offsets of the apex off a node:
+    the error depends on where the edges fall between two nodes."""
+    edges, pressure = exact_pressure(roller, friction_dundurs)
+    highest = pressure(np.linspace(*edges, 20001)).max()
+    square, peak, edge = [], [], []
+    for offset in np.arange(8) / 8:
+        pitch = 3.6 * roller.hertz.half_width / elements
+        grid = HatGrid.within(-2.0 * roller.hertz.half_width, 1.6 * roller.hertz.half_width, pitch)
+        shift = offset * pitch
+        found = roller.sliding(grid, lambda x, s=shift: roller.smooth()(x - s), friction_dundurs)
+        exact = pressure(grid.x - shift)
+        square.append(np.sum((found.pressure - exact) ** 2) / np.sum(exact**2))
+        peak.append(abs(found.pressure.max() / highest - 1.0))
+        patch = contact_patches(grid.x, found.pressure, found.gap)[0] - shift
+        edge.append(np.abs(patch - edges).max() / pitch)
+    return np.sqrt(np.mean(square)), np.mean(peak), max(edge)
+
+
+class TestSlidingCylinder:
+    @pytest.mark.parametrize("row", CASES)
+    def test_tabulated_solutions(self, roller, row):
+        reference = Reference(row, roller)
+        reach = 1.5 * roller.hertz.half_width
+        grid = HatGrid.within(-reach, reach, 2.0 * reach / 2000)
+        found = roller.sliding(grid, roller.smooth(), reference.friction_dundurs)
+        patch = contact_patches(grid.x, found.pressure, found.gap)
+        assert found.converged and len(patch) == 1
+        assert found.pressure.max() == pytest.approx(reference.peak, rel=1e-6)
+        assert np.abs(patch[0] - reference.edges).max() < 0.1 * grid.pitch
+        at_points = np.interp(reference.x, grid.x, found.pressure)
+        assert at_points == pytest.approx(reference.pressure, rel=1e-5)
+        centroid = grid.x @ found.pressure / found.pressure.sum()
+        assert centroid == pytest.approx(reference.centroid, abs=1e-6 * roller.hertz.half_width)
+        # friction drags the body's surface to +x: the contact moves to -x
+        assert patch[0].mean() < 0.0 and centroid < 0.0
+
+    @pytest.mark.parametrize("friction_dundurs", [0.25, 0.75])
+    def test_orders_are_those_of_the_singular_edge(self, roller, friction_dundurs):
+        """p goes as s^(1/2 - n) at the trailing edge, n = atan(mu beta)/pi. Hats follow any other
+        place with order 2, so the L2 order is that exponent and a half more; the peak is smooth.
+        """
+        errors = [sliding_errors(roller, friction_dundurs, n) for n in (120, 480, 1920)]
+        l2, peak, edge = (np.array(e) for e in zip(*errors, strict=True))
+        expected = 1.0 - np.arctan(friction_dundurs) / np.pi
+        assert 0.5 * np.log2(l2[:-1] / l2[1:]) == pytest.approx(expected, abs=0.05)
+        assert 0.5 * np.log2(peak[:-1] / peak[1:]).mean() == pytest.approx(2.0, abs=0.2)
+        assert l2[-1] < 4e-3 and peak[-1] < 1e-6
+        assert edge.max() < 0.25
+
+    def test_small_shift_is_proportional_to_friction_and_beta(self, roller):
+        """Centre at -2 n h, n = atan(mu beta)/pi; the peak changes in second order."""
+        half_width = roller.hertz.half_width
+        reach = 1.3 * half_width
+        grid = HatGrid.within(-reach, reach, 2.0 * reach / 1000)
+        plain = roller.pressed(grid, roller.smooth())
+        for size in (1e-6, 1e-4, 1e-2):
+            found = roller.sliding(grid, roller.smooth(), size)
+            moved = grid.x @ (found.pressure - plain.pressure) / found.pressure.sum()
+            assert moved == pytest.approx(-8.0 / (3.0 * np.pi) * size * half_width, rel=1e-3)
+            assert abs(found.pressure.max() / plain.pressure.max() - 1.0) < 0.2 * size**2 + 1e-7
+
+
+@pytest.fixture(params=["smooth", "rough"])
+def gap(request, roller):
+    return roller.smooth() if request.param == "smooth" else roller.rough(1)
+
+
+class TestSymmetries:
+    def test_without_friction_it_is_the_uncoupled_solution_bit_for_bit(self, roller, gap):
+        found, plain = roller.sliding(roller.grid, gap, 0.0), roller.pressed(roller.grid, gap)
+        assert np.array_equal(found.pressure, plain.pressure)
+        assert found.iterations == plain.iterations
+
+    def test_hardly_any_friction_changes_hardly_anything(self, roller, gap):
+        found, plain = roller.sliding(roller.grid, gap, 1e-12), roller.pressed(roller.grid, gap)
+        assert found.pressure == pytest.approx(plain.pressure, abs=1e-8 * plain.pressure.max())
+        assert found.approach == pytest.approx(plain.approach, rel=1e-9)
+
+    def test_sliding_the_other_way_is_the_mirror(self, roller, gap, friction_dundurs):
+        """So is changing the places of the bodies: either turns the sign of mu beta."""
+        grid = HatGrid(4e-6, -275, 275)
+        forth = roller.sliding(grid, gap, friction_dundurs)
+        back = roller.sliding(grid, lambda x: gap(-x), -friction_dundurs)
+        error = np.abs(forth.pressure - back.pressure[::-1]).max()
+        assert forth.converged and error < 1e-8 * forth.pressure.max()
+
+    def test_lengths_and_moduli_scale(self, roller, gap):
+        """Pressure with the modulus, load with modulus and length: figures to rounding."""
+        grid = roller.grid
+        found = roller.sliding(grid, gap, 0.3)
+        length, stiffness = 1e-7, 1e4
+        small = HatGrid(grid.pitch * length, grid.first, grid.last)
+        other = solve_coupled(
+            CoupledHalfPlane(small.count, small.pitch, roller.modulus * stiffness, 0.3),
+            grid.average(gap) * length**2,
+            small.weights,
+            Constraints(load=roller.load * stiffness * length),
+        )
+        error = np.abs(other.pressure / stiffness - found.pressure).max()
+        assert error < 1e-8 * found.pressure.max()
+
+    def test_prescribed_approach_returns_the_load(self, roller, gap, friction_dundurs):
+        by_load = roller.sliding(roller.grid, gap, friction_dundurs)
+        approach = Constraints(approach=by_load.approach)
+        by_approach = roller.sliding(roller.grid, gap, friction_dundurs, approach)
+        assert by_approach.converged
+        assert by_approach.load == pytest.approx(roller.load, rel=1e-8)
+
+
+def dense_matrix(modulus, grid, friction_dundurs):
+    even = HalfPlane(grid.count, grid.pitch, modulus).column
+    odd = friction_dundurs * grid.pitch**2 / modulus * hat_sign(np.arange(grid.count))
+    return toeplitz(even + odd, even - odd)
+
+
+@pytest.mark.parametrize("hardness", [np.inf, 6e9])
+def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness):
+    """Signs by the matrix itself; on its own set the solution is that of the linear system."""
+    constraints = Constraints(load=roller.load, hardness=hardness)
+    gap = roller.rough(2)
+    found = roller.sliding(roller.grid, gap, friction_dundurs, constraints)
+    matrix = dense_matrix(roller.modulus, roller.grid, friction_dundurs)
+    weights = roller.grid.weights
+    residuals = contact_residuals(
+        matrix @ found.pressure,
+        found.pressure,
+        roller.grid.average(gap),
+        weights,
+        found.approach,
+        constraints,
+    )[1]
+    assert residuals.worst < 1e-9
+    capped = found.pressure >= hardness
+    assert capped.any() == np.isfinite(hardness)
+    assert np.all(found.gap[capped] < 1e-12)
+    free = np.flatnonzero((found.pressure > 0.0) & ~capped)
+    assert len(contact_patches(roller.grid.x, found.pressure, found.gap)) > 3
+    system = np.zeros((len(free) + 1, len(free) + 1))
+    system[:-1, :-1] = matrix[np.ix_(free, free)]
+    system[:-1, -1], system[-1, :-1] = -weights[free], weights[free]
+    held = np.where(capped, found.pressure, 0.0)
+    known = -(roller.grid.average(gap) + matrix @ held)[free]
+    solved = np.linalg.solve(system, np.append(known, roller.load - weights @ held))[:-1]
+    assert found.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
+
+
+def test_a_compliance_given_as_a_matrix_can_be_the_normal_part(roller):
+    """The hook for other bodies: any symmetric operator with any tangential one."""
+    grid = HatGrid.within(-1.1e-3, 1.1e-3, 8e-6)
+    matrix = toeplitz(HalfPlane(grid.count, grid.pitch, roller.modulus).column)
+    tangential = TangentialHalfPlane(grid.count, grid.pitch, roller.modulus, 0.5)
+    pair = CoupledPair(DenseCompliance(matrix), tangential, 0.6)
+    average = grid.average(roller.rough(1))
+    found = solve_coupled(pair, average, grid.weights, Constraints(load=roller.load))
+    expected = roller.sliding(grid, roller.rough(1), 0.3)
+    assert found.converged
+    assert found.pressure == pytest.approx(expected.pressure, abs=1e-7 * expected.pressure.max())

@@ -1,0 +1,91 @@
+"""Edges that are foreseen from the tension or the overlap that a wrong set shows."""
+
+import numpy as np
+import pytest
+
+from analytic.contact.edge_extrapolation import foreseen
+from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.sides import Broken, Sides
+from analytic.exact.hertz import hertz_from_load
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
+
+MODULUS, RADIUS, LOAD = 1e11, 1e-2, 1e5
+HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
+GRID = HatGrid.within(-2.0 * HERTZ.half_width, 2.0 * HERTZ.half_width, HERTZ.half_width / 400)
+NONE = np.zeros(GRID.count, dtype=bool)
+
+
+def broken_with_edges(half_nodes: int) -> tuple[Broken, Sides]:
+    """What Hertz's contact shows with this many nodes free on either side of its centre."""
+    operator = HalfPlane(GRID.count, GRID.pitch, MODULUS)
+    average = GRID.average(roller_gap(RADIUS))
+    constraints = Constraints(load=LOAD)
+    spent = {"exchanges": 0, "applications": 0}
+    problem = EquilibriumProblem(operator, average, GRID.weights, constraints, spent)
+    free = np.abs(np.arange(GRID.first, GRID.last + 1)) <= half_nodes
+    sides = Sides(~free, NONE)
+    rest = problem.equilibrium(HERTZ.pressure(GRID.x), sides, 0.0)
+    return problem.broken_signs(rest, sides), sides
+
+
+@pytest.mark.parametrize("excess", [10, 20, 40])
+def test_tension_shows_half_of_an_excess(excess):
+    broken, sides = broken_with_edges(400 + excess)
+    assert np.count_nonzero(broken.tensile) == pytest.approx(excess, abs=0.2 * excess + 2)
+    assert not broken.joining.any()
+    better = sides.exchanged(foreseen(broken, sides))
+    plain = sides.exchanged(broken)
+    wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
+    assert wrong <= 0.3 * wrong_plain
+
+
+@pytest.mark.parametrize("lack", [12, 24, 48])
+def test_overlap_shows_one_and_a_half_times_a_lack(lack):
+    broken, sides = broken_with_edges(400 - lack)
+    assert np.count_nonzero(broken.joining) == pytest.approx(3 * lack, abs=0.4 * lack + 2)
+    assert not broken.tensile.any()
+    better = sides.exchanged(foreseen(broken, sides))
+    plain = sides.exchanged(broken)
+    wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
+    assert wrong <= 0.4 * wrong_plain
+
+
+def marks(text: str) -> np.ndarray:
+    return np.array([letter == "x" for letter in text])
+
+
+@pytest.mark.parametrize(
+    ("free", "tensile", "expected"),
+    [
+        ("..xxxxxx..", "..xxx.....", "..xxxxx..."),  # from the left edge, as far again less one
+        ("..xxxxxx..", ".....xxx..", "...xxxxx.."),
+        ("xxxxxxxx..", "xxx.......", "xxxxx....."),  # the end of the grid is an edge
+        ("..xxxxxx..", "..x.......", "..x......."),  # single nodes as they are
+        ("..xxxxxx..", "....xx....", "....xx...."),  # within the patch: no edge to move
+        ("...xxx....", "...xxx....", "...xxx...."),  # the whole patch
+        (".xxxx.xxxx", ".xxx......", ".xxxx....."),  # no farther than the patch goes
+    ],
+)
+def test_tensile_runs_grow_inwards(free, tensile, expected):
+    sides = Sides(~marks(free), np.zeros(len(free), dtype=bool))
+    none = np.zeros(len(free), dtype=bool)
+    found = foreseen(Broken(marks(tensile), none, none, none), sides)
+    assert found.tensile.tolist() == marks(expected).tolist()
+
+
+@pytest.mark.parametrize(
+    ("free", "joining", "expected"),
+    [
+        ("xxx.......", "...xxxxxx.", "...xxxx..."),  # the two thirds beside the patch
+        (".......xxx", ".xxxxxx...", "...xxxx..."),
+        ("xx......xx", "..xxxxxx..", "..xxxxxx.."),  # a gap that closes
+        ("..........", "..xxxxxx..", "..xxxxxx.."),  # a new patch
+        ("xxx.......", "...xx.....", "...xx....."),
+    ],
+)
+def test_joining_runs_shrink_towards_their_patch(free, joining, expected):
+    sides = Sides(~marks(free), np.zeros(len(free), dtype=bool))
+    none = np.zeros(len(free), dtype=bool)
+    found = foreseen(Broken(none, none, marks(joining), none), sides)
+    assert found.joining.tolist() == marks(expected).tolist()

@@ -1,0 +1,191 @@
+"""Displacements continued over the gaps: what the continuation is, and what it buys."""
+
+import numpy as np
+import pytest
+from scipy.linalg import toeplitz
+
+from analytic.contact import search_directions as free_search
+from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.extension import Extension, RowExtension, extension_from
+from analytic.contact.sides import Sides
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane
+
+COUNT = 60
+SETS = {
+    "one node": np.array([17]),
+    "first node": np.array([0]),
+    "last node": np.array([COUNT - 1]),
+    "all nodes": np.arange(COUNT),
+    "both ends": np.array([0, COUNT - 1]),
+    "patches": np.r_[4:11, 12:13, 20:33, 50:58],
+    "every third": np.arange(1, COUNT, 3),
+}
+free_sets = pytest.mark.parametrize("nodes", SETS.values(), ids=SETS.keys())
+closings = pytest.mark.parametrize("closed", [False, True], ids=["open", "closed"])
+
+
+def matrix(extension: Extension, free: int) -> np.ndarray:
+    return np.stack([extension.extend(column) for column in np.eye(free)], axis=1)
+
+
+@free_sets
+@closings
+class TestContinuation:
+    def test_free_nodes_keep_their_values(self, nodes, closed):
+        values = np.random.default_rng(1).standard_normal(len(nodes))
+        continued = Extension(nodes, COUNT, closed).extend(values)
+        assert continued[nodes] == pytest.approx(values, rel=1e-15)
+
+    def test_a_rigid_displacement_stays_one(self, nodes, closed):
+        continued = Extension(nodes, COUNT, closed).extend(np.full(len(nodes), 3.0))
+        assert continued == pytest.approx(np.full(COUNT, 3.0), rel=1e-15)
+
+    def test_between_two_nodes_it_neither_over_nor_undershoots(self, nodes, closed):
+        entries = matrix(Extension(nodes, COUNT, closed), len(nodes))
+        assert entries.min() >= 0.0 and entries.max() <= 1.0
+        assert np.count_nonzero(entries, axis=1).max() <= 2
+
+    def test_gather_is_the_transpose(self, nodes, closed):
+        extension = Extension(nodes, COUNT, closed)
+        forces = np.random.default_rng(2).standard_normal(COUNT)
+        expected = matrix(extension, len(nodes)).T @ forces
+        assert extension.gather(forces) == pytest.approx(expected, abs=1e-14)
+
+    def test_a_mirrored_set_is_continued_mirrored(self, nodes, closed):
+        values = np.random.default_rng(3).standard_normal(len(nodes))
+        here = Extension(nodes, COUNT, closed).extend(values)
+        there = Extension(COUNT - 1 - nodes[::-1], COUNT, closed).extend(values[::-1])
+        assert there[::-1] == pytest.approx(here, abs=1e-14)
+
+    def test_the_preconditioner_is_symmetric_positive_definite(self, nodes, closed):
+        operator = (PeriodicHalfPlane if closed else HalfPlane)(COUNT, 1.0, 1.0)
+        extension = Extension(nodes, operator.ring, closed=True)
+        product = np.stack(
+            [
+                extension.gather(operator.precondition(extension.extend(column)))
+                for column in np.eye(len(nodes))
+            ]
+        )
+        assert product == pytest.approx(product.T, abs=1e-13 * np.abs(product).max())
+        assert np.linalg.eigvalsh(product).min() > 0.0
+
+
+def test_an_open_line_holds_its_outermost_displacements():
+    continued = Extension(np.array([3, 5]), 9, closed=False).extend(np.array([2.0, 7.0]))
+    assert np.all(continued[:4] == 2.0) and np.all(continued[5:] == 7.0)
+    assert continued[4] == pytest.approx(4.5)
+
+
+def test_a_closed_line_is_bridged_across_its_ends():
+    nodes, values = np.array([3, 5]), np.array([2.0, 7.0])
+    continued = Extension(nodes, 8, closed=True).extend(values)
+    turned = Extension(np.array([1, 3]), 8, closed=True).extend(values)
+    assert continued == pytest.approx(np.roll(turned, 2))
+    assert continued[0] == pytest.approx(4.5)
+    assert np.all(np.diff(continued[[5, 6, 7, 0, 1, 2, 3]]) < 0.0)
+
+
+class TestLeastEnergy:
+    """A gap on a closed line of 1024 touching nodes, at rest at 0 before it and at 1 behind."""
+
+    COUNT = 1024
+    INVERSE = np.linalg.inv(toeplitz(PeriodicHalfPlane(COUNT, 1.0, 1.0).column))
+
+    def excess(self, gap: int) -> dict[str, float]:
+        """Energy over the least of all continuations, less 1: as continued, straight, a jump."""
+        nodes = np.append(0, np.arange(gap, self.COUNT))
+        back = np.linspace(0.0, np.pi, len(nodes))[1:]  # from 1 to 0 around the rest of the line
+        values = np.append(0.0, 0.5 + 0.5 * np.cos(back))
+        continued = Extension(nodes, self.COUNT, closed=True).extend(values)
+        bridge = np.arange(1, gap)
+        shapes = {name: continued.copy() for name in ("arcsine", "straight", "jump", "least")}
+        shapes["straight"][bridge] = bridge / gap * values[1]
+        shapes["jump"][bridge] = 0.0
+        pull = self.INVERSE[np.ix_(bridge, nodes)] @ values
+        shapes["least"][bridge] = -np.linalg.solve(self.INVERSE[np.ix_(bridge, bridge)], pull)
+        energy = {name: shape @ self.INVERSE @ shape for name, shape in shapes.items()}
+        return {name: value / energy["least"] - 1.0 for name, value in energy.items()}
+
+    @pytest.mark.parametrize("gap", [4, 8, 16, 32, 64])
+    def test_the_arcsine_is_within_a_few_per_cent_of_it(self, gap):
+        excess = self.excess(gap)
+        assert 0.0 < excess["arcsine"] < 0.015
+        assert excess["jump"] > 20.0 * excess["arcsine"]
+
+    @pytest.mark.parametrize("gap", [16, 32, 64])
+    def test_it_is_closer_than_a_straight_line_once_the_gap_is_resolved(self, gap):
+        excess = self.excess(gap)
+        assert excess["arcsine"] < 0.7 * excess["straight"]
+
+
+class CutOff:
+    """No continuation: nothing moves beyond the free nodes."""
+
+    def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
+        self.nodes, self.count = nodes, count
+
+    def extend(self, values: np.ndarray) -> np.ndarray:
+        grid = np.zeros(self.count)
+        grid[self.nodes] = values
+        return grid
+
+    def gather(self, values: np.ndarray) -> np.ndarray:
+        return values[self.nodes]
+
+
+class TestIterations:
+    """Conjugate gradients on patches of 14 touching and 14 open nodes, for any displacements."""
+
+    PERIOD = 28
+
+    def applications(self, patches: int) -> int:
+        count = self.PERIOD * patches
+        operator, weights = PeriodicHalfPlane(count, 1.0, 1.0), np.ones(count)
+        rng = np.random.default_rng(7)
+        lower = np.arange(count) % self.PERIOD >= self.PERIOD // 2
+        gap = np.cumsum(rng.standard_normal(count)) * 1e-3
+        spent = {"exchanges": 0, "applications": 0}
+        problem = EquilibriumProblem(operator, gap, weights, Constraints(load=count), spent)
+        sides = Sides(lower, np.zeros(count, dtype=bool))
+        rest = problem.equilibrium(np.ones(count), sides, 1e-8)
+        touching = ~lower
+        assert np.abs(rest.gap[touching]).max() < 1e-5 * np.ptp(rest.gap)
+        return spent["applications"]
+
+    def test_their_number_hardly_grows_with_the_patches(self):
+        few, many = self.applications(20), self.applications(400)
+        assert many < 1.5 * few
+        assert many < 40
+
+    def test_without_the_continuation_it_does(self, monkeypatch):
+        continued = [self.applications(patches) for patches in (20, 400)]
+
+        monkeypatch.setattr(free_search, "extension_from", CutOff)
+        cut = [self.applications(patches) for patches in (20, 400)]
+        assert cut[1] > 2.0 * continued[1]
+        assert cut[1] / cut[0] > 1.3 * continued[1] / continued[0]
+
+
+def test_the_free_half_planes_ring_is_long_enough():
+    """Closing the line for the inverse must not join what happens at its two ends."""
+    operator = HalfPlane(512, 1.0, 1.0)
+    inverse = np.linalg.inv(toeplitz(operator.column))
+    extension = Extension(np.arange(512), operator.ring, closed=True)
+    product = np.stack(
+        [extension.gather(operator.precondition(extension.extend(c))) for c in np.eye(512)]
+    )
+    spectrum = np.linalg.eigvals(np.linalg.solve(inverse, product)).real
+    assert np.sort(spectrum)[-2] / np.sort(spectrum)[1] < 4.0
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("nodes", [range(5, 30), range(30), range(30, 60), range(60), range(7, 8)])
+def test_a_row_of_nodes_is_continued_alike(nodes, closed):
+    nodes = np.array(nodes)
+    row, any_set = extension_from(nodes, COUNT, closed), Extension(nodes, COUNT, closed)
+    assert isinstance(row, RowExtension)
+    rng = np.random.default_rng(12)
+    moved, forces = rng.normal(size=len(nodes)), rng.normal(size=COUNT)
+    assert row.extend(moved) == pytest.approx(any_set.extend(moved), abs=1e-14)
+    assert row.gather(forces) == pytest.approx(any_set.gather(forces), abs=1e-13)

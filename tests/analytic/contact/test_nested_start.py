@@ -1,0 +1,195 @@
+"""Restriction and prolongation between grids of halved pitch, and what the nested solver costs."""
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+from analytic.contact.active_set import exchange_blocks
+from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.nested_start import COARSEST, SETTLED, coarse_start, prolonged, restricted
+from analytic.contact.problem import solve_contact
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane
+
+
+def cubic(x):
+    return 0.3 + x - 2.0 * x**2 + 0.7 * x**3
+
+
+class TestRestricted:
+    def test_an_odd_count_gives_the_coarse_grids_own_averages(self):
+        fine, coarse = HatGrid(0.5, -9, 9), HatGrid(1.0, -4, 4)
+        assert coarse.x == pytest.approx(fine.x[1::2])
+        found = restricted(fine.average(cubic), periodic=False)
+        assert found == pytest.approx(coarse.average(cubic), rel=1e-13)
+        assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
+
+    def test_an_even_count_lacks_half_a_hat_at_its_end(self):
+        fine, coarse = HatGrid(0.5, -9, 10), HatGrid(1.0, -4, 5)
+        found = restricted(fine.average(cubic), periodic=False)
+        expected = coarse.average(cubic)
+        assert found[:-1] == pytest.approx(expected[:-1], rel=1e-13)
+        assert found[-1] != pytest.approx(expected[-1], rel=1e-3)
+        assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
+
+    def test_a_periodic_line_wraps_round(self):
+        def wave(x):
+            return np.sin(2.0 * np.pi * x / 8.0) + np.cos(6.0 * np.pi * x / 8.0)
+
+        # piecewise integration of the same wave: fine cells on both sides, so equal to rounding
+        fine, coarse = HatGrid(0.5, 0, 15), HatGrid(1.0, 0, 7)
+        knots = np.arange(-4, 24) * 0.5
+        shifted = coarse.average(lambda x: wave(x + 0.5), knots)
+        assert restricted(fine.average(wave), periodic=True) == pytest.approx(shifted, abs=1e-12)
+
+    def test_what_is_integrated_is_kept(self):
+        values = np.random.default_rng(1).standard_normal(64)
+        assert restricted(values, periodic=True).sum() == pytest.approx(values.sum())
+
+    @pytest.mark.parametrize("count", [2, 3, 8, 9])
+    def test_lengths(self, count):
+        assert len(restricted(np.ones(count), periodic=False)) == count // 2
+
+
+class TestProlonged:
+    @pytest.mark.parametrize("count", [16, 17])
+    @pytest.mark.parametrize("periodic", [False, True])
+    def test_touching_nodes_are_interpolated(self, count, periodic):
+        coarse = 5.0 + np.arange(count // 2)
+        fine = prolonged(coarse, count, periodic)
+        assert fine[1::2] == pytest.approx(coarse)
+        assert fine[2:-1:2] == pytest.approx(0.5 * (coarse[:-1] + coarse[1:])[: len(fine[2:-1:2])])
+
+    def test_a_periodic_line_wraps_round(self):
+        coarse = np.array([4.0, 5.0, 6.0, 7.0, 6.0, 5.0, 4.0, 4.0])
+        assert prolonged(coarse, 16, periodic=True)[0] == pytest.approx(4.0)
+        turned = prolonged(np.roll(coarse, 3), 16, periodic=True)
+        assert turned == pytest.approx(np.roll(prolonged(coarse, 16, periodic=True), 6))
+
+    @pytest.mark.parametrize("count", [30, 31])
+    def test_open_stays_open(self, count):
+        assert not prolonged(np.zeros(count // 2), count, False).any()
+
+    @pytest.mark.parametrize("edge", np.arange(0.02, 2.0, 0.04))
+    def test_an_edge_of_root_shape_is_found_between_the_nodes(self, edge):
+        """p = sqrt(e - x) on nodes 1, 3, 5, …: the fine node beyond the last one touches or not."""
+        last = 31.0
+        coarse_x = np.arange(1.0, 64.0, 2.0)
+        fine_x = np.arange(65.0)
+        coarse = np.sqrt(np.maximum(last + edge - coarse_x, 0.0))
+        fine = prolonged(coarse, 65, periodic=False)
+        touching = (fine_x > 0.0) & (fine_x < last + edge)
+        np.testing.assert_array_equal(fine[1:] > 0.0, touching[1:])
+
+    @pytest.mark.parametrize("edge", [0.3, 0.9, 1.1, 1.7])
+    def test_both_edges_alike(self, edge):
+        x = np.arange(1.0, 64.0, 2.0)
+        coarse = np.sqrt(np.maximum((31.0 + edge - x), 0.0)) * (x > 13.0)
+        here = prolonged(coarse, 65, periodic=False)
+        there = prolonged(coarse[::-1], 65, periodic=False)
+        np.testing.assert_allclose(there[::-1], here, atol=1e-15)
+
+    def test_one_touching_node(self):
+        fine = prolonged(np.array([0.0, 0.0, 2.0, 0.0, 0.0]), 11, periodic=False)
+        assert fine == pytest.approx([0, 0, 0, 0, 1.0, 2.0, 1.0, 0, 0, 0, 0])
+
+    @pytest.mark.parametrize("edge", [0.3, 1.7])
+    def test_an_edge_across_the_seam(self, edge):
+        x = np.arange(1.0, 64.0, 2.0)
+        coarse = np.sqrt(np.maximum(1.0 - ((x - 31.0) / (12.0 + edge)) ** 2, 0.0))
+        here = prolonged(coarse, 64, periodic=True)
+        for turn in range(1, 32):
+            there = prolonged(np.roll(coarse, turn), 64, periodic=True)
+            np.testing.assert_allclose(there, np.roll(here, 2 * turn), atol=1e-15)
+
+
+@pytest.mark.parametrize("count", [COARSEST - 1, COARSEST, 3 * COARSEST, 8 * COARSEST + 1])
+@pytest.mark.parametrize("kind", [HalfPlane, PeriodicHalfPlane])
+def test_a_coarse_start_is_close_to_the_solution(kind, count):
+    operator, weights = kind(count, 1.0 / count, 1.0), np.full(count, 1.0 / count)
+    x = (np.arange(count) - 0.5 * (count - 1)) / count
+    # of curvature 1, and once around
+    gap = (1.0 - np.cos(2.0 * np.pi * x)) / (2.0 * np.pi) ** 2 / count
+    spent = {"exchanges": 0, "applications": 0}
+
+    problem = EquilibriumProblem(operator, gap, weights, Constraints(load=0.03), spent)
+    start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
+    assert start.shape == (count,) and np.all(start >= 0.0)
+    nested = count >= COARSEST and not (kind is PeriodicHalfPlane and count % 2)
+    assert (spent["exchanges"] > 0) == nested
+    if nested:
+        assert weights @ start == pytest.approx(0.03, rel=0.05)
+        assert 0.25 < np.count_nonzero(start) / count < 0.6
+
+
+def cylinder(count: int):
+    """Half-width 2/3 of the window's half, on the free half-plane."""
+    grid = HatGrid(2.0 / count, -(count // 2) + 1, count // 2 - 1)
+    load = np.pi * (2.0 / 3.0) ** 2 / 4.0
+    return HalfPlane(grid.count, grid.pitch, 1.0), grid.average(roller_gap(1.0)), load
+
+
+def sinusoid(count: int):
+    """Westergaard's contact at 0.3 of the closing pressure pi E* A/L."""
+    grid = HatGrid(1.0 / count, 0, count - 1)
+    gap = grid.average(lambda x: 1e-3 * (1.0 - np.cos(2.0 * np.pi * x)))
+    return PeriodicHalfPlane(count, grid.pitch, 1.0), gap, 0.3 * np.pi * 1e-3
+
+
+def rough(count: int, periodic: bool = True, seed: int = 4):
+    """Waves 1 to 60 with a self-affine spectrum, about a tenth in contact."""
+    rng = np.random.default_rng(seed)
+    orders = np.arange(1, 61)
+    heights = 1e-3 * orders**-1.3 * rng.rayleigh(size=60)
+    phases = rng.uniform(0.0, 2.0 * np.pi, 60)
+
+    def gap(x):
+        return -np.cos(np.multiply.outer(2.0 * np.pi * x, orders) + phases) @ heights
+
+    grid = HatGrid(1.0 / count, 0, count - 1)
+    operator = (PeriodicHalfPlane if periodic else HalfPlane)(count, grid.pitch, 1.0)
+    return operator, grid.average(gap), 4e-4
+
+
+class TestCost:
+    """On the finest grid: what is left to do there once the coarser ones have settled."""
+
+    COUNTS = 2 ** np.arange(10, 15)
+
+    def spent(self, problem, count: int) -> tuple[int, int]:
+        """Exchanges on all grids and applications on the finest."""
+        operator, gap, load = problem(count)
+        weights = np.full(operator.count, operator.pitch)
+        solution = solve_contact(operator, gap, weights, Constraints(load=load))
+        assert solution.converged
+        return solution.iterations["exchanges"], operator.applications
+
+    @pytest.mark.parametrize("problem", [cylinder, sinusoid])
+    def test_applications_on_the_finest_grid_do_not_grow(self, problem):
+        found = [self.spent(problem, count)[1] for count in self.COUNTS]
+        assert max(found) <= 22
+        assert found[-1] <= 2 * found[0]
+
+    @pytest.mark.parametrize("periodic", [True, False])
+    def test_on_a_rough_surface_they_hardly_grow(self, periodic):
+        """Of four surfaces, on grids whose contact is too large to be solved for directly."""
+
+        def mean(count: int) -> float:
+            problems = [lambda n, s=seed: rough(n, periodic, s) for seed in range(4)]
+            return np.mean([self.spent(problem, count)[1] for problem in problems])
+
+        few, many = mean(8192), mean(32768)
+        assert many < 1.35 * few
+        assert many < 40
+
+    def test_a_free_rough_contact_costs_like_a_periodic_one(self):
+        around = self.spent(rough, 4096)[1]
+        free = self.spent(lambda count: rough(count, periodic=False), 4096)[1]
+        assert free <= 1.5 * around
+
+    @pytest.mark.parametrize("problem", [cylinder, sinusoid, rough])
+    def test_exchanges_grow_with_the_number_of_grids_at_most(self, problem):
+        few, many = (self.spent(problem, count)[0] for count in self.COUNTS[[0, -1]])
+        assert many - few <= 4 * 4  # four more grids

@@ -1,0 +1,309 @@
+"""The contact solver on the half-plane: Hertz, Westergaard's scaling, limits, hard cases."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import toeplitz
+from scipy.optimize import nnls
+
+from analytic.contact import active_set
+from analytic.contact.equilibrium import Constraints, EquilibriumProblem
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import (
+    ContactError,
+    solve_contact,
+    solve_contacts,
+)
+from analytic.exact.hertz import hertz_from_load
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
+
+RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 3.55e6
+HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
+
+
+def smooth(roller, elements: int, offset: float = 0.0):
+    """Cylinder on a flat: `elements` across |x| < 1.5 a; the crest `offset` pitches off a node."""
+    reach = 1.5 * HERTZ.half_width
+    grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
+    shift = offset * grid.pitch
+    return grid, roller.pressed(grid, lambda x: roller_gap(RADIUS)(x - shift)), shift
+
+
+def observed_orders(errors: list[float]) -> np.ndarray:
+    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+
+
+class TestHertz:
+    def test_two_thousand_elements(self, roller):
+        grid, solution, _ = smooth(roller, 2000)
+        patch = contact_patches(grid.x, solution.pressure, solution.gap)
+        assert solution.converged
+        assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
+        assert np.ptp(patch) / 2.0 / HERTZ.half_width == pytest.approx(1.0, abs=1e-4)
+        assert len(patch) == 1
+
+    @pytest.mark.parametrize("offset", [0.0, 0.3, 0.5, 0.8])
+    def test_edges_lie_between_the_nodes_where_they_should(self, roller, offset):
+        grid, solution, shift = smooth(roller, 500, offset)
+        edges = contact_patches(grid.x, solution.pressure, solution.gap)[0] - shift
+        error = (edges - HERTZ.half_width * np.array([-1.0, 1.0])) / grid.pitch
+        assert np.abs(error).max() < 0.1
+
+    def test_peak_pressure_is_of_second_order(self, roller):
+        # offsets averaged: the error depends on where the edge falls between two nodes
+        errors = []
+        for elements in (120, 240, 480, 960):
+            found = [
+                smooth(roller, elements, offset)[1].pressure.max()
+                for offset in (0.0, 0.25, 0.5, 0.75)
+            ]
+            errors.append(np.mean(np.abs(np.array(found) / HERTZ.peak_pressure - 1.0)))
+        orders = observed_orders(errors)
+        assert orders.mean() == pytest.approx(2.0, abs=0.25)
+        assert errors[-1] < 1e-5
+
+    def test_pressure_l2_is_of_the_order_of_its_square_root_edge(self, roller):
+        errors = []
+        for elements in (120, 240, 480, 960):
+            square = []
+            for offset in (0.0, 0.25, 0.5, 0.75):
+                grid, solution, shift = smooth(roller, elements, offset)
+                exact = HERTZ.pressure(grid.x - shift)
+                square.append(np.sum((solution.pressure - exact) ** 2) / np.sum(exact**2))
+            errors.append(np.sqrt(np.mean(square)))
+        assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.15)
+
+    def test_prescribed_approach_returns_the_load(self, roller):
+        grid, by_load, _ = smooth(roller, 400)
+        by_approach = roller.pressed(
+            grid, roller_gap(RADIUS), Constraints(approach=by_load.approach)
+        )
+        assert by_approach.load == pytest.approx(LOAD, rel=1e-9)
+        assert by_approach.pressure == pytest.approx(
+            by_load.pressure, abs=1e-8 * HERTZ.peak_pressure
+        )
+
+
+def test_uniform_strips_converge_to_hertz():
+    """The method as published: collocated strips, of first order at the contact's edge."""
+    errors = []
+    for elements in (120, 240, 480, 960):
+        reach = 1.5 * HERTZ.half_width
+        grid = HatGrid.within(-reach, reach, 2.0 * reach / elements)
+        operator = HalfPlane(grid.count, grid.pitch, MODULUS, element="strip")
+        gap = grid.pitch * roller_gap(RADIUS)(grid.x)
+        solution = solve_contact(operator, gap, grid.weights, Constraints(load=LOAD))
+        assert solution.converged
+        exact = HERTZ.pressure(grid.x)
+        errors.append(np.linalg.norm(solution.pressure - exact) / np.linalg.norm(exact))
+    assert observed_orders(errors).mean() == pytest.approx(1.0, abs=0.1)
+    assert errors[-1] < 1e-3
+    assert solution.pressure.max() / HERTZ.peak_pressure == pytest.approx(1.0, abs=1e-5)
+
+
+ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
+
+
+def dense_oracle(grid, gap, load):
+    """Pressures by non-negative least squares on the Cholesky factor, approach by bisection."""
+    factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column))
+    average = grid.average(gap)
+
+    def at(approach):
+        target = np.linalg.solve(factor, approach * grid.weights - average)
+        scale = np.abs(target).max()
+        return nnls(factor.T / np.abs(factor).max(), target / scale, maxiter=20000)[0] * (
+            scale / np.abs(factor).max()
+        )
+
+    low, high = -1e-5, 1e-4
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if grid.weights @ at(middle) < load else (low, middle)
+    return at(0.5 * (low + high))
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_rough_contact_agrees_with_non_negative_least_squares(roller, seed):
+    grid = HatGrid.within(-0.8e-3, 0.8e-3, 10e-6)
+    solution = roller.pressed(grid, roller.rough(seed))
+    oracle = dense_oracle(grid, roller.rough(seed), LOAD)
+    assert len(contact_patches(grid.x, solution.pressure, solution.gap)) > 3
+    assert solution.pressure == pytest.approx(oracle, abs=1e-6 * oracle.max())
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
+    """The method that ends the cycles of the fast one must solve every problem by itself."""
+    gap = roller.rough(seed)
+    constraints = Constraints(load=0.3 * LOAD, hardness=3e9)
+    grid = HatGrid.within(-0.5e-3, 0.5e-3, 8e-6)
+    fast = roller.pressed(grid, gap, constraints)
+    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
+    slow = roller.pressed(grid, gap, constraints)
+    assert slow.converged
+    assert slow.iterations["exchanges"] < 8 * fast.iterations["exchanges"]
+    assert slow.pressure == pytest.approx(fast.pressure, abs=1e-7 * fast.pressure.max())
+
+
+def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
+    monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
+    grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), roller.rough(5)
+    operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(gap)
+    energies = []
+    original = EquilibriumProblem.equilibrium
+
+    def watched(problem, start, sides, reduction):
+        energies.append(start @ (0.5 * operator.apply(start) + average))
+        return original(problem, start, sides, reduction)
+
+    monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
+    everywhere = np.ones(grid.count)
+    solve_contact(operator, average, grid.weights, Constraints(load=0.3 * LOAD), everywhere)
+    assert len(energies) > 4
+    steps = np.diff(energies)
+    assert steps.max() <= 1e-12 * abs(energies[-1])
+    assert energies[-1] < energies[0]
+
+
+class TestHardness:
+    HARDNESS = 4e9
+
+    def test_capped_contact(self, roller):
+        solution = roller.pressed(
+            ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=self.HARDNESS)
+        )
+        capped = solution.pressure >= self.HARDNESS
+        assert solution.converged and capped.any()
+        assert solution.pressure.max() <= self.HARDNESS
+        assert solution.gap[capped].max() <= 1e-9 * np.ptp(solution.gap)
+        assert solution.load == pytest.approx(LOAD, rel=1e-12)
+
+    def test_a_cap_above_the_peak_changes_nothing(self, roller):
+        free = roller.pressed(ROUGH_GRID, roller.rough(7))
+        capped = roller.pressed(
+            ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=1.01 * free.pressure.max())
+        )
+        assert capped.pressure == pytest.approx(free.pressure, abs=1e-9 * free.pressure.max())
+
+    def test_a_load_beyond_the_hardness_is_refused(self, roller):
+        with pytest.raises(ContactError, match="exceeds what the surface can carry"):
+            roller.pressed(ROUGH_GRID, roller.rough(7), Constraints(load=LOAD, hardness=1e9))
+
+    @pytest.mark.parametrize("count", [1023, 4095, 16383])
+    @pytest.mark.parametrize("above_mean", [1.05, 1.5])
+    def test_a_plateau_costs_few_exchanges(self, roller, count, above_mean):
+        """Nearly every node at the hardness, where block exchanges may come round in a circle."""
+        grid = HatGrid.within(
+            -2.0 * HERTZ.half_width,
+            2.0 * HERTZ.half_width,
+            4.0 * HERTZ.half_width / (count + 1),
+        )
+        hardness = above_mean * LOAD / grid.weights.sum()
+        solution = roller.pressed(
+            grid, roller_gap(RADIUS), Constraints(load=LOAD, hardness=hardness)
+        )
+        assert solution.converged
+        assert solution.iterations["applications"] < 200
+        assert np.mean(solution.pressure >= hardness) == pytest.approx(1.0 / above_mean, abs=5e-3)
+
+
+class TestLimits:
+    def test_one_touching_node_at_vanishing_load(self, roller):
+        solution = roller.pressed(ROUGH_GRID, roller.rough(1), Constraints(load=1e-6))
+        assert solution.converged
+        assert np.count_nonzero(solution.pressure) == 1
+
+    @pytest.mark.parametrize("load", [1e-2, 1e-6])
+    def test_a_light_load_under_a_far_surface_costs_no_more(self, roller, load):
+        """A common gap a million times the compression must not drown it in rounding."""
+        half_width = hertz_from_load(load, RADIUS, MODULUS).half_width
+        grid = HatGrid.within(-3.0 * half_width, 3.0 * half_width, half_width / 150.0)
+        near, far = (
+            roller.pressed(grid, lambda x, c=c: roller_gap(RADIUS)(x) + c, Constraints(load=load))
+            for c in (0.0, 1e6 * half_width**2 / RADIUS)
+        )
+        assert far.converged
+        assert far.iterations["applications"] < 3 * near.iterations["applications"]
+        assert far.pressure == pytest.approx(near.pressure, abs=1e-4 * near.pressure.max())
+
+    def test_full_contact_of_a_shallow_wave(self, roller):
+        """All gaps closed: p - p_smooth is E* times slope amplitude over two, in phase."""
+        grid = HatGrid.within(-2e-3, 2e-3, 2e-6)
+        wavelength, height = 100e-6, 0.01e-6
+        wave = 2.0 * np.pi / wavelength
+        plain = roller.pressed(grid, roller_gap(RADIUS))
+        rough = roller.pressed(grid, lambda x: roller_gap(RADIUS)(x) - height * np.cos(wave * x))
+        inside = np.abs(grid.x) < 0.5 * HERTZ.half_width
+        expected = 0.5 * MODULUS * height * wave * np.cos(wave * grid.x)
+        assert (rough.pressure - plain.pressure)[inside] == pytest.approx(
+            expected[inside], abs=0.02 * expected.max()
+        )
+
+    def test_no_contact_below_the_first_touch(self, roller):
+        solution = roller.pressed(ROUGH_GRID, roller_gap(RADIUS), Constraints(approach=-1e-6))
+        assert solution.converged
+        assert not solution.pressure.any() and solution.load == 0.0
+
+    @pytest.mark.parametrize(
+        "wrong", [{}, {"load": 1.0, "approach": 1.0}, {"load": -1.0}, {"load": np.nan}]
+    )
+    def test_constraints_that_make_no_sense(self, wrong):
+        with pytest.raises(ValueError):
+            Constraints(**wrong)
+
+
+class TestProperties:
+    @given(
+        seed=st.integers(0, 10**6),
+        load=st.floats(1e-4, 1.0),
+        hardness=st.one_of(st.none(), st.floats(0.5, 5.0)),
+    )
+    @settings(max_examples=40, deadline=None, derandomize=True)
+    def test_contact_conditions_hold(self, roller, seed, load, hardness):
+        cap = np.inf if hardness is None else hardness * 1e10
+        solution = roller.pressed(
+            ROUGH_GRID, roller.rough(seed), Constraints(load=load * LOAD, hardness=cap)
+        )
+        assert solution.converged, solution.residuals
+
+    @given(seed=st.integers(0, 10**6), scale=st.floats(1e-9, 1e9))
+    @settings(max_examples=15, deadline=None, derandomize=True)
+    def test_results_scale_exactly_with_the_unit_of_length(self, roller, seed, scale):
+        gap = roller.rough(seed)
+        here = roller.pressed(ROUGH_GRID, gap)
+        grid = HatGrid(ROUGH_GRID.pitch * scale, ROUGH_GRID.first, ROUGH_GRID.last)
+        there = roller.pressed(
+            grid, lambda x: scale * gap(x / scale), Constraints(load=LOAD * scale)
+        )
+        assert there.pressure == pytest.approx(here.pressure, abs=1e-8 * here.pressure.max())
+
+    @pytest.mark.parametrize("seed", range(3))
+    def test_mirrored_profile_gives_the_mirrored_pressure(self, roller, seed):
+        gap = roller.rough(seed)
+        here, there = roller.pressed(ROUGH_GRID, gap), roller.pressed(ROUGH_GRID, lambda x: gap(-x))
+        assert there.pressure[::-1] == pytest.approx(here.pressure, abs=1e-8 * here.pressure.max())
+
+    def test_load_grows_with_approach(self, roller):
+        gap = roller.rough(11)
+        first = ROUGH_GRID.average(gap).min() / ROUGH_GRID.pitch
+        loads = [
+            roller.pressed(ROUGH_GRID, gap, Constraints(approach=first + depth)).load
+            for depth in np.linspace(0.05e-6, 6e-6, 12)
+        ]
+        assert np.all(np.diff(loads) > 0.0)
+
+
+def test_several_loads_in_one_call_share_the_operators(roller):
+    operator = HalfPlane(ROUGH_GRID.count, ROUGH_GRID.pitch, MODULUS)
+    average = ROUGH_GRID.average(roller.rough(4))
+    loads = [Constraints(load=share * LOAD) for share in (0.1, 0.7, 0.4)]
+    together = solve_contacts(operator, average, ROUGH_GRID.weights, loads)
+    coarser = operator.coarsened()
+    for each, solution in zip(loads, together, strict=True):
+        alone = roller.pressed(ROUGH_GRID, roller.rough(4), each)
+        assert solution.converged
+        assert solution.pressure == pytest.approx(alone.pressure, abs=1e-10 * alone.pressure.max())
+    assert operator.coarsened() is coarser

@@ -1,0 +1,120 @@
+"""The capped cylinder in closed form: its limits, its equations, and the contact solver on it."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
+from analytic.exact.flattened_cylinder import FlattenedCylinder, flattened_cylinder
+from analytic.exact.hertz import hertz_from_load
+from analytic.grid import HatGrid, roller_gap
+from analytic.operators.half_plane import HalfPlane
+
+LOAD, RADIUS, MODULUS = 1e6, 8e-3, 115e9
+HERTZ = hertz_from_load(LOAD, RADIUS, MODULUS)
+OFFSETS = np.arange(0.03, 1.0, 0.06)  # of a node, of the contact's edge
+SHARES = [0.97, 0.9, 0.75]  # of Hertz' peak pressure
+
+
+def exact(share: float) -> FlattenedCylinder:
+    return flattened_cylinder(LOAD, RADIUS, MODULUS, share * HERTZ.peak_pressure)
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_pressure_carries_the_load_and_meets_the_hardness(share):
+    found = exact(share)
+    outer = quad(found.pressure, found.flowed, found.contact, epsabs=0.0, epsrel=1e-10)[0]
+    assert 2.0 * (outer + found.hardness * found.flowed) == pytest.approx(LOAD, rel=1e-9)
+    edge = found.flowed * (1.0 + 1e-14)
+    assert found.pressure(edge) == pytest.approx(found.hardness, rel=1e-6)
+    assert found.pressure([0.0, found.contact, -2.0 * found.contact]).tolist() == [
+        found.hardness,
+        0.0,
+        0.0,
+    ]
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_gap_is_closed_where_ground_is_elastic_and_overlaps_where_it_flowed(share):
+    """Its slope x/R - 2/(pi E*) int p/(x - s) ds, by Cauchy's weight from the pressure alone."""
+    found = exact(share)
+    b, c = found.contact, found.flowed
+
+    ends = [-b, -c, c, b]
+
+    def slope(x: float) -> float:
+        total = 0.0
+        for start, stop in pairwise(ends):
+            if start < x < stop:
+                total -= quad(found.pressure, start, stop, weight="cauchy", wvar=x)[0]
+            else:
+                total += quad(lambda s: found.pressure(s) / (x - s), start, stop)[0]
+        return x / RADIUS - 2.0 * total / (np.pi * MODULUS)
+
+    steep = b / RADIUS
+    for x in c + (b - c) * np.array([0.1, 0.5, 0.9]):
+        assert slope(x) == pytest.approx(0.0, abs=2e-6 * steep)
+    node, weight = np.polynomial.legendre.leggauss(12)
+    near = 0.5 * (1.0 + node)  # x = c (1 - near^2): the slope is a root at c
+    x, dx = c * (1.0 - near**2), c * near * weight
+    slopes = np.array([slope(place) for place in x])
+    assert np.all(slopes > 0.0)
+    assert slopes @ dx == pytest.approx(found.largest_overlap, rel=1e-5)
+    assert 2.0 * (x * slopes) @ dx == pytest.approx(found.volume, rel=1e-5)
+
+
+def test_a_hardness_just_below_the_peak_leaves_hertz():
+    found = exact(1.0 - 1e-9)
+    assert found.contact == pytest.approx(HERTZ.half_width, rel=1e-8)
+    assert found.flowed < 1e-3 * found.contact
+    x = np.linspace(-1.2, 1.2, 49) * HERTZ.half_width
+    assert found.pressure(x) == pytest.approx(HERTZ.pressure(x), abs=1e-4 * HERTZ.peak_pressure)
+
+
+def test_a_soft_body_carries_the_hardness_over_the_whole_width():
+    found = exact(0.3)
+    assert found.contact == pytest.approx(LOAD / (2.0 * found.hardness), rel=1e-4)
+    assert found.flowed == pytest.approx(found.contact, rel=1e-6)
+
+
+@pytest.mark.parametrize("share", [1.0 + 1e-12, 2.0, -0.5])
+def test_nothing_flows_at_a_hardness_above_the_peak(share):
+    with pytest.raises(ValueError, match="nothing flows"):
+        exact(share)
+
+
+def solver_errors(found: FlattenedCylinder, count: float) -> tuple[float, float]:
+    """Relative errors of the volume of the overlap and of the pressure (L2); hats in b."""
+    pitch, reach = found.contact / count, 1.5 * found.contact
+    grid = HatGrid.within(-reach, reach, pitch)
+    solution = solve_contact(
+        HalfPlane(grid.count, pitch, MODULUS),
+        grid.average(roller_gap(RADIUS)),
+        grid.weights,
+        Constraints(load=LOAD, hardness=found.hardness),
+    )
+    assert solution.converged
+    volume = pitch * np.maximum(-solution.gap, 0.0)[solution.pressure > 0.0].sum()
+    wanted = found.pressure(grid.x)
+    return (
+        volume / found.volume - 1.0,
+        np.linalg.norm(solution.pressure - wanted) / np.linalg.norm(wanted),
+    )
+
+
+@pytest.mark.parametrize("share", SHARES)
+def test_contact_solver_finds_the_volume_at_second_order_and_the_pressure_at_first(share):
+    """Root mean square over places of the edges between nodes; the pressure's slope is infinite
+    at c."""
+    found = exact(share)
+    counts = np.array([40, 160, 640])
+    errors = [
+        np.sqrt(np.mean([np.square(solver_errors(found, n + o)) for o in OFFSETS], axis=0))
+        for n in counts
+    ]
+    volume, pressure = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
+    assert volume == pytest.approx(2.0, abs=0.35) and errors[-1][0] < 3e-5
+    assert pressure == pytest.approx(1.0, abs=0.2) and errors[-1][1] < 2e-3

@@ -1,0 +1,310 @@
+"""Sinusoidal contact against high-precision values, quadrature, sums over images and its limits."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from analytic.exact.hertz import hertz_from_load, hertz_stress
+from analytic.exact.westergaard import (
+    WestergaardContact,
+    westergaard_from_half_width,
+    westergaard_from_mean_pressure,
+    westergaard_stress,
+)
+
+CASES = json.loads((Path(__file__).parents[2] / "data/d_westergaard.json").read_text())["cases"]
+NAMES = ("sx", "sz", "txz")
+
+
+def unit(share: float, wavelength: float = 1.0) -> WestergaardContact:
+    """p* = 1 under `share` of it."""
+    return westergaard_from_mean_pressure(share, wavelength, 1.0 / np.pi, wavelength)
+
+
+def value(row: dict, key: str) -> float:
+    return float(row[key])
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case["pbar_over_pstar"])
+def test_reference_values(case):
+    contact = unit(value(case, "pbar_over_pstar"))
+    assert contact.closing_pressure == pytest.approx(1.0, rel=1e-15)
+    half_width = value(case, "half_width_over_lambda")
+    assert contact.half_width == pytest.approx(half_width, rel=1e-15)
+    assert contact.peak_pressure == pytest.approx(value(case, "peak_p_over_pstar"), rel=1e-15)
+    mean, valley = value(case, "mean_gap_over_Delta"), value(case, "valley_gap_over_Delta")
+    assert np.pi * contact.mean_gap == pytest.approx(mean, rel=2e-15)
+    assert np.pi * contact.gap(0.5) == pytest.approx(valley, rel=3e-15)
+    assert len(case["profile"]) == 6
+    for row in case["profile"]:
+        x, expected = value(row, "x_over_lambda"), value(row, "p_over_pstar")
+        # next to the edge the rounding of the quoted place shows
+        assert contact.pressure(x) == pytest.approx(expected, rel=1e-15 / (1.0 - x / half_width))
+    back = westergaard_from_half_width(half_width, 1.0, 1.0 / np.pi, 1.0)
+    assert back.mean_pressure == pytest.approx(value(case, "pbar_over_pstar"), rel=2e-15)
+
+
+@pytest.mark.parametrize("share", [1e-10, 0.3, 0.97])
+def test_slope_of_the_gap_is_that_of_both_surfaces(share):
+    """g' = g0' - (2/E*) (1/lambda) PV int p cot; the cut's quadrature in sin psi = S cos alpha."""
+    contact = unit(share)
+    order = 4001
+    alpha = np.arange(1, order + 1) * np.pi / (order + 1)
+    sine = np.sin(np.pi * contact.half_width)
+    place = np.arcsin(sine * np.cos(alpha)) / np.pi
+    load = 2.0 * sine**2 * np.sin(alpha) ** 2 / (order + 1)
+    assert load.sum() == pytest.approx(share, rel=1e-13)
+    outside = contact.half_width + (0.5 - contact.half_width) * np.array([0.1, 0.5, 0.9])
+    step = 1e-3 * (0.5 - contact.half_width)
+    weights = np.array([1.0, -8.0, 8.0, -1.0]) / (12.0 * step)
+    slope = contact.gap(outside[:, None] + step * np.array([-2, -1, 1, 2])) @ weights
+    cot = 1.0 / np.tan(np.pi * (outside[:, None] - place))
+    expected = 2.0 * np.sin(2.0 * np.pi * outside) - 2.0 * (cot @ load)
+    assert slope == pytest.approx(expected, rel=1e-6, abs=1e-11)
+
+
+@pytest.mark.parametrize("share", [1e-6, 0.05, 0.5, 0.749, 0.751, 0.95, 0.9999])
+def test_mean_gap_is_the_average_of_the_gap(share):
+    contact = unit(share)
+    a = contact.half_width
+    # from the edge on, where the gap opens as a power 3/2
+    total, _ = quad(
+        lambda u: contact.gap(a + (0.5 - a) * u**2) * 2.0 * u, 0, 1, epsabs=0, epsrel=1e-12
+    )
+    assert contact.mean_gap == pytest.approx((1.0 - 2.0 * a) * total, rel=1e-10, abs=0)
+
+
+def test_gap_keeps_its_digits_where_it_opens_and_where_it_closes():
+    """(4 A/3) sqrt(S) (2 cos psi_a dpsi)^(3/2) at the edge; e^2/2 and so on next to closing."""
+    contact = unit(0.2)
+    psi = np.pi * contact.half_width
+    for beyond in (1e-5, 1e-8, 1e-11):
+        x = contact.half_width + beyond
+        along = np.pi * (x - contact.half_width)  # as representable
+        leading = 4.0 / 3.0 * np.sqrt(np.sin(psi)) * (2.0 * np.cos(psi) * along) ** 1.5
+        assert np.pi * contact.gap(x) == pytest.approx(leading, rel=5.0 * along + 1e-14, abs=0)
+    for open_share in (1e-3, 1e-6, 1e-9):
+        near = unit(1.0 - open_share)
+        exact = 1.0 - near.mean_pressure
+        expected = exact**2 / 2.0 + exact**3 / 6.0 + exact**4 / 12.0 + exact**5 / 20.0
+        assert np.pi * near.mean_gap == pytest.approx(expected, rel=1e-11, abs=0)
+
+
+def test_light_load_is_hertz():
+    """Radius lambda^2/(4 pi^2 A); what is left falls like the load, that is like (a/lambda)^2."""
+    errors = []
+    for share in (1e-4, 1e-6, 1e-8):
+        contact = unit(share)
+        hertz = hertz_from_load(share, np.pi / (4.0 * np.pi**2), 1.0)
+        places = np.array([0.0, 0.3, 0.9, 0.999]) * hertz.half_width
+        errors.append(np.abs(contact.pressure(places) / hertz.pressure(places) - 1.0).max())
+        assert contact.half_width / hertz.half_width == pytest.approx(1.0, abs=share)
+        x, z = np.meshgrid(np.linspace(-2.0, 2.0, 9), [0.0, 1e-6, 0.3, 1.0, 3.0])
+        x, z = x * hertz.half_width, z * hertz.half_width
+        wavy = westergaard_stress(contact, x, z, 0.3, mean_sx=0.0)
+        plain = hertz_stress(hertz, x, z, 0.3)
+        for name in NAMES:
+            difference = np.abs(getattr(wavy, name) - getattr(plain, name)).max()
+            assert difference < 3.0 * np.sqrt(share) * hertz.peak_pressure
+    assert np.diff(np.log10(errors)) == pytest.approx([-2.0, -2.0], abs=0.05)
+
+
+def test_full_contact():
+    contact = unit(1.5)
+    assert contact.full and contact.half_width == 0.5 and contact.mean_gap == 0.0
+    x = np.linspace(-1.0, 1.0, 21)
+    assert contact.pressure(x) == pytest.approx(1.5 + np.cos(2.0 * np.pi * x), abs=1e-15)
+    assert contact.peak_pressure == pytest.approx(2.5)
+    assert not contact.gap(x).any()
+
+
+def test_partial_contact_passes_into_full_contact():
+    x, z = np.linspace(-0.5, 0.5, 41), np.array([[0.0], [0.01], [0.3]])
+    below, at = unit(1.0 - 1e-13), unit(1.0)
+    assert not below.full and at.full
+    assert below.pressure(x) == pytest.approx(at.pressure(x), abs=1e-6)
+    for name in NAMES:
+        here, there = (getattr(westergaard_stress(c, x, z, 0.3), name) for c in (below, at))
+        assert here == pytest.approx(there, abs=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.6, 0.98, 1.3])
+def test_stresses_are_the_sum_of_the_periodic_line_loads(share):
+    """Potential and gradient by quadrature of cot and its derivative over the pressure."""
+    contact = unit(share)
+    order = 2000
+    if contact.full:
+        place = (np.arange(order) + 0.5) / order - 0.5
+        load = contact.pressure(place) / order
+    else:
+        alpha = np.arange(1, order + 1) * np.pi / (order + 1)
+        sine = np.sin(np.pi * contact.half_width)
+        place = np.arcsin(sine * np.cos(alpha)) / np.pi
+        load = 2.0 * sine**2 * np.sin(alpha) ** 2 / (order + 1)
+    rng = np.random.default_rng(6)
+    x, z = rng.uniform(-2.0, 2.0, 200), rng.uniform(0.02, 2.0, 200)
+    angle = np.pi * (x[:, None] + 1j * z[:, None] - place)
+    first = (1.0 / np.tan(angle)) @ load
+    second = -np.pi * z * (np.sin(angle) ** -2.0 @ load)
+    stress = westergaard_stress(contact, x, z, 0.4)
+    normal = first.imag + second.real, first.imag - second.real, -second.imag
+    assert stress.sx == pytest.approx(normal[0] + 0.4 * (second.imag - 2.0 * first.real), abs=1e-12)
+    assert stress.sz == pytest.approx(normal[1] + 0.4 * normal[2], abs=1e-12)
+    assert stress.txz == pytest.approx(normal[2] + 0.4 * normal[0], abs=1e-12)
+
+
+def test_stresses_are_the_sum_of_the_fields_of_many_crests():
+    """A light contact's line loads one by one; what lies beyond n images falls like 1/n."""
+    contact = unit(1e-12)
+    x, z = np.array([0.2, -0.4, 0.5]), np.array([0.1, 0.3, 2.0])
+    stress = westergaard_stress(contact, x, z)
+    for count, left in ((1000, 1.3e-3), (10000, 1.3e-4)):
+        along = x[:, None] - np.arange(-count, count + 1)
+        kernel = 2.0 / np.pi * contact.load_per_wavelength / (along**2 + z[:, None] ** 2) ** 2
+        images = {
+            "sx": -np.sum(kernel * along**2, axis=1) * z,
+            "sz": -np.sum(kernel, axis=1) * z**3,
+            "txz": -np.sum(kernel * along, axis=1) * z**2,
+        }
+        for name in NAMES:
+            error = np.abs(getattr(stress, name) - images[name]).max() / contact.mean_pressure
+            assert error < left * z.max()
+    assert error < 1e-7 and name == "txz"
+
+
+@pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9])
+def test_last_gap_keeps_its_digits(below):
+    """By the distances y, y_e of point and edge to the valley, y = pi/2 - psi.
+
+    p = 2 sin y sqrt(sin^2 y - sin^2 y_e), and the gap by quadrature of its slope.
+    """
+    contact = unit(1.0 - below)
+    valley = np.pi * (0.5 - contact.half_width)
+    for share in (0.0, 0.3, 0.9):
+        x = 0.5 - share * (0.5 - contact.half_width)
+        y = np.pi * (0.5 - x)
+        opening, _ = quad(
+            lambda t: 2.0 * t * _slope(valley, valley - t**2),
+            0.0,
+            np.sqrt(valley - y),
+            epsabs=0.0,
+            epsrel=1e-12,
+        )
+        assert np.pi * contact.gap(x) == pytest.approx(opening, rel=1e-10, abs=0.0)
+    for share in (1.3, 7.0):
+        x = 0.5 - share * (0.5 - contact.half_width)
+        y = np.pi * (0.5 - x)
+        rise = np.sin(y - valley) * np.sin(y + valley)
+        expected = 2.0 * np.sin(y) * np.sqrt(rise)
+        assert contact.pressure(x) == pytest.approx(expected, rel=1e-14, abs=0.0)
+
+
+def _slope(valley: float, y: float) -> float:
+    """pi dg/dpsi of p* = 1: 4 sin y sqrt(sin^2 y_e - sin^2 y)."""
+    return 4.0 * np.sin(y) * np.sqrt(max(np.sin(valley - y) * np.sin(valley + y), 0.0))
+
+
+@pytest.mark.skipif(np.finfo(np.longdouble).eps > 2e-19, reason="no precision beyond double")
+@pytest.mark.parametrize("share", [1e-12, 1e-4, 0.3, 0.99, 1.0 - 1e-9])
+def test_stresses_keep_their_digits(share):
+    """The potential as written, in longer numbers; next to edges, valley, surface, and deep.
+
+    Errors count in units of the potential and of its gradient times z at the point.
+    """
+    contact = unit(share)
+    a = np.longdouble(contact.half_width)
+    rng = np.random.default_rng(9)
+    beside = contact.half_width * (1.0 + rng.choice([-1, 1], 100) * 10.0 ** rng.uniform(-9, 0, 100))
+    x = np.concatenate([beside[beside < 0.5], 0.5 - 10.0 ** rng.uniform(-6, -0.4, 100)])
+    z = 10.0 ** rng.uniform(-9.0, 0.3, len(x))
+    pi = 4 * np.arctan(np.longdouble(1))
+    theta = pi * (x.astype(np.longdouble) + 1j * z.astype(np.longdouble))
+    edge, sine = np.sin(pi * a), np.sin(theta)
+    right = 2 * np.sin((theta - pi * a) / 2) * np.cos((theta + pi * a) / 2)  # sine - edge
+    left = 2 * np.sin((theta + pi * a) / 2) * np.cos((theta - pi * a) / 2)
+    root = np.sqrt(right) * np.sqrt(left)
+    rest = edge**2 / (sine + root)  # sine - root
+    first = 2 * np.cos(theta) * rest
+    second = -2 * rest * (1 - sine * rest) / root * pi * z
+    closing = contact.closing_pressure
+    scale = closing * np.maximum(np.abs(first), np.abs(second)).astype(float)
+    stress = westergaard_stress(contact, x, z, 1.0)
+    normal = first.imag + second.real, first.imag - second.real, -second.imag
+    for found, expected in (
+        (stress.sx, normal[0] + second.imag - 2 * first.real),
+        (stress.sz, normal[1] + normal[2]),
+        (stress.txz, normal[2] + normal[0]),
+    ):
+        assert np.abs((found - closing * expected) / scale).max() < 2e-14
+
+
+def test_surface_and_edge():
+    for share in (1e-8, 0.3, 1.0 - 1e-12, 1.2):
+        contact = unit(share)
+        a = contact.half_width
+        x = np.array([-1.3, -a, -0.5 * a, 0.0, 0.3 * a, a, 0.5, 0.9, 1.0 - a])
+        stress = westergaard_stress(contact, x, 0.0, 0.25)
+        pressure = contact.pressure(x)
+        np.testing.assert_allclose(stress.sz, -pressure, rtol=1e-13, atol=1e-16)
+        np.testing.assert_allclose(stress.txz, -0.25 * pressure, rtol=1e-13, atol=1e-16)
+        assert np.all(np.isfinite(stress.sx))
+        if not contact.full:
+            inside = np.abs(x) <= a
+            expected = -pressure - 0.5 * np.sin(2.0 * np.pi * x)
+            np.testing.assert_allclose(stress.sx[inside], expected[inside], rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize("share", [1e-6, 0.4, 1.0 - 1e-9, 2.0])
+def test_field_is_periodic_and_mirrors(share):
+    contact = unit(share, 2.0**-10)
+    rng = np.random.default_rng(2)
+    x = rng.integers(-512, 513, 60) * 2.0**-20
+    z = rng.uniform(0.0, 1e-3, 60)
+    here = westergaard_stress(contact, x, z, 0.3)
+    there = westergaard_stress(contact, x + 3 * 2.0**-10, z, 0.3)
+    mirrored = westergaard_stress(contact, -x, z, -0.3)
+    for name, sign in (("sx", 1.0), ("sz", 1.0), ("txz", -1.0)):
+        np.testing.assert_array_equal(getattr(there, name), getattr(here, name))
+        np.testing.assert_array_equal(sign * getattr(mirrored, name), getattr(here, name))
+
+
+def test_only_the_means_are_left_deep_below():
+    for share in (1e-9, 0.5, 1.7):
+        stress = westergaard_stress(unit(share), [0.1, 0.4], [[30.0], [1e9]], 0.2)
+        for name, mean in (("sx", -share), ("sz", -share), ("txz", -0.2 * share)):
+            np.testing.assert_allclose(getattr(stress, name), mean, rtol=1e-14)
+    confined = westergaard_stress(unit(0.5), 0.1, 40.0, mean_sx=-0.5 * 0.3 / 0.7)
+    assert confined.sx == pytest.approx(-0.5 * 0.3 / 0.7, rel=1e-14)
+
+
+def test_any_level_carries_the_load():
+    x = (np.arange(4000) + 0.5) / 4000
+    for share in (0.01, 0.7, 1.2):
+        for depth in (0.01, 0.2):
+            stress = westergaard_stress(unit(share), x, depth, 0.3, mean_sx=0.125)
+            assert stress.sz.mean() == pytest.approx(-share, rel=1e-12)
+            assert stress.txz.mean() == pytest.approx(-0.3 * share, rel=1e-12)
+            assert stress.sx.mean() == pytest.approx(0.125, rel=1e-12)
+
+
+def test_units_do_not_matter():
+    small = westergaard_from_mean_pressure(0.3 * 2.0**30, 2.0**-20, 2.0**-30, 2.0**40 / np.pi)
+    large = westergaard_from_mean_pressure(0.3, 1.0, 2.0**-10, 2.0**10 / np.pi)
+    assert small.half_width == large.half_width * 2.0**-20
+    assert small.mean_gap == large.mean_gap * 2.0**-20
+    assert small.pressure(2.0**-23) == large.pressure(0.125) * 2.0**30
+    there = westergaard_stress(small, 2.0**-22, 2.0**-23, 0.2)
+    here = westergaard_stress(large, 0.25, 0.125, 0.2)
+    assert there.sx == here.sx * 2.0**30
+
+
+def test_what_makes_no_sense_is_refused():
+    with pytest.raises(ValueError, match="amplitude must be positive"):
+        westergaard_from_mean_pressure(1.0, 1.0, 0.0, 1.0)
+    with pytest.raises(ValueError, match="below half the wavelength"):
+        westergaard_from_half_width(0.5, 1.0, 1.0, 1.0)
+    with pytest.raises(ValueError, match="z must not be negative"):
+        westergaard_stress(unit(0.5), 0.0, -1e-3)

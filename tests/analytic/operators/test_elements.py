@@ -1,0 +1,112 @@
+"""Displacement coefficients of strips and hats against high-precision values and each other."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.operators.elements import (
+    hat_displacement,
+    hat_galerkin,
+    hat_slope,
+    strip_displacement,
+    strip_slope,
+)
+
+DATA = Path(__file__).parents[2] / "data"
+
+
+def rows(name: str, key: str) -> tuple[np.ndarray, np.ndarray]:
+    """Offsets and values of the rows of a reference file that hold `key`."""
+    table = json.loads((DATA / f"{name}.json").read_text())["rows"]
+    kept = [row for row in table if key in row]
+    assert len(kept) > 15
+    return np.array([float(r["offset"]) for r in kept]), np.array([float(r[key]) for r in kept])
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "function", "factor"),
+    [
+        ("c_influence_coefficients", "Lu", strip_displacement, 1.0),
+        ("c_influence_coefficients", "Lh", hat_displacement, 1.0),
+        ("c_influence_coefficients", "slope_u", strip_slope, -2.0 / np.pi),
+        ("c_influence_coefficients", "slope_h", hat_slope, -2.0 / np.pi),
+        ("galerkin_hat_coefficients", "Lg", hat_galerkin, 1.0),
+    ],
+)
+def test_reference_values_to_rounding(name, key, function, factor):
+    offset, expected = rows(name, key)
+    np.testing.assert_allclose(factor * function(offset), expected, rtol=3e-15)
+
+
+@pytest.mark.parametrize(
+    ("key", "function"), [("Ku", strip_displacement), ("Kh", hat_displacement)]
+)
+@pytest.mark.parametrize("datum", ["datum1000", "datum_self"])
+def test_displacement_follows_from_the_difference_to_the_datum(key, function, datum):
+    offset, expected = rows("c_influence_coefficients", f"{key}_{datum}")
+    origin = function(1000.0 if datum == "datum1000" else 0.0)
+    displacement = -2.0 / np.pi * (function(offset) - origin)
+    np.testing.assert_allclose(displacement, expected, rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("function", "join"), [(strip_displacement, 1.0), (hat_displacement, 1.5), (hat_galerkin, 3.0)]
+)
+def test_closed_form_and_moments_meet_where_they_join(function, join):
+    for x in (join, 8.0 * join):
+        below, above = function(np.array([np.nextafter(x, 0.0), x]))
+        assert abs(above - below) < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("value", "slope"), [(strip_displacement, strip_slope), (hat_displacement, hat_slope)]
+)
+def test_slope_is_the_derivative(value, slope):
+    """Fourth-order central differences; away from the strip's end, where the slope is infinite."""
+    x = np.concatenate([np.linspace(-0.4, 0.4, 9), np.linspace(0.6, 14.0, 57)])
+    x = x[np.abs(np.abs(x) - np.rint(np.abs(x))) > 0.05]
+    h = 1e-3
+    difference = (8.0 * (value(x + h) - value(x - h)) - value(x + 2 * h) + value(x - 2 * h)) / (
+        12.0 * h
+    )
+    np.testing.assert_allclose(slope(x), difference, rtol=0.0, atol=1e-7)
+
+
+def test_hat_is_the_mean_of_strips_and_galerkin_the_mean_of_hats():
+    """A strip smeared by a strip is a hat, and a hat smeared by two strips a cubic spline."""
+    node, weight = np.polynomial.legendre.leggauss(24)
+    x = np.array([2.5, 3.0, 7.0, 30.0])
+    strips = strip_displacement(x[:, None] - 0.5 * node) @ weight / 2.0
+    np.testing.assert_allclose(strips, hat_displacement(x), rtol=1e-14)
+    shift = 0.5 * (node[:, None] + node[None, :]).ravel()
+    hats = hat_displacement(x[:, None] - shift) @ np.outer(weight, weight).ravel() / 4.0
+    np.testing.assert_allclose(hats, hat_galerkin(x), rtol=1e-14)
+
+
+@pytest.mark.parametrize("function", [strip_displacement, hat_displacement, hat_galerkin])
+def test_even_in_the_offset_and_of_the_offsets_shape(function):
+    x = np.array([[0.0, 0.3, 1.0], [2.7, 40.0, 1e5]])
+    assert function(x).shape == x.shape
+    np.testing.assert_array_equal(function(-x), function(x))
+    assert np.ndim(function(3)) == 0
+
+
+@pytest.mark.parametrize("function", [strip_slope, hat_slope])
+def test_slope_is_odd(function):
+    x = np.array([0.0, 0.2, 0.75, 1.0, 5.0, 1e6])
+    np.testing.assert_array_equal(function(-x), -function(x))
+
+
+def test_strip_slope_is_infinite_at_its_end_and_hat_slope_is_not():
+    assert strip_slope(0.5) == np.inf
+    assert np.isfinite(hat_slope([-1.0, 0.0, 1.0])).all()
+
+
+def test_galerkin_matrix_is_positive_definite_for_pressures_without_resultant():
+    """The energy of a self-balanced pressure is positive: -L_g is positive on sum(p) = 0."""
+    n = 60
+    matrix = -hat_galerkin(np.subtract.outer(np.arange(n), np.arange(n)))
+    balanced = np.linalg.qr(np.column_stack([np.ones(n), np.eye(n)[:, 1:]]))[0][:, 1:]
+    assert np.linalg.eigvalsh(balanced.T @ matrix @ balanced).min() > 0.02

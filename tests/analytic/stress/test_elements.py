@@ -1,0 +1,177 @@
+"""Stresses of one strip and of one hat against high-precision values, near and far."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.stress.elements import FrictionStress, hat_stress, strip_stress
+from analytic.stress.multipoles import hat_multipoles
+
+DATA = Path(__file__).parents[2] / "data"
+STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]
+HAT = json.loads((DATA / "hat_stress.json").read_text())["points"]
+
+
+def numbers(rows: list[dict], name: str) -> np.ndarray:
+    return np.array([float(row[name]) for row in rows])
+
+
+def parts(stress: FrictionStress) -> np.ndarray:
+    return np.array([stress.normal.sx, stress.normal.sz, stress.normal.txz, stress.traction_sx])
+
+
+@pytest.mark.parametrize("load", ["normal", "tangential"])
+@pytest.mark.parametrize("component", ["sx", "sz", "txz"])
+def test_strip_reference_values_each_to_rounding(load, component):
+    """Bailey and Sayles' equations (1) and (2), from 1e-12 to 1e6 half-widths, each component.
+
+    One value, -1.27e-60, is written as 0 in the table: hence the absolute bound.
+    """
+    unit = strip_stress(numbers(STRIP, "x_over_a"), numbers(STRIP, "z_over_a"), 1.0)
+    stress = unit.normal if load == "normal" else unit.traction
+    expected = numbers([row[load] for row in STRIP], component)
+    assert len(expected) == 33
+    np.testing.assert_allclose(getattr(stress, component), expected, rtol=2e-15, atol=2e-60)
+
+
+@pytest.mark.parametrize("component", ["sx", "sz", "txz", "sx_traction"])
+def test_hat_reference_values(component):
+    """To rounding of the largest stress everywhere, and of each component away from the axis.
+
+    Close below the hat the sx that is left between -p and -sz is a hundredth of what cancels.
+    """
+    x, z = numbers(HAT, "x_over_pitch"), numbers(HAT, "z_over_pitch")
+    columns = [numbers(HAT, name) for name in ("sx", "sz", "txz", "sx_traction")]
+    row = ["sx", "sz", "txz", "sx_traction"].index(component)
+    found, expected = parts(hat_stress(x, z, 1.0))[row], columns[row]
+    assert len(expected) == 64
+    assert np.all(np.abs(found - expected) <= 5e-15 * np.max(np.abs(columns), axis=0))
+    far = np.hypot(x, z) >= 3.0
+    assert np.count_nonzero(far) > 25
+    np.testing.assert_allclose(found[far], expected[far], rtol=3e-15)
+    shallow = z < 1e-2
+    np.testing.assert_allclose(found[shallow], expected[shallow], rtol=1e-14)
+
+
+def test_hat_closed_form_and_moments_meet():
+    """The tiers of the moments too: each joins the next within the rounding of the sum."""
+    angle = np.linspace(0.0, np.pi, 41)
+    for radius in (3.0, 6.0, 16.0, 128.0, 2048.0):
+        inside, outside = (
+            parts(hat_stress(r * np.cos(angle), r * np.sin(angle), 1.0))
+            for r in (np.nextafter(radius, 0.0) * (1.0 - 1e-15), radius * (1.0 + 1e-15))
+        )
+        scale = 1.0 / radius
+        assert np.abs(inside - outside).max() < 2e-14 * scale
+
+
+def test_hat_is_the_mean_of_shifted_strips():
+    """A strip smeared over its own width is a hat; Gauss points, so not where a strip ends."""
+    node, weight = np.polynomial.legendre.leggauss(40)
+    x = np.array([-2.6, -1.0, 0.0, 0.4, 1.7, 50.0, 3000.0])
+    for z in (0.6, 2.0, 900.0):
+        strips = parts(strip_stress(x[:, None] - 0.5 * node, z, 0.5)) @ weight / 2.0
+        np.testing.assert_allclose(parts(hat_stress(x, z, 1.0)), strips, rtol=1e-12, atol=1e-16)
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_point_load_far_away(stress):
+    """Half-width 1/2 and pitch 1 carry one unit; corrections are of the order 1/r^2."""
+    size = 0.5 if stress is strip_stress else 1.0
+    for x, z in ((1e7, 1e-3), (-1e7, 1e7), (1.0, 1e7)):
+        square = (x * x + z * z) ** 2
+        point = -2.0 / np.pi / square * np.array([x * x * z, z**3, x * z * z, x**3])
+        atol = 0.0 if abs(x) > 1.0 else 1e-13 / abs(z)
+        np.testing.assert_allclose(parts(stress(x, z, size)), point, rtol=1e-12, atol=atol)
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_parity_in_x(stress):
+    rng = np.random.default_rng(3)
+    x, z = rng.uniform(-9.0, 9.0, 300), rng.uniform(0.0, 5.0, 300)
+    right, left = parts(stress(x, z, 1.0)), parts(stress(-x, z, 1.0))
+    np.testing.assert_array_equal(left[:2], right[:2])
+    np.testing.assert_array_equal(left[2:], -right[2:])
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_only_ratios_of_lengths_matter(stress):
+    x, z = np.array([0.3, 1.0, 2.0, 40.0]), np.array([1e-3, 0.2, 1.0, 7.0])
+    expected = parts(stress(x, z, 1.0))
+    for unit in (2.0**-40, 2.0**30):
+        np.testing.assert_array_equal(parts(stress(x * unit, z * unit, unit)), expected)
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_stresses_are_in_equilibrium(stress):
+    """Derivatives of sx, sz, txz by central differences: div = 0, under p and under q."""
+    rng = np.random.default_rng(5)
+    x, z, h = rng.uniform(-3.0, 3.0, 60), rng.uniform(0.3, 4.0, 60), 1e-4
+    for name in ("normal", "traction"):
+        east, west = (getattr(stress(x + d, z, 1.0), name) for d in (h, -h))
+        down, up = (getattr(stress(x, z + d, 1.0), name) for d in (h, -h))
+        along = (east.sx - west.sx) + (down.txz - up.txz)
+        across = (east.txz - west.txz) + (down.sz - up.sz)
+        assert np.abs(along / (2.0 * h)).max() < 2e-6
+        assert np.abs(across / (2.0 * h)).max() < 2e-6
+
+
+def test_surface_of_a_hat_is_its_own_load():
+    x = np.array([-3.0, -1.0, -0.75, 0.0, 0.5, 1.0, 8.0])
+    unit = hat_stress(x, 0.0, 1.0)
+    hat = np.maximum(1.0 - np.abs(x), 0.0)
+    np.testing.assert_array_equal(unit.normal.sz, -hat)
+    np.testing.assert_array_equal(unit.normal.sx, -hat)
+    np.testing.assert_array_equal(unit.traction.txz, -hat)
+    np.testing.assert_array_equal(unit.normal.txz, 0.0)
+    assert np.isfinite(unit.traction_sx).all()
+
+
+def test_surface_of_a_strip_is_its_own_load_and_half_of_it_at_the_ends():
+    x = np.array([-2.0, -0.5, 0.0, 0.3, 0.5, 0.6])
+    unit = strip_stress(x, 0.0, 0.5)
+    load = np.array([0.0, 0.5, 1.0, 1.0, 0.5, 0.0])
+    np.testing.assert_array_equal(unit.normal.sz, -load)
+    np.testing.assert_array_equal(unit.normal.sx, -load)
+    np.testing.assert_array_equal(unit.traction_sx[[1, 4]], [np.inf, -np.inf])
+
+
+def test_strip_has_a_logarithmic_spike_where_the_hat_is_bounded():
+    """Each decade towards the end of a strip adds (2/pi) ln 10 to its sx under q."""
+    z = 10.0 ** -np.arange(2.0, 13.0)
+    strip, hat = strip_stress(0.5, z, 0.5).traction_sx, hat_stress(1.0, z, 1.0).traction_sx
+    np.testing.assert_allclose(np.diff(strip), -2.0 / np.pi * np.log(10.0), rtol=2e-2)
+    np.testing.assert_allclose(np.diff(strip)[4:], -2.0 / np.pi * np.log(10.0), rtol=1e-6)
+    assert np.abs(hat - hat_stress(1.0, 0.0, 1.0).traction_sx).max() < 0.05
+    assert np.abs(hat[-1] - hat_stress(1.0, 0.0, 1.0).traction_sx) < 1e-11
+
+
+def test_friction_superposes_pressure_and_traction():
+    unit = hat_stress(np.array([0.2, -4.0]), np.array([0.7, 0.1]), 1.0)
+    mixed = unit.at(0.25)
+    for name in ("sx", "sz", "txz"):
+        expected = getattr(unit.normal, name) + 0.25 * getattr(unit.traction, name)
+        np.testing.assert_array_equal(getattr(mixed, name), expected)
+    assert unit.at(0.0) is unit.normal
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_what_is_odd_in_x_vanishes_exactly_on_the_axis(stress):
+    unit = stress(0.0, np.array([1e-12, 1e-3, 0.3, 1.0, 2.9, 3.1, 50.0]), 1.0)
+    np.testing.assert_array_equal(unit.normal.txz, 0.0)
+    np.testing.assert_array_equal(unit.traction_sx, 0.0)
+
+
+def test_moments_do_not_cancel_on_the_axis():
+    """sx of a hat deep on its axis is the second moment alone: -(2/pi) mu_2 z^-3."""
+    for z in (30.0, 1e3, 1e6):
+        sx = hat_multipoles(np.array([0.0]), np.array([z]))[0, 0]
+        assert sx == pytest.approx(-2.0 / np.pi / 6.0 / z**3, rel=3.0 / z**2 + 1e-14)
+
+
+@pytest.mark.parametrize("stress", [strip_stress, hat_stress])
+def test_a_point_above_the_surface_is_refused(stress):
+    with pytest.raises(ValueError, match="z must not be negative"):
+        stress(0.0, -1.0, 1.0)

@@ -1,0 +1,231 @@
+"""Fields by convolution against the direct sum, and the levels they stand on."""
+
+import numpy as np
+import pytest
+
+from analytic.stress.field import friction_field, graded_depths, stress_field
+from analytic.stress.points import friction_stress_at, stress_at
+
+NAMES = ("sx", "sz", "txz")
+PITCH = 2.0**-7
+NODES = (np.arange(150) - 60.0) * PITCH
+PRESSURE = np.maximum(np.random.default_rng(2).standard_normal(150) + 0.3, 0.0)
+LEVELS = np.array([0.0, 1e-12, 1e-4, 2e-3, 0.03, 0.4, 5.0])
+
+
+def worst(field, friction: float, nodes, pressure, element: str) -> float:
+    """Largest difference to the direct sum, relative to the largest stress."""
+    x, z = np.meshgrid(field.x, field.z)
+    direct = friction_stress_at(nodes, pressure, x, z, element).at(friction)
+    found = field.at(friction).stress
+    largest = max(np.abs(getattr(direct, name)).max() for name in NAMES)
+    return max(np.abs(getattr(found, n) - getattr(direct, n)).max() for n in NAMES) / largest
+
+
+@pytest.mark.parametrize(
+    ("x_range", "subdivisions"),
+    [
+        ((-3.0, 3.0), 1),  # wider than the nodes
+        ((0.1, 0.2), 1),  # within them
+        ((-0.6, 0.9), 2),
+        ((-0.1, 0.1), 5),
+        ((2.0, 4.0), 1),  # beside them
+        ((-4.0, -1.0), 4),
+        ((0.0, 0.0), 1),  # one column
+    ],
+)
+@pytest.mark.parametrize("friction", [0.0, 0.35])
+def test_field_equals_direct_sum_of_hats(x_range, subdivisions, friction):
+    field = friction_field(NODES, PRESSURE, x_range, LEVELS, subdivisions)
+    assert worst(field, friction, NODES, PRESSURE, "hat") < 2e-14
+
+
+@pytest.mark.parametrize("subdivisions", [1, 3])
+@pytest.mark.parametrize("x_range", [(-1.0, 1.5), (1.0, 2.0)])
+def test_field_equals_direct_sum_of_strips(x_range, subdivisions):
+    field = friction_field(NODES, PRESSURE, x_range, LEVELS, subdivisions, "strip")
+    assert worst(field, 0.35, NODES, PRESSURE, "strip") < 2e-14
+    field = friction_field(NODES, PRESSURE, x_range, LEVELS[1:3], 2, "strip")
+    assert worst(field, 0.0, NODES, PRESSURE, "strip") < 2e-14
+
+
+def test_field_on_a_grid_of_rounded_places():
+    """Places of the grid are rounded to 1e-14 of a pitch; near the surface that shows as 1e-13."""
+    nodes = 0.7 + np.arange(150) * 1e-2
+    field = friction_field(nodes, PRESSURE, (0.0, 3.0), LEVELS, 2)
+    assert worst(field, 0.35, nodes, PRESSURE, "hat") < 1e-12
+
+
+def test_grid_holds_the_nodes_and_stays_in_the_window():
+    field = stress_field(NODES, PRESSURE, 0.0, (-0.3, 1.0), LEVELS, 3)
+    assert field.x[0] >= -0.3 and field.x[0] - PITCH / 3.0 < -0.3
+    assert field.x[-1] <= 1.0 and field.x[-1] + PITCH / 3.0 > 1.0
+    np.testing.assert_allclose(np.diff(field.x), PITCH / 3.0, rtol=1e-12)
+    inside = NODES[(NODES >= -0.3) & (NODES <= 1.0)]
+    assert np.abs(field.x[:, None] - inside).min(axis=0).max() < 1e-15
+    assert field.stress.sx.shape == (len(LEVELS), len(field.x))
+
+
+def test_window_that_ends_on_nodes_includes_them():
+    nodes = 0.1 * np.arange(30)
+    field = stress_field(nodes, np.ones(30), 0.0, (nodes[3], nodes[11]), np.array([1.0]))
+    np.testing.assert_allclose(field.x, nodes[3:12], rtol=1e-15)
+
+
+def test_surface_carries_pressure_and_traction_exactly():
+    field = stress_field(NODES, PRESSURE, 0.25, (-2.0, 2.0), LEVELS, 1)
+    expected = np.zeros(len(field.x))
+    expected[np.searchsorted(field.x, NODES)] = PRESSURE
+    np.testing.assert_array_equal(field.stress.sz[0], -expected)
+    np.testing.assert_array_equal(field.stress.txz[0], -0.25 * expected)
+    finer = stress_field(NODES, PRESSURE, 0.25, (-0.4, 0.6), LEVELS, 4)
+    between = np.interp(finer.x, NODES, PRESSURE)
+    np.testing.assert_allclose(finer.stress.sz[0], -between, rtol=0.0, atol=1e-15)
+    without = stress_field(NODES, PRESSURE, 0.0, (-0.4, 0.6), LEVELS, 4)
+    np.testing.assert_array_equal(without.stress.sx[0], without.stress.sz[0])
+    np.testing.assert_array_equal(without.stress.txz[0], 0.0)
+
+
+def test_strips_on_the_surface_need_points_off_their_ends():
+    with pytest.raises(ValueError, match="no finite sx"):
+        stress_field(NODES, PRESSURE, 0.1, (-0.4, 0.6), LEVELS, 2, "strip")
+    field = stress_field(NODES, PRESSURE, 0.1, (NODES[0], NODES[-1]), LEVELS, 1, "strip")
+    np.testing.assert_array_equal(field.stress.sz[0], -PRESSURE)
+
+
+def test_one_field_serves_every_friction():
+    field = friction_field(NODES, PRESSURE, (-1.0, 1.0), LEVELS)
+    for friction in (0.0, 0.1, -0.4):
+        alone = stress_field(NODES, PRESSURE, friction, (-1.0, 1.0), LEVELS)
+        for name in NAMES:
+            difference = getattr(field.at(friction).stress, name) - getattr(alone.stress, name)
+            assert np.abs(difference).max() < 3e-15 * PRESSURE.max()
+
+
+def test_finer_sampling_repeats_the_coarse_points():
+    coarse = stress_field(NODES, PRESSURE, 0.2, (-0.5, 0.5), LEVELS, 1)
+    fine = stress_field(NODES, PRESSURE, 0.2, (-0.5, 0.5), LEVELS, 3)
+    for name in NAMES:
+        difference = getattr(fine.stress, name)[:, ::3] - getattr(coarse.stress, name)
+        assert np.abs(difference).max() < 2e-14 * PRESSURE.max()
+
+
+def test_symmetric_pressure_gives_a_symmetric_field():
+    pressure = PRESSURE + PRESSURE[::-1]
+    nodes = NODES - 0.5 * (NODES[0] + NODES[-1])
+    field = friction_field(nodes, pressure, (-1.0, 1.0), LEVELS, 2)
+    normal, traction = field.stress.normal, field.stress.traction
+    for values, sign in (
+        (normal.sx, 1.0),
+        (normal.sz, 1.0),
+        (normal.txz, -1.0),
+        (traction.sx, -1.0),
+        (traction.sz, -1.0),
+        (traction.txz, 1.0),
+    ):
+        assert np.abs(values[:, ::-1] - sign * values).max() < 3e-14 * pressure.max()
+
+
+def test_no_pressure_no_stress():
+    field = stress_field(NODES, np.zeros(150), 0.2, (-1.0, 1.0), LEVELS)
+    assert not np.any(field.stress.sx) and not np.any(field.stress.txz)
+
+
+def test_deep_level_far_from_the_load_keeps_its_digits():
+    """On a level by itself the sum is relative to that level's own stresses, not to p."""
+    field = stress_field(NODES, PRESSURE, 0.3, (-1.0, 1.0), np.array([1e4]))
+    direct = stress_at(NODES, PRESSURE, 0.3, field.x, 1e4)
+    np.testing.assert_allclose(field.stress.sz[0], direct.sz, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"z": np.array([])}, "not empty"),
+        ({"z": np.array([-1.0, 0.0])}, "ascend strictly from z >= 0"),
+        ({"z": np.array([0.0, 1.0, 1.0])}, "ascend strictly"),
+        ({"subdivisions": 0}, "whole number from 1"),
+        ({"subdivisions": 1.5}, "whole number from 1"),
+        ({"x_range": (0.001, 0.002)}, "no point of the grid"),
+        ({"x_range": (1.0, 0.0)}, "no point of the grid"),
+        ({"element": "cubic"}, '"hat" or "strip"'),
+    ],
+)
+def test_what_makes_no_field_is_refused(changed, said):
+    given = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1, "element": "hat"} | changed
+    with pytest.raises(ValueError, match=said):
+        stress_field(NODES, PRESSURE, 0.0, **given)
+
+
+def test_graded_depths_grow_by_one_ratio():
+    levels = graded_depths(2e-3, 40, 1e-6)
+    assert (len(levels), levels[0], levels[-1]) == (40, 0.0, 2e-3)
+    steps = np.diff(levels)
+    assert steps[0] == pytest.approx(1e-6, rel=1e-9)
+    ratio = steps[1:] / steps[:-1]
+    assert ratio.min() > 1.0
+    np.testing.assert_allclose(ratio, ratio[0], rtol=1e-9)
+    np.testing.assert_allclose(graded_depths(1.0, 11, 0.1), np.linspace(0.0, 1.0, 11), atol=1e-15)
+
+
+def test_graded_depths_refuse_a_first_step_that_is_too_long():
+    with pytest.raises(ValueError, match=r"at most 0\.1 m"):
+        graded_depths(1.0, 11, 0.11)
+    with pytest.raises(ValueError, match="first must be above 0"):
+        graded_depths(1.0, 11, 0.0)
+    with pytest.raises(ValueError, match="count must be at least 3"):
+        graded_depths(1.0, 2, 0.1)
+
+
+@pytest.mark.parametrize("stride", [2, 3, 7])
+def test_a_stride_keeps_some_of_the_same_points(stride):
+    every = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2)
+    some = friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=stride)
+    assert np.array_equal(some.x, every.x[::stride])
+    assert np.array_equal(some.at(0.2).stress.sx, every.at(0.2).stress.sx[:, ::stride])
+    with pytest.raises(ValueError, match="stride"):
+        friction_field(NODES, PRESSURE, (-0.9, 1.3), LEVELS, 2, stride=0)
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+@pytest.mark.parametrize(
+    "x_range", [(-0.3, 0.4), (-0.4, 9.0), (-30.0, 0.2), (1.0, 1.3), (40.0, 41.0), (-9.0, -0.469)]
+)
+def test_window_anywhere_about_the_load(x_range, element):
+    """Kernels that hold both sides of an element, and those of windows beside all of the load."""
+    levels = np.array([1e-4, 0.02, 0.7])
+    field = friction_field(NODES, PRESSURE, x_range, levels, 1, element)
+    assert worst(field, 0.35, NODES, PRESSURE, element) < 2e-14
+
+
+def test_beside_the_load_each_level_keeps_its_digits():
+    """sz falls like z^3: close to the surface it is 1e-15 of sx."""
+    levels = np.array([1e-6, 1e-3, 1.0])
+    field = friction_field(NODES, PRESSURE, (20.0, 21.0), levels)
+    x, z = np.meshgrid(field.x, field.z)
+    direct = friction_stress_at(NODES, PRESSURE, x[:, ::40], z[:, ::40])
+    for name in NAMES:
+        found, expected = getattr(field.stress.normal, name), getattr(direct.normal, name)
+        np.testing.assert_allclose(found[:, ::40], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("subdivisions", [1, 3])
+def test_traction_of_its_own_shape(subdivisions):
+    """Also where only one of the two is loaded."""
+    extra = np.zeros(150)
+    extra[100:140] = np.random.default_rng(5).uniform(-1.0, 1.0, 40)
+    pressure = np.where(np.arange(150) < 80, PRESSURE, 0.0)
+    window = (-0.8, 1.0)
+    field = stress_field(NODES, pressure, 0.2, window, LEVELS, subdivisions, traction=extra)
+    x, z = np.meshgrid(field.x, field.z)
+    direct = stress_at(NODES, pressure, 0.2, x, z, traction=extra)
+    for name in NAMES:
+        difference = getattr(field.stress, name) - getattr(direct, name)
+        assert np.abs(difference).max() < 5e-14 * pressure.max()
+    alone = stress_field(NODES, np.zeros(150), 0.2, window, LEVELS, 1, traction=extra)
+    assert np.array_equal(alone.stress.txz[0], np.interp(alone.x, NODES, -extra, 0, 0))
+    only = stress_field(NODES, pressure, 0.2, window, LEVELS, 1, traction=0.0 * extra)
+    plain = stress_field(NODES, pressure, 0.2, window, LEVELS, 1)
+    assert np.array_equal(only.stress.sx, plain.stress.sx)
+    with pytest.raises(ValueError, match="equal length"):
+        stress_field(NODES, pressure, 0.2, window, LEVELS, traction=extra[1:])

@@ -1,0 +1,231 @@
+"""Largest stresses off the grid, and how fast elements converge to the smooth contact."""
+
+import numpy as np
+import pytest
+
+from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
+from analytic.stress.field import graded_depths, stress_field
+from analytic.stress.maxima import field_maxima, stress_maxima
+from analytic.stress.points import stress_at
+
+UNIT = HertzContact(1.0, 1.0, np.pi / 2.0, 1.0, 2.0)
+NAMES = ("sx", "sz", "txz")
+
+
+def largest_tau1(*given):
+    return field_maxima([lambda stress: stress.tau1], *given)[0]
+
+
+def elements(count: int, element: str) -> tuple[np.ndarray, np.ndarray]:
+    """`count` pitches a half-width: the Hertz pressure weighed with each element's own shape.
+
+    Such means keep the load, and make every smooth functional of the pressure converge with
+    order 2 in spite of the square root at the edge.
+    """
+    pitch = 1.0 / count
+    x = np.arange(-count - 1, count + 2) * pitch
+
+    def load(t):
+        t = np.clip(t, -1.0, 1.0)
+        return 0.5 * (t * np.sqrt(1.0 - t * t) + np.arcsin(t))
+
+    def load_integral(t):
+        t, beyond = np.clip(t, -1.0, 1.0), np.maximum(np.abs(t) - 1.0, 0.0)
+        root = np.sqrt(1.0 - t * t)
+        return 0.5 * (t * np.arcsin(t) + root - root**3 / 3.0) + beyond * np.pi / 4.0
+
+    if element == "strip":
+        return x, (load(x + 0.5 * pitch) - load(x - 0.5 * pitch)) / pitch
+    second = load_integral(x + pitch) - 2.0 * load_integral(x) + load_integral(x - pitch)
+    return x, second / pitch**2
+
+
+def orders(errors: list[float]) -> np.ndarray:
+    return np.log2(np.abs(np.array(errors[:-1]) / np.array(errors[1:])))
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+@pytest.mark.parametrize("friction", [0.0, 0.1])
+def test_maxima_of_the_smooth_contact_with_order_two(element, friction):
+    exact = hertz_extremes(UNIT, friction)
+    errors = {"tau1": [], "txz": [], "place": []}
+    for count in (16, 32, 64):
+        x, pressure = elements(count, element)
+        levels = np.linspace(0.0, 1.5, 31)
+        field = stress_field(x, pressure, friction, (-1.5, 1.5), levels, 1, element)
+        found = stress_maxima(x, pressure, friction, field, 0.3, element)
+        errors["tau1"].append(found.tau1.value - exact.tau1.value)
+        errors["txz"].append(found.txz_abs.value + exact.txz_min.value)
+        errors["place"].append(np.hypot(found.tau1.x - exact.tau1.x, found.tau1.z - exact.tau1.z))
+    assert np.all(np.abs(orders(errors["tau1"]) - 2.0) < 0.05)
+    assert np.all(np.abs(orders(errors["txz"]) - 2.0) < 0.1)
+    assert np.all(np.abs(orders(errors["place"]) - 2.0) < 0.2)
+    assert abs(errors["tau1"][-1]) < 3e-5
+    assert errors["place"][-1] < 3e-4
+
+
+def test_frictionless_maximum_extrapolates_to_the_exact_value():
+    """0.300283106 p0 at 0.786151378 a; the two finest grids leave 1e-8 by Richardson's rule."""
+    values, depths = [], []
+    for count in (64, 128):
+        x, pressure = elements(count, "hat")
+        field = stress_field(x, pressure, 0.0, (-0.2, 0.2), np.linspace(0.5, 1.0, 21))
+        found = largest_tau1(x, pressure, 0.0, field)
+        values.append(found.value)
+        depths.append(found.z)
+    assert (4.0 * values[1] - values[0]) / 3.0 == pytest.approx(0.300283106, abs=2e-9)
+    assert (4.0 * depths[1] - depths[0]) / 3.0 == pytest.approx(0.786151378, abs=1e-6)
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+def test_field_below_the_contact_with_order_two(element):
+    """Relative L2 error of each component where z >= a/4, and Fig. 5 and 11b at the finest."""
+    levels = np.array([0.25, 0.5, 1.0, 2.0])
+    errors = {name: [] for name in NAMES}
+    for count in (8, 16, 32):
+        x, pressure = elements(count, element)
+        field = stress_field(x, pressure, 0.3, (-2.0, 2.0), levels, 64 // count, element)
+        exact = hertz_stress(UNIT, field.x, field.z[:, None], 0.3)
+        for name in NAMES:
+            difference = getattr(field.stress, name) - getattr(exact, name)
+            errors[name].append(np.linalg.norm(difference) / np.linalg.norm(getattr(exact, name)))
+    for name in NAMES:
+        assert np.all(np.abs(orders(errors[name]) - 2.0) < 0.15)
+        assert errors[name][-1] < 1e-3
+
+
+def test_nodal_pressures_lose_half_an_order_at_the_square_root():
+    """Hats through the pressure itself miss load ~ h^(3/2) at the edges, and so do stresses."""
+    errors = []
+    for count in (64, 128, 256):
+        x = np.arange(-count, count + 1) / count
+        stress = stress_at(x, UNIT.pressure(x), 0.0, 0.0, 1.0)
+        errors.append(float(stress.sz - hertz_stress(UNIT, 0.0, 1.0).sz))
+    assert np.all(np.abs(orders(errors) - 1.5) < 0.1)
+
+
+def test_depth_sections_of_the_figures():
+    """Fig. 5 (sx, sz on the axis) and Fig. 11b (tau1 below the edge, mu = 0.1) by hats."""
+    x, pressure = elements(256, "hat")
+    axis = stress_at(x, pressure, 0.0, 0.0, [0.1, 0.5, 1.0, 2.0])
+    np.testing.assert_allclose(axis.sx, [-0.81494, -0.34164, -0.12132, -0.02492], atol=3e-5)
+    np.testing.assert_allclose(axis.sz, [-0.99504, -0.89443, -0.70711, -0.44721], atol=3e-5)
+    edge = stress_at(x, pressure, 0.1, 1.0, [0.1, 0.2, 0.4, 0.8]).tau1
+    np.testing.assert_allclose(edge, [0.21567, 0.24437, 0.26446, 0.25968], atol=5e-5)
+
+
+def test_near_the_surface_hats_follow_and_strips_do_not():
+    """A depth of a thousandth of the pitch, at the ends of strips, under friction."""
+    count, friction = 32, 0.3
+    depth = 1e-3 / count
+    ends = (np.arange(-24, 24) + 0.5) / count
+    errors = {}
+    for element in ("hat", "strip"):
+        x, pressure = elements(count, element)
+        stress = stress_at(x, pressure, friction, ends, depth, element)
+        errors[element] = np.abs(stress.sx - hertz_stress(UNIT, ends, depth, friction).sx).max()
+    assert errors["hat"] < 2e-3
+    assert errors["strip"] > 20.0 * errors["hat"]
+
+
+def test_rough_pressure_against_a_much_finer_search():
+    """Several asperities of nearly equal pressure: the right one must win, off the grid."""
+    rng = np.random.default_rng(21)
+    pitch = 2e-6
+    x = np.arange(120) * pitch
+    smooth = np.convolve(rng.standard_normal(140), np.hanning(21), "same")[10:130]
+    pressure = 1e9 * np.maximum(smooth, 0.0)
+    levels = graded_depths(60e-6, 24, 0.5e-6)
+    for friction in (0.0, 0.15):
+        field = stress_field(x, pressure, friction, (x[0], x[-1]), levels)
+        finer = np.unique(np.concatenate([levels, np.linspace(0.0, 30e-6, 301)]))
+        check = stress_field(x, pressure, friction, (x[0], x[-1]), finer, 10)
+        found = stress_maxima(x, pressure, friction, field, 0.3)
+        for extremum, values in (
+            (found.tau1, check.stress.tau1),
+            (found.txz_abs, np.abs(check.stress.txz)),
+            (found.von_mises, check.stress.von_mises(0.3)),
+        ):
+            row, column = np.unravel_index(np.argmax(values), values.shape)
+            assert values.max() * (1.0 - 1e-12) <= extremum.value < values.max() * (1.0 + 2e-4)
+            assert abs(extremum.x - check.x[column]) < 0.5 * pitch
+            assert abs(extremum.z - finer[row]) < 0.5 * pitch
+        there = stress_at(x, pressure, friction, found.tau1.x, found.tau1.z)
+        assert found.tau1.value == pytest.approx(float(there.tau1), rel=1e-13)
+
+
+def highest_by_brute_force(x, pressure, friction, quantity):
+    """Zooms on the five highest points of a fine field, each by 20 grids of 7 x 7 points."""
+    levels, steps = np.linspace(0.0, 1.5, 121), 4
+    field = stress_field(x, pressure, friction, (x[0], x[-1]), levels, steps)
+    values = quantity(field.stress)
+    row, column = np.unravel_index(np.argsort(-values, axis=None)[:5], values.shape)
+    at_x, at_z = field.x[column], levels[row]
+    reach = 6.0 * np.array([(x[1] - x[0]) / steps, levels[1]])
+    across, down = (way.ravel() for way in np.meshgrid(*2 * [np.linspace(-1.0, 1.0, 7)]))
+    for _ in range(20):
+        grid_x = np.clip(at_x[:, None] + reach[0] * across, x[0], x[-1])
+        grid_z = np.clip(at_z[:, None] + reach[1] * down, 0.0, levels[-1])
+        found = quantity(stress_at(x, pressure, friction, grid_x, grid_z))
+        best = np.arange(5), np.argmax(found, axis=1)
+        at_x, at_z, reach = grid_x[best], grid_z[best], 0.6 * reach
+    return found.max()
+
+
+def smooth_wavy_rough(name: str) -> tuple[np.ndarray, np.ndarray]:
+    if name == "smooth":
+        return elements(64, "hat")
+    if name == "wavy":
+        x = np.arange(-80, 81) / 64.0
+        return x, UNIT.pressure(x) * (1.0 + 0.5 * np.cos(14.0 * x))
+    x = 0.02 * np.arange(-60, 60)
+    noise = np.random.default_rng(21).standard_normal(140)
+    return x, np.maximum(np.convolve(noise, np.hanning(21), "same")[10:130], 0.0)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.01, 0.05, 0.1, 0.3])
+@pytest.mark.parametrize("surface", ["smooth", "wavy", "rough"])
+def test_flat_ridges_under_little_friction_are_climbed_to_their_top(surface, friction):
+    """A little friction draws the maximum into a ridge along x: far from the grid's best point.
+
+    At the surface, where friction leaves kinks, the top is good to 1e-6.
+    """
+    x, pressure = smooth_wavy_rough(surface)
+    field = stress_field(x, pressure, friction, (x[0], x[-1]), graded_depths(1.5, 24, 0.01))
+    found = stress_maxima(x, pressure, friction, field, 0.3)
+    for extremum, quantity in (
+        (found.tau1, lambda stress: stress.tau1),
+        (found.von_mises, lambda stress: stress.von_mises(0.3)),
+    ):
+        exact = highest_by_brute_force(x, pressure, friction, quantity)
+        assert extremum.value == pytest.approx(exact, rel=1e-6 if extremum.z == 0.0 else 1e-8)
+
+
+def test_the_higher_peak_wins_though_the_grid_shows_the_lower_one():
+    """The peak of the second contact lies between two levels, that of the first on one."""
+    x = np.arange(-30, 840) * 0.05
+    second = HertzContact(1.3, 1.01, 1.0, 1.0, 1.0)
+    pressure = UNIT.pressure(x) + second.pressure(x - 40.0)
+    field = stress_field(x, pressure, 0.0, (-1.5, 41.5), np.array([0.2, 0.786, 1.4]))
+    shown = np.unravel_index(np.argmax(field.stress.tau1), field.stress.tau1.shape)
+    assert abs(field.x[shown[1]]) < 0.1
+    found = largest_tau1(x, pressure, 0.0, field)
+    assert found.value == pytest.approx(second.tau1_max, rel=3e-3)
+    assert found.x == pytest.approx(40.0, abs=0.02)
+    assert found.z == pytest.approx(second.tau1_max_depth, rel=1e-2)
+
+
+def test_a_maximum_at_the_side_of_the_window_stays_inside_it():
+    x, pressure = elements(32, "hat")
+    field = stress_field(x, pressure, 0.0, (0.5, 1.0), np.linspace(0.0, 0.5, 6))
+    found = largest_tau1(x, pressure, 0.0, field)
+    assert (found.x, found.z) == pytest.approx((0.5, 0.5), abs=1e-12)
+    single = stress_field(x, pressure, 0.0, (0.0, 0.0), np.array([0.7]))
+    found = largest_tau1(x, pressure, 0.0, single)
+    assert (found.x, found.z) == (0.0, 0.7)
+
+
+def test_no_pressure_has_its_maximum_at_zero():
+    x = np.arange(8) * 1e-6
+    field = stress_field(x, np.zeros(8), 0.1, (0.0, 7e-6), np.array([0.0, 1e-6]))
+    assert largest_tau1(x, np.zeros(8), 0.1, field).value == 0.0

@@ -1,0 +1,122 @@
+"""Direct sums of element stresses: what superposition, scaling and equilibrium demand."""
+
+import numpy as np
+import pytest
+from scipy.integrate import trapezoid
+
+from analytic.stress.elements import hat_stress, strip_stress
+from analytic.stress.points import friction_stress_at, stress_at
+
+NAMES = ("sx", "sz", "txz")
+RNG = np.random.default_rng(17)
+PITCH = 2.0**-9
+NODES = (np.arange(40) - 13.0) * PITCH
+PRESSURE = np.maximum(RNG.standard_normal(40), 0.0) * 1e9
+X, Z = RNG.uniform(-0.1, 0.15, 60), RNG.uniform(0.0, 0.05, 60)
+
+
+@pytest.mark.parametrize(
+    ("element", "unit", "size"),
+    [("hat", hat_stress, PITCH), ("strip", strip_stress, 0.5 * PITCH)],
+)
+def test_sum_of_the_elements(element, unit, size):
+    found = stress_at(NODES, PRESSURE, 0.3, X, Z, element)
+    each = [unit(X - node, Z, size).at(0.3) for node in NODES]
+    for name in NAMES:
+        expected = sum(p * getattr(stress, name) for p, stress in zip(PRESSURE, each, strict=True))
+        assert np.abs(getattr(found, name) - expected).max() < 1e-14 * PRESSURE.max()
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+def test_mirror_translation_and_scale(element):
+    base = stress_at(NODES, PRESSURE, 0.2, X, Z, element)
+    mirrored = stress_at(-NODES[::-1], PRESSURE[::-1], -0.2, -X, Z, element)
+    shifted = stress_at(NODES + 0.5, PRESSURE, 0.2, X + 0.5, Z, element)
+    scaled = stress_at(NODES * 1e-6, PRESSURE * 1e-3, 0.2, X * 1e-6, Z * 1e-6, element)
+    largest = PRESSURE.max()
+    for name in NAMES:
+        value = getattr(base, name)
+        sign = -1.0 if name == "txz" else 1.0
+        assert np.abs(getattr(mirrored, name) - sign * value).max() < 1e-14 * largest
+        # Adding 0.5 rounds a place to 1e-16, which is 5e-14 of a pitch.
+        assert np.abs(getattr(shifted, name) - value).max() < 1e-11 * largest
+        assert np.abs(getattr(scaled, name) * 1e3 - value).max() < 1e-11 * largest
+
+
+def test_linear_in_pressure_and_friction(rng):
+    other = rng.uniform(0.0, 1e9, NODES.size)
+    first, second = (stress_at(NODES, p, 0.2, X, Z) for p in (PRESSURE, other))
+    both = stress_at(NODES, 2.0 * PRESSURE + 3.0 * other, 0.2, X, Z)
+    none, twice = (stress_at(NODES, PRESSURE, mu, X, Z) for mu in (0.0, 0.4))
+    for name in NAMES:
+        expected = 2.0 * getattr(first, name) + 3.0 * getattr(second, name)
+        np.testing.assert_allclose(getattr(both, name), expected, rtol=1e-12, atol=1e-4)
+        mean = 0.5 * (getattr(none, name) + getattr(twice, name))
+        np.testing.assert_allclose(getattr(first, name), mean, rtol=1e-12, atol=1e-4)
+
+
+@pytest.mark.parametrize("element", ["hat", "strip"])
+def test_any_level_carries_the_load(element):
+    """The resultant of sz is -P and that of txz -friction P, shallow and deep."""
+    load = PRESSURE.sum() * PITCH
+    for depth in (0.01, 0.1, 3.0):
+        x = depth * np.sinh(np.linspace(-18.0, 18.0, 4001))
+        stress = stress_at(NODES, PRESSURE, 0.15, x, depth, element)
+        assert trapezoid(stress.sz, x) == pytest.approx(-load, rel=2e-5)
+        assert trapezoid(stress.txz, x) == pytest.approx(-0.15 * load, rel=2e-5)
+
+
+def test_surface_carries_the_pressure():
+    between = NODES[:-1] + 0.25 * PITCH
+    stress = stress_at(NODES, PRESSURE, 0.15, between, 0.0)
+    expected = 0.75 * PRESSURE[:-1] + 0.25 * PRESSURE[1:]
+    np.testing.assert_allclose(stress.sz, -expected, rtol=1e-13, atol=1e-4)
+    np.testing.assert_allclose(stress.txz, -0.15 * expected, rtol=1e-13, atol=1e-4)
+
+
+def test_hats_are_finite_near_the_surface_where_strips_spike():
+    """Between two strips of unequal pressure sx grows with every decade of depth."""
+    ramp = np.linspace(0.0, 1.0, NODES.size)
+    end = NODES[20] + 0.5 * PITCH
+    depth = PITCH * np.array([1e-4, 1e-8])
+    strips = stress_at(NODES, ramp, 0.3, end, depth, "strip").sx
+    hats = stress_at(NODES, ramp, 0.3, end, depth, "hat").sx
+    step = ramp[21] - ramp[20]
+    growth = 0.3 * step * 2.0 / np.pi * np.log(1e4)
+    assert abs(strips[1] - strips[0]) == pytest.approx(growth, rel=1e-2)
+    assert abs(hats[1] - hats[0]) < 1e-3 * growth
+
+
+def test_many_elements_in_blocks_as_in_one():
+    """More pairs than one block holds, and points of any shape."""
+    x = np.linspace(-0.1, 0.2, 1900).reshape(19, 100)
+    whole = friction_stress_at(NODES, np.full(40, 1e9), x, 0.01)
+    assert whole.normal.sx.shape == (19, 100)
+    single = [friction_stress_at(NODES, np.full(40, 1e9), x[k, 7], 0.01) for k in (0, 18)]
+    np.testing.assert_allclose(
+        whole.normal.sx[[0, 18], 7], [one.normal.sx for one in single], rtol=1e-13
+    )
+    idle = stress_at(NODES, np.zeros(40), 0.1, x, 0.01)
+    np.testing.assert_array_equal(idle.sz, np.zeros((19, 100)))
+
+
+@pytest.mark.parametrize(
+    ("nodes", "pressure", "said"),
+    [
+        (NODES**2, PRESSURE, "uniform and ascending"),
+        (NODES[::-1], PRESSURE, "uniform and ascending"),
+        (NODES, PRESSURE[1:], "equal length"),
+        (NODES[:1], PRESSURE[:1], "at least 2 nodes"),
+        (NODES, np.where(PRESSURE > 0.0, np.nan, 0.0), "finite"),
+    ],
+)
+def test_a_grid_that_is_none_is_refused(nodes, pressure, said):
+    with pytest.raises(ValueError, match=said):
+        stress_at(nodes, pressure, 0.0, 0.0, 1.0)
+
+
+def test_unknown_element_and_points_above_the_surface_are_refused():
+    with pytest.raises(ValueError, match='"hat" or "strip"'):
+        stress_at(NODES, PRESSURE, 0.0, 0.0, 1.0, "spline")
+    with pytest.raises(ValueError, match="z must not be negative"):
+        stress_at(NODES, PRESSURE, 0.0, 0.0, -1.0)

@@ -1,0 +1,188 @@
+"""Which reader takes a file, whose units count, and what happens to lost heights."""
+
+import importlib.util
+import sys
+
+import numpy as np
+import pytest
+
+import analytic.surface.readers.instruments as instruments
+from analytic.surface.readers.files import MissingUnitError, read_measured
+from analytic.surface.readers.lines import ProfileError
+from analytic.surface.readers.topography import MapLine
+
+SCAN = b"0,1\n1,2\n2,4\n3,3\n4,0\n"
+SCALES = {"x_scale": 1e-6, "height_scale": 1e-9}
+HEADER = (
+    "aISO-1.0\nNumPoints = {points}\nNumProfiles = {profiles}\nXscale = 1e-6\nYscale = 2e-6\n"
+    "Zscale = 1e-9\nDataType = 7\n*\n"
+)
+MAP = [[1.0, 2.0, 3.0, 4.0, 9.0], [5.0, None, 7.0, 8.0, 1.0], [None, 2.0, 3.0, 0.5, None],
+       [6.0, 6.5, 7.0, 3.0, 2.0]]  # fmt: skip
+
+
+def sdf(folder, rows):
+    path = folder / "surface.sdf"
+    words = "\n".join(" ".join("BAD" if v is None else repr(v) for v in row) for row in rows)
+    path.write_text(HEADER.format(points=len(rows[0]), profiles=len(rows)) + words + "\n*\n")
+    return path
+
+
+def text(folder, content=SCAN):
+    (folder / "trace.csv").write_bytes(content)
+    return folder / "trace.csv"
+
+
+def refusal(path, kind=ProfileError, **options) -> str:
+    with pytest.raises(kind) as caught:
+        read_measured(path, **options)
+    message = str(caught.value)
+    assert message.startswith(str(path)) and "\n" not in message
+    return message
+
+
+def knows(monkeypatch, **answer):
+    """Make every instrument's file one of these."""
+    given = {"format": "made", "version": "1", "pitch": None, "unit": None, "unit_name": None}
+    program = (
+        "import json, sys\nimport numpy as np\n"
+        "np.savez(sys.argv[2], heights=np.array([1.0, 4.0, 9.0, 2.0, 3.0]))\n"
+        f"print({str(given | answer)!r}.replace(chr(39), chr(34)).replace('None', 'null'))"
+    )
+    monkeypatch.setattr(instruments, "WORKER", (sys.executable, "-c", program))
+
+
+def test_text_is_a_line_scan(tmp_path):
+    found = read_measured(text(tmp_path), **SCALES)
+    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(5))
+    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 2, 4, 3, 0]))
+    assert (found.format, found.place, found.bridged, found.trimmed) == ("text", None, 0, 0)
+
+
+def test_text_needs_its_units(tmp_path):
+    path = text(tmp_path)
+    message = refusal(path, MissingUnitError, x_scale=1e-6)
+    assert message.endswith("is text, which names no unit")
+    with pytest.raises(MissingUnitError) as caught:
+        read_measured(path, height_scale=1e-6)
+    assert caught.value.field == "x_unit"
+
+
+def test_text_is_no_map(tmp_path):
+    message = refusal(text(tmp_path), **SCALES, chosen=MapLine(column=1))
+    assert message.endswith("is a line scan, which has no columns; allowed is to leave out column")
+
+
+def test_a_row_of_a_surface_data_file(tmp_path):
+    found = read_measured(sdf(tmp_path, MAP), chosen=MapLine(row=3))
+    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(5), rtol=1e-12)
+    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array(MAP[3]), rtol=1e-12)
+    assert found.format == "SDF (ISO 25178-71)"
+    assert found.place == "row 3 of 4 rows and 5 columns, 4e-06 m by 6e-06 m"
+
+
+def test_a_single_profile_of_a_surface_data_file(tmp_path):
+    found = read_measured(sdf(tmp_path, MAP[:1]))
+    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array(MAP[0]), rtol=1e-12)
+    assert found.place is None
+
+
+def test_units_that_the_file_gives_may_be_repeated_but_not_contradicted(tmp_path):
+    path = sdf(tmp_path, MAP[:1])
+    read_measured(path, x_scale=1.0, height_scale=1.0)
+    message = refusal(path, height_scale=1e-6)
+    assert "counts in units of 1 m and not of 1e-06 m, as z_unit has it; allowed is to" in message
+    assert "as x_unit has it" in refusal(path, x_scale=1e-6, height_scale=1.0)
+    assert refusal(path, spacing=1e-6).endswith("the sample spacing is for files without one")
+
+
+def test_lost_heights_are_refused_with_their_place(tmp_path):
+    path = sdf(tmp_path, MAP)
+    assert refusal(path, chosen=MapLine(row=1)).endswith(
+        "sample 1 of row 1, at x = 1e-06 m, was not measured; "
+        "choose another line, or ask for dropouts to be bridged"
+    )
+    assert "sample 0 of row 2, at x = 0 m, was not measured, nor was 1 more" in refusal(
+        path, chosen=MapLine(row=2)
+    )
+
+
+def test_lost_heights_are_bridged_and_ends_left_out(tmp_path):
+    rows = [[None, 1.0, None, 5.0, 6.0, 2.0, None]]
+    found = read_measured(sdf(tmp_path, rows), dropouts="bridge")
+    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 3, 5, 6, 2]))
+    np.testing.assert_allclose(found.profile.x, 1e-6 * np.arange(1, 6))
+    assert (found.bridged, found.trimmed) == (1, 2)
+
+
+def test_too_little_left_is_refused(tmp_path):
+    path = sdf(tmp_path, [[None, 1.0, 2.0, 3.0, None]])
+    assert "has 3 samples there; a profile needs at least 4" in refusal(path, dropouts="bridge")
+    path = sdf(tmp_path, [[None] * 5])
+    assert "holds nothing but dropouts" in refusal(path, dropouts="bridge")
+
+
+def test_an_instruments_file_in_its_own_units(tmp_path, monkeypatch):
+    knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
+    found = read_measured(text(tmp_path, b"\x00\x01\x02"))
+    np.testing.assert_allclose(found.profile.x, 2e-6 * np.arange(5))
+    np.testing.assert_allclose(found.profile.height, 1e-6 * np.array([1, 4, 9, 2, 3]))
+    assert found.format == "made, by SurfaceTopography 1"
+
+
+def test_an_instruments_file_that_names_no_unit_takes_the_callers(tmp_path, monkeypatch):
+    knows(monkeypatch, pitch=[2.0, 2.0])
+    path = text(tmp_path, b"\x00\x01\x02")
+    found = read_measured(path, **SCALES)
+    np.testing.assert_allclose(found.profile.x, 2e-6 * np.arange(5))
+    np.testing.assert_allclose(found.profile.height, 1e-9 * np.array([1, 4, 9, 2, 3]))
+    assert refusal(path, MissingUnitError, x_scale=1.0).endswith("names no unit")
+
+
+def test_an_instruments_file_without_a_size_takes_the_callers_spacing(tmp_path, monkeypatch):
+    knows(monkeypatch)
+    path = text(tmp_path, b"\x00\x01\x02")
+    found = read_measured(path, spacing=5e-6, height_scale=1e-9)
+    np.testing.assert_allclose(found.profile.x, 5e-6 * np.arange(5))
+    assert refusal(path, MissingUnitError, **SCALES).endswith("does not give its size")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"PK\x03\x04\x14\x00\x06\x00rest",
+        b"\\*File list\r\n" + b"words\r\n" * 1000 + b"\x1a\x00\x01\xff",
+        b"\xff\xfe0\x00,\x001",
+    ],
+    ids=["zip", "text, then heights", "broken UTF-16"],
+)
+def test_what_is_not_text_goes_to_the_instruments_reader(tmp_path, monkeypatch, content):
+    knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
+    assert read_measured(text(tmp_path, content)).format.startswith("made")
+
+
+COLUMNS = b"".join(b"%d %d %d\n" % (i, i * i % 7, 3 * i % 5) for i in range(5))
+
+
+def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
+    path = text(tmp_path, COLUMNS)
+    knows(monkeypatch)
+    expected = "3 columns; a profile has two (x, height) or one (height)"
+    assert refusal(path, **SCALES).endswith(expected)
+    knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
+    assert read_measured(path).format.startswith("made")
+
+
+@pytest.mark.skipif(
+    importlib.util.find_spec("SurfaceTopography") is not None,
+    reason="SurfaceTopography is installed",
+)
+def test_without_the_library_columns_are_told_what_may_read_them(tmp_path):
+    message = refusal(text(tmp_path, COLUMNS), **SCALES)
+    assert ", line 1: 3 columns; a profile has two (x, height)" in message
+    assert message.endswith(instruments.install_command())
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    assert refusal(tmp_path / "none.x3p").endswith("there is no such file")
+    assert "is a directory" in refusal(tmp_path)

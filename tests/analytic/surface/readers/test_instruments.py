@@ -1,0 +1,185 @@
+"""Files that SurfaceTopography reads, and what is said where it cannot or is not there."""
+
+import hashlib
+import importlib.util
+import sys
+import zipfile
+
+import numpy as np
+import pytest
+
+import analytic.surface.readers.instruments as module
+from analytic.surface.readers.instruments import (
+    AbsentReaderError,
+    install_command,
+    read_instrument_file,
+)
+from analytic.surface.readers.lines import ProfileError
+
+HAS_READER = importlib.util.find_spec("SurfaceTopography") is not None
+needs_reader = pytest.mark.skipif(not HAS_READER, reason="SurfaceTopography is not installed")
+HEIGHTS = np.random.default_rng(6).standard_normal((5, 7)) * 1e-7
+MAIN = """<?xml version="1.0" encoding="UTF-8"?>
+<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1>
+<Revision>ISO5436 - 2000</Revision><FeatureType>{feature}</FeatureType><Axes>
+<CX><AxisType>I</AxisType><DataType>D</DataType><Increment>1.5e-6</Increment><Offset>0</Offset></CX>
+<CY><AxisType>I</AxisType><DataType>D</DataType><Increment>2.5e-6</Increment><Offset>0</Offset></CY>
+<CZ><AxisType>A</AxisType><DataType>D</DataType><Increment>1</Increment><Offset>0</Offset></CZ>
+</Axes></Record1><Record3><MatrixDimension><SizeX>{columns}</SizeX><SizeY>{rows}</SizeY>
+<SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bindata/data.bin</PointDataLink>
+<MD5ChecksumPointData>{checksum}</MD5ChecksumPointData></DataLink></Record3>
+<Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>
+"""
+
+
+def write_x3p(path, heights: np.ndarray) -> None:
+    """A map (rows, columns) [m] in the format of ISO 25178-72, NaN where it is undefined."""
+    data = heights.astype("<f8").tobytes()
+    main = MAIN.format(
+        feature="SUR",
+        columns=heights.shape[1],
+        rows=heights.shape[0],
+        checksum=hashlib.md5(data).hexdigest(),
+    ).encode()
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.xml", main)
+        archive.writestr("bindata/data.bin", data)
+        archive.writestr("md5checksum.hex", f"{hashlib.md5(main).hexdigest()} *main.xml")
+
+
+@needs_reader
+def test_x3p(tmp_path):
+    heights = HEIGHTS.copy()
+    heights[3, 2] = np.nan
+    write_x3p(tmp_path / "map.x3p", heights)
+    found = read_instrument_file(tmp_path / "map.x3p")
+    assert found.is_map
+    np.testing.assert_allclose(found.heights, heights, rtol=1e-14)
+    np.testing.assert_allclose(found.pitch, (1.5e-6, 2.5e-6), rtol=1e-14)
+    assert found.unit == 1.0
+    assert found.format.startswith("x3p, by SurfaceTopography ")
+
+
+@needs_reader
+def test_text_of_a_map_with_its_size_and_unit(tmp_path):
+    rows = "\n".join("\t".join(map(repr, row)) for row in (1e9 * HEIGHTS).tolist())
+    (tmp_path / "map.asc").write_text(f"# Width: 14 um\n# Height: 10 um\n# Value units: nm\n{rows}")
+    found = read_instrument_file(tmp_path / "map.asc")
+    np.testing.assert_allclose(found.heights, HEIGHTS, rtol=1e-12)
+    np.testing.assert_allclose(found.pitch, (2e-6, 2e-6), rtol=1e-12)
+    assert found.unit == pytest.approx(1e-9)
+
+
+@needs_reader
+def test_files_without_size_and_unit_say_so(tmp_path):
+    np.savetxt(tmp_path / "map.asc", HEIGHTS)
+    found = read_instrument_file(tmp_path / "map.asc")
+    assert (found.pitch, found.unit) == (None, None)
+    np.testing.assert_allclose(found.heights, HEIGHTS, rtol=1e-12)
+
+
+@needs_reader
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (bytes(range(1, 100)), "is neither text nor of a format that SurfaceTopography"),
+        (b"\x00\x01" * 16, "is neither text nor of a format that"),  # 4 x 4 heights of terrain
+        (b"PK\x05\x06" + bytes(18), "is neither text nor"),
+    ],
+)
+def test_unknown_files(tmp_path, content, words):
+    (tmp_path / "file.bin").write_bytes(content)
+    with pytest.raises(ProfileError) as caught:
+        read_instrument_file(tmp_path / "file.bin")
+    assert words in str(caught.value) or "damaged" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@needs_reader
+def test_a_truncated_file(tmp_path):
+    write_x3p(tmp_path / "map.x3p", HEIGHTS)
+    whole = (tmp_path / "map.x3p").read_bytes()
+    (tmp_path / "map.x3p").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ProfileError) as caught:
+        read_instrument_file(tmp_path / "map.x3p")
+    assert "\n" not in str(caught.value)
+
+
+def worker(monkeypatch, program: str) -> None:
+    monkeypatch.setattr(module, "WORKER", (sys.executable, "-c", program))
+
+
+def complaint(tmp_path) -> str:
+    path = tmp_path / "map.opd"
+    path.write_bytes(b"\x00")
+    with pytest.raises(ProfileError) as caught:
+        read_instrument_file(path)
+    message = str(caught.value)
+    assert message.startswith(f"{path}: ") and "\n" not in message
+    return message
+
+
+def test_without_the_library_the_message_says_how_to_get_it(tmp_path, monkeypatch):
+    program = "import json; print(json.dumps({'absent': 'No module named SurfaceTopography'}))"
+    worker(monkeypatch, program)
+    message = complaint(tmp_path)
+    assert "SurfaceTopography, which is not installed (No module named" in message
+    assert message.endswith(f"to install it: {install_command()}")
+    with pytest.raises(AbsentReaderError):
+        read_instrument_file(tmp_path / "map.opd")
+
+
+@pytest.mark.skipif(HAS_READER, reason="SurfaceTopography is installed")
+def test_the_worker_finds_it_absent(tmp_path):
+    assert "which is not installed (No module named" in complaint(tmp_path)
+
+
+def test_the_command_installs_into_this_environment_beside_debians_numpy(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    assert "--constraint" not in install_command()
+    (tmp_path / "constraints.txt").touch()
+    command = install_command()
+    assert command.startswith(f"{sys.executable} -m pip install --constraint {tmp_path}/con")
+    assert command.endswith(f"--editable '{module.ROOT}[surface]'")
+    monkeypatch.setattr(module, "ROOT", tmp_path)
+    assert install_command().endswith(" 'crosscheck[surface]'")
+
+
+def test_a_reader_that_crashes_is_a_message(tmp_path, monkeypatch):
+    worker(monkeypatch, "import os; os.kill(os.getpid(), 11)")
+    assert complaint(tmp_path).endswith("crashes on it (SIGSEGV; it said nothing)")
+    worker(monkeypatch, "raise MemoryError('no room')")
+    assert complaint(tmp_path).endswith("crashes on it (MemoryError: no room)")
+
+
+def test_a_reader_that_hangs_is_a_message(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "PATIENCE", 0.2)
+    worker(monkeypatch, "import time; time.sleep(60)")
+    assert complaint(tmp_path).endswith("SurfaceTopography has not read it within 0.2 s")
+
+
+ANSWER = """
+import json, sys
+import numpy as np
+print("a reader's chatter")
+np.savez(sys.argv[2], heights=np.array([1.0, 4.0, 9.0]), x=np.array([0.0, 2.0, 3.0]))
+print(json.dumps({"format": "made", "version": "1", "pitch": None, "unit": %s, "unit_name": %r}))
+"""
+
+
+def test_an_uneven_scan_comes_in_metres(tmp_path, monkeypatch):
+    worker(monkeypatch, ANSWER % (1e-6, "um"))
+    (tmp_path / "scan").write_bytes(b"\x00")
+    found = read_instrument_file(tmp_path / "scan")
+    np.testing.assert_allclose(found.heights, [1e-6, 4e-6, 9e-6])
+    np.testing.assert_allclose(found.x, [0.0, 2e-6, 3e-6])
+    assert (found.pitch, found.unit, found.format) == (
+        None,
+        1e-6,
+        "made, by SurfaceTopography 1",
+    )
+
+
+def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
+    worker(monkeypatch, ANSWER % ("None", "V"))
+    assert complaint(tmp_path).endswith("counts in 'V', which is no length; a profile has heights")

@@ -1,0 +1,217 @@
+"""Roughness figures against integrals done by hand."""
+
+from math import inf, pi, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.profile import Profile
+from analytic.surface.readers.columns import read_profile
+from analytic.surface.roughness import roughness, shortest_wavelength
+from analytic.surface.synthetic import self_affine, sinusoid
+
+SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/profiles"
+MEASURED = Path(__file__).parents[3].parent / "shared/profiles"
+UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
+
+
+def polynomial(power):
+    return roughness(Profile(UNEVEN, UNEVEN**power))
+
+
+def as_array(figures):
+    return np.array([getattr(figures, name) for name in figures.__dataclass_fields__])
+
+
+def test_straight_line_is_exact():
+    found = polynomial(1)
+    exact = [0.0, 1 / 2, 1 / sqrt(3), 0.0, 9 / 5, 2.0, 1.0, 1.0]
+    np.testing.assert_allclose(as_array(found), exact, rtol=1e-13, atol=1e-13)
+
+
+def test_parabola_is_exact():
+    found = polynomial(2)
+    rq = sqrt(4 / 45)
+    rsk, rku = (16 / 945) / rq**3, (16 / 945) / rq**4
+    exact = [1 / 3, 4 / (9 * sqrt(3)), rq, rsk, rku, 1.0, sqrt(4 / 3), 2.0]
+    np.testing.assert_allclose(as_array(found), exact, rtol=1e-12, atol=1e-13)
+
+
+def test_cubic_is_exact():
+    found = polynomial(3)
+    exact = [0.0, 1 / 4, 1 / sqrt(7), 0.0, 49 / 13, 2.0, 3 / sqrt(5), 3.0]
+    np.testing.assert_allclose(as_array(found), exact, rtol=1e-12, atol=1e-13)
+
+
+def test_extremes_between_the_samples_count():
+    # z = x^3 - 0.12 x has its turning points at x = -0.2 and 0.2, away from all samples.
+    found = roughness(Profile(UNEVEN, UNEVEN**3 - 0.48 * UNEVEN**2))
+    assert found.max_slope == pytest.approx(3.96, rel=1e-12)
+    inner = roughness(Profile(0.3 * UNEVEN, (0.3 * UNEVEN) ** 3 - 0.12 * 0.3 * UNEVEN))
+    assert inner.rt == pytest.approx(2 * 0.016, rel=1e-12)
+    assert inner.max_slope == pytest.approx(0.15, rel=1e-12)
+    flat_middle = roughness(Profile(UNEVEN, UNEVEN - UNEVEN**3 / 3))
+    assert flat_middle.max_slope == pytest.approx(1.0, rel=1e-12)
+
+
+def test_sinusoid():
+    amplitude, wavelength = 0.2e-6, 10e-6
+    found = roughness(sinusoid(wavelength=wavelength, amplitude=amplitude, length=8 * wavelength))
+    k = 2 * pi / wavelength
+    assert abs(found.mean) < 1e-7 * amplitude
+    assert abs(found.rsk) < 1e-6
+    exact = [2 / pi * amplitude, amplitude / sqrt(2), 1.5, 2 * amplitude]
+    np.testing.assert_allclose([found.ra, found.rq, found.rku, found.rt], exact, rtol=1e-6)
+    slopes = [k * amplitude / sqrt(2), k * amplitude]
+    np.testing.assert_allclose([found.rms_slope, found.max_slope], slopes, rtol=1e-5)
+
+
+def test_the_spline_reaches_the_sinusoid_at_fourth_order():
+    errors = []
+    for samples in (16, 32, 64, 128):
+        wave = sinusoid(wavelength=1.0, amplitude=1.0, length=16.0, samples_per_wavelength=samples)
+        # Whole waves off the ends, where the not-a-knot conditions would dominate.
+        inside = np.abs(wave.x) < 6.0 + 1e-9
+        found = roughness(Profile(wave.x[inside], wave.height[inside]))
+        errors.append(abs(found.rq - 1 / sqrt(2)))
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(np.abs(orders - 4.0) < 0.5), orders
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-6, 1.0])
+@pytest.mark.parametrize("stretch", [1e-6, 1e3])
+def test_units_do_not_matter(scale, stretch):
+    base = self_affine(hurst=0.8, samples=400, length=1.0, seed=5, rms_height=1.0)
+    wanted = as_array(roughness(base))
+    found = as_array(roughness(Profile(stretch * base.x, scale * base.height)))
+    found[[0, 1, 2, 5]] /= scale
+    found[6:] /= scale / stretch
+    np.testing.assert_allclose(found, wanted, rtol=1e-9, atol=1e-12)
+
+
+def test_offset_and_mirror_change_only_what_they_should():
+    base = self_affine(hurst=0.8, samples=400, length=1e-3, seed=5, rms_height=1e-7)
+    wanted = roughness(base)
+    lifted = roughness(Profile(base.x, base.height + 1e-3))
+    assert lifted.mean == pytest.approx(1e-3 + wanted.mean, rel=1e-12)
+    np.testing.assert_allclose(as_array(lifted)[1:], as_array(wanted)[1:], rtol=1e-8)
+    mirrored = as_array(roughness(base.mirrored()))
+    np.testing.assert_allclose(mirrored[1:], as_array(wanted)[1:], rtol=1e-9)
+    upside_down = roughness(Profile(base.x, -base.height))
+    assert upside_down.rsk == pytest.approx(-wanted.rsk, rel=1e-9)
+
+
+def test_flat_profile_has_no_roughness():
+    found = roughness(Profile(UNEVEN, np.full(len(UNEVEN), 2.5)))
+    assert found.mean == 2.5
+    assert np.all(as_array(found)[1:] == 0.0)
+
+
+@pytest.mark.parametrize("waves", [4, 30])
+def test_shortest_wavelength_of_a_sinusoid_is_its_own(waves):
+    wavelength = 12e-6
+    wave = sinusoid(wavelength=wavelength, amplitude=1e-7, length=waves * wavelength)
+    found = shortest_wavelength(wave)
+    # The window spreads a single wave by one wave number step towards short waves.
+    assert wavelength / (1.0 + 1.0 / waves) <= found <= wavelength * (1.0 + 1e-9)
+
+
+def test_shortest_wavelength_follows_the_fraction():
+    x = np.linspace(0.0, 1.0, 4001)
+    # Slope variances 1 : 0.25 at 20 and 100 waves: the short one holds a fifth.
+    height = np.sin(2 * pi * 20 * x) / 20 + 0.5 * np.sin(2 * pi * 100 * x) / 100
+    profile = Profile(x, height)
+    assert 1 / shortest_wavelength(profile, 0.75) == pytest.approx(20.0, abs=1.0)
+    assert 1 / shortest_wavelength(profile, 0.85) == pytest.approx(100.0, abs=1.0)
+    assert 1 / shortest_wavelength(profile, 0.99) == pytest.approx(100.0, abs=1.0)
+
+
+@pytest.mark.parametrize("cut_off", [5e-6, 20e-6])
+def test_shortest_wavelength_of_a_self_affine_profile_is_its_cut_off(cut_off):
+    found = [
+        shortest_wavelength(
+            self_affine(
+                hurst=0.8,
+                samples=4001,
+                length=2e-3,
+                seed=seed,
+                rms_slope=0.05,
+                shortest_wavelength=cut_off,
+            )
+        )
+        for seed in range(6)
+    ]
+    # Slope power ~ k^(1 - 2H): 99 % of it lies below 0.975 of the cut-off wave number.
+    assert np.mean(found) == pytest.approx(cut_off / 0.975, rel=0.02)
+    assert np.all(np.abs(np.array(found) / cut_off - 1.0) < 0.1)
+
+
+def test_shortest_wavelength_on_uneven_samples_and_other_units():
+    x = np.cumsum(np.random.default_rng(4).uniform(0.5, 1.5, 3000))
+    x = x / x[-1]
+    profile = Profile(x, np.sin(2 * pi * 40 * x))
+    found = shortest_wavelength(profile)
+    assert 1 / 41 <= found <= 1 / 39.9
+    scaled = Profile(1e-3 * x, 1e-9 * profile.height + 1e-4)
+    assert shortest_wavelength(scaled) == pytest.approx(1e-3 * found, rel=1e-6)
+    assert shortest_wavelength(profile.mirrored()) == pytest.approx(found, rel=1e-9)
+
+
+def test_tilt_has_no_wavelength():
+    x = np.linspace(0.0, 1e-3, 500)
+    for height in (np.zeros(500), np.full(500, 1e-3), 0.01 * x + 1e-6):
+        assert shortest_wavelength(Profile(x, height)) == inf
+    wave = 1e-7 * np.sin(2 * pi * 25 * x / 1e-3)
+    tilted = shortest_wavelength(Profile(x, wave + 0.1 * x))
+    assert tilted == pytest.approx(shortest_wavelength(Profile(x, wave)), rel=1e-6)
+
+
+@pytest.mark.parametrize("fraction", [0.0, 1.0, -0.5, np.nan])
+def test_fraction_must_be_one(fraction):
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        shortest_wavelength(sinusoid(wavelength=1.0, amplitude=1.0, length=4.0), fraction)
+
+
+# Ra, Rq [um], skewness, rms slope, shortest wavelength [um] as PROVENANCE.md states them.
+STATED = {
+    "ground_unrun": (0.364, 0.461, -0.88, 0.067, 10.0),
+    "ground_run_in": (0.196, 0.282, -2.44, 0.043, None),
+    "ground_polished": (0.145, 0.188, -0.94, 0.015, None),
+}
+
+
+@pytest.mark.parametrize("name", STATED)
+def test_profiles_of_the_project_have_their_stated_figures(name):
+    profile = read_profile(SHIPPED / f"{name}.csv", x_scale=1e-6, height_scale=1e-6).profile
+    found = roughness(profile)
+    ra, rq, rsk, slope, cut_off = STATED[name]
+    np.testing.assert_allclose([1e6 * found.ra, 1e6 * found.rq], [ra, rq], atol=0.5e-3)
+    assert found.rsk == pytest.approx(rsk, abs=0.005)
+    assert found.rms_slope == pytest.approx(slope, abs=0.5e-3)
+    if cut_off is not None:
+        assert 1e6 * shortest_wavelength(profile) == pytest.approx(cut_off, rel=0.05)
+
+
+# Ra, Rq, Rt [um] of the samples, and their finite-difference rms slope.
+SAMPLED = {
+    "real_stylus_mitutoyo": (3.30584, 3.968897, 22.23523, 0.155932),
+    "real_confocal_lay_row": (0.013935, 0.017138, 0.08388, 0.003732),
+    "real_stylus_dektak": (0.081254, 0.094243, 0.45642, 0.00946),
+}
+
+
+@pytest.mark.parametrize("name", SAMPLED)
+def test_measured_profiles_have_their_certified_figures(name):
+    path = MEASURED / f"{name}.csv"
+    if not path.exists():
+        pytest.skip(f"measured profile {name}.csv is not beside the repository")
+    profile = read_profile(path, x_scale=1e-6, height_scale=1e-6).profile
+    found = roughness(profile)
+    ra, rq, rt, slope = SAMPLED[name]
+    np.testing.assert_allclose([1e6 * found.ra, 1e6 * found.rq], [ra, rq], rtol=2e-3)
+    assert rt * (1 - 1e-6) <= 1e6 * found.rt <= 1.01 * rt  # the spline may overshoot a little
+    # Finite differences average the slope over a spacing, and so fall short of the spline's.
+    assert slope <= found.rms_slope <= 1.06 * slope
+    spacing = profile.spacing
+    assert 2.0 * spacing * 0.9 <= shortest_wavelength(profile) <= 20.0 * spacing
