@@ -3,8 +3,9 @@
 The half-plane predicts where the body is touched. Hats and element edges are graded towards the
 ends of contact (`meshes.end_grading`), the body is meshed and pressed; the solution then says
 where the ends are, how far its hats are from a smooth pressure on each patch
-(`analytic.contact.smooth_pressure`) and which elements err (`fem.error_indicator`), and the next
-round takes hats and elements by that. Inside, the half-plane of the same hats leads the iteration.
+(`analytic.contact.smooth_pressure`) and which elements err (`fem.stress.error_indicator`), and the
+next round takes hats and elements by that. Inside, the half-plane of the same hats leads the
+iteration.
 
 Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
 quarter and a thirteenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
@@ -25,10 +26,10 @@ from analytic.material import Material
 from analytic.operators.half_plane import DenseCompliance, HalfPlane, SumOfBodies
 from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 from comparisons.adapted_refinement import FEWEST_EDGES, MOST_FINER, next_edges, next_sizes
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import ElasticBody, Support, elastic_body
-from fem.error_indicator import energy_errors
-from fem.far_field import FarField
+from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.stress.error_indicator import energy_errors
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.end_grading import graded_vertices

@@ -168,8 +168,8 @@ def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: 
     from analytic.surface.roughness import shortest_wavelength
     from comparisons.adapted import Pressing, adapted_contact
     from comparisons.finite_element_stress import Pressed, stresses_of
-    from fem.stress import nodal_stress
-    from fem.surface import straight_down
+    from fem.body.surface import straight_down
+    from fem.stress.stress import nodal_stress
 
     scene = problem.scene
     pressing = Pressing(

@@ -19,8 +19,8 @@ from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.rank import from_first
 from comparisons.stages import Stages
-from fem.elasticity import Coating, ElasticBody, elastic_body
-from fem.support import Support
+from fem.body.elasticity import Coating, ElasticBody, elastic_body
+from fem.body.support import Support
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 

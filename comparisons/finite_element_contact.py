@@ -14,10 +14,10 @@ from analytic.operators.dense_tangential import DenseCoupledCompliance
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from comparisons.finite_element_bodies import Bodies
 from comparisons.problem import Problem
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import ElasticBody
-from fem.far_field import FarField
-from fem.rigid_roller import Roller, circle, parabola
+from fem.body.elasticity import ElasticBody
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.rigid_roller import Roller, circle, parabola
 
 MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
 

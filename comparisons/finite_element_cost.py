@@ -9,8 +9,8 @@ from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.rank import from_first
 from comparisons.stages import machine_memory
-from fem.cost import estimate
-from fem.press_plastic import INCREMENTS
+from fem.nonlinear.press_plastic import INCREMENTS
+from fem.solver.cost import estimate
 
 # Peak of the whole process, measured at 2.8 to 3.2 kB from 95 000 to 655 000 unknowns.
 BYTES_PER_UNKNOWN = 3200.0

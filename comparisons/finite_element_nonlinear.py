@@ -16,12 +16,12 @@ from comparisons.finite_element_contact import MutualCompliance, roller_of
 from comparisons.finite_element_cost import flow_increments
 from comparisons.finite_element_stress import DeformedSurface, Pressed
 from comparisons.problem import Problem
-from fem.finite_deformation import press_finitely
-from fem.mumps import FemError
-from fem.plastic_fields import plastic_fields
-from fem.press_plastic import press_plastically
-from fem.return_mapping import ElasticPlastic
-from fem.stress import at_mesh_points
+from fem.nonlinear.finite_deformation import press_finitely
+from fem.nonlinear.plastic_fields import plastic_fields
+from fem.nonlinear.press_plastic import press_plastically
+from fem.nonlinear.return_mapping import ElasticPlastic
+from fem.solver.mumps import FemError
+from fem.stress.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6

@@ -14,11 +14,11 @@ from comparisons.finite_element_contact import MutualCompliance, roller_normal
 from comparisons.level import MeshField, StressResult, Window
 from comparisons.problem import Problem
 from comparisons.rank import from_first
-from fem.elasticity import ElasticBody
-from fem.hyperelastic import along_surface
-from fem.maximum import maximum
-from fem.stress import NodalStress, evaluate, nodal_stress
-from fem.surface import straight_down
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import straight_down
+from fem.nonlinear.hyperelastic import along_surface
+from fem.stress.maximum import maximum
+from fem.stress.stress import NodalStress, evaluate, nodal_stress
 
 
 @dataclass(frozen=True)

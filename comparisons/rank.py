@@ -27,7 +27,7 @@ from collections.abc import Callable, Container
 from contextlib import redirect_stderr, redirect_stdout, suppress
 from typing import TypeVar
 
-from fem.communicator import each_alone, is_alone
+from fem.solver.communicator import each_alone, is_alone
 
 Result = TypeVar("Result")
 

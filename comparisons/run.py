@@ -21,7 +21,7 @@ from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, Stages, silent, within
 from comparisons.window import window_of
 from comparisons.write import write_files
-from fem.mumps import FemError
+from fem.solver.mumps import FemError
 from meshes.errors import MeshError
 
 # What lies behind of a run's time when its levels and when all is solved, without effects to

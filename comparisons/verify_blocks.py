@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fem.nodes import nodes_of
-from fem.triangle import edge_shapes, jacobians, shapes
+from fem.body.nodes import nodes_of
+from fem.body.triangle import edge_shapes, jacobians, shapes
 from meshes.block import BlockMesh, BlockSpec
 from meshes.second_order import add_midpoints
 

@@ -18,8 +18,8 @@ import numpy as np
 from analytic.material import Material
 from comparisons.verify_blocks import forces_of, structured
 from comparisons.verify_checks import Check, order_check
-from fem.elasticity import Coating, ElasticBody, Support, elastic_body
-from fem.triangle import gradients, jacobians, shapes
+from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
+from fem.body.triangle import gradients, jacobians, shapes
 from meshes.block import BlockMesh
 from meshes.roughen import roughen
 

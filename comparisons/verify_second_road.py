@@ -46,8 +46,8 @@ def both_roads(name: str, tables: dict) -> list[Check]:
     from comparisons.finite_element import finite_element_level
     from comparisons.finite_element_bodies import BodyStore, bodies_of
     from comparisons.finite_element_mesh import Refinement
-    from fem.surface import hat_forces
-    from fem.variational_inequality import solve_variational_inequality
+    from fem.body.surface import hat_forces
+    from fem.contact.variational_inequality import solve_variational_inequality
 
     scene = resolve_tables(tables, name="verify", folder=Path("."), source=f"verify: {name}")
     problem = problem_of(scene)

@@ -131,7 +131,7 @@ def test_an_import_against_the_arrows_is_seen(package, source):
         ("analytic.exact", "from ..material import Material\nimport scipy"),
         ("fem", "from analytic import profile\nfrom analytic.material import Material"),
         ("fem", "from meshes.block import BlockMesh\nfrom . import compat"),
-        ("comparisons", "from analytic.contact.problem import solve\nimport fem.elasticity"),
+        ("comparisons", "from analytic.contact.problem import solve\nimport fem.body.elasticity"),
     ],
 )
 def test_an_import_along_the_arrows_is_let_through(package, source):
@@ -146,7 +146,7 @@ def test_an_import_along_the_arrows_is_let_through(package, source):
         ("class A:\n    from matplotlib import pyplot", 1),
         ("def f():\n    import pyvista", 0),
         ("if TYPE_CHECKING:\n    from dolfinx.mesh import Mesh", 0),
-        ("import fem.elasticity, ufly", 0),
+        ("import fem.body.elasticity, ufly", 0),
     ],
 )
 def test_a_heavy_import_is_seen(source, count):

@@ -31,9 +31,9 @@ def contact_of(
     from analytic.grid import HatGrid
     from analytic.material import Material
     from analytic.operators.half_plane import HalfPlane
-    from fem.compliance import FiniteElementCompliance
-    from fem.elasticity import elastic_body
-    from fem.support import Support
+    from fem.body.elasticity import elastic_body
+    from fem.body.support import Support
+    from fem.compliance.operator import FiniteElementCompliance
     from meshes.block import BlockMesh, BlockSpec
 
     spec = BlockSpec(task.half_width, task.depth, task.ground[None], task.surface_size, task.growth)

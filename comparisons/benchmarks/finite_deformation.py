@@ -20,7 +20,7 @@ so that it starts to matter where p0/E reaches 0.07 on a smooth body and 0.035 o
 Contact at the current place makes it higher by twice that and the finite strain takes half of it
 back; the circle's true shape adds 0.25 % at a/R = 0.2, the real geometry up to 0.03 % at an rms
 slope of 0.05 and 0.8 % at 0.2, where the largest shear is 5 % higher. What the finite strain
-changes depends on the material's law (`fem.hyperelastic`).
+changes depends on the material's law (`fem.nonlinear.hyperelastic`).
 """
 
 import argparse

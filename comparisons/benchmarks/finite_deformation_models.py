@@ -9,13 +9,13 @@ import numpy as np
 
 from analytic.contact.patches import contact_patches
 from comparisons.benchmarks.finite_deformation_cases import BLOCK, MATERIAL, Case
-from fem.compliance import FiniteElementCompliance
-from fem.contact_terms import Contact, LinearContact, LinearResponse
-from fem.elasticity import ElasticBody, Support, elastic_body
-from fem.finite_deformation import FiniteDeformation, press, press_finitely
-from fem.maximum import maximum
-from fem.rigid_roller import CurrentContact, circle
-from fem.stress import NodalStress, nodal_stress
+from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.rigid_roller import CurrentContact, circle
+from fem.contact.terms import Contact, LinearContact, LinearResponse
+from fem.nonlinear.finite_deformation import FiniteDeformation, press, press_finitely
+from fem.stress.maximum import maximum
+from fem.stress.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 from meshes.roughen import roughen

@@ -46,10 +46,10 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import Support, elastic_body
-from fem.press_plastic import press_plastically
-from fem.return_mapping import ElasticPlastic
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.operator import FiniteElementCompliance
+from fem.nonlinear.press_plastic import press_plastically
+from fem.nonlinear.return_mapping import ElasticPlastic
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

@@ -18,11 +18,11 @@ from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from comparisons.adapted import Pressing, adapted_contact, half_plane_block
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import Support, elastic_body
-from fem.far_field import FarField
-from fem.maximum import maximum
-from fem.stress import nodal_stress
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.stress.maximum import maximum
+from fem.stress.stress import nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

@@ -24,7 +24,7 @@ from comparisons.plan import MODELS, make_plan
 from comparisons.problem import Problem
 from comparisons.rank import is_several
 from comparisons.stages import Listener, Stages, Step, machine_memory
-from fem.mumps import FemError
+from fem.solver.mumps import FemError
 from meshes.errors import MeshError
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 
 from comparisons.errors import InputError
-from fem.just_in_time import load_dolfinx
+from fem.solver.compilation import load_dolfinx
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1"}
 

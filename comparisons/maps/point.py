@@ -17,7 +17,7 @@ from comparisons.problem import Problem, problem_of
 from comparisons.resolve import resolve_tables
 from comparisons.stages import Stages
 from comparisons.window import window_of
-from fem.communicator import each_alone
+from fem.solver.communicator import each_alone
 from meshes.errors import MeshError
 
 SOLVED, FAILED = "solved", "failed"

@@ -20,7 +20,7 @@ from comparisons.result import result_of
 from comparisons.scene import ResolvedScene
 from comparisons.stages import Listener, Step, silent, within
 from comparisons.window import window_of
-from fem.mumps import FemError
+from fem.solver.mumps import FemError
 from meshes.errors import MeshError
 
 FRICTIONS = (0.0, SLIDING)

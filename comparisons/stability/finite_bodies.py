@@ -13,8 +13,8 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import ComplianceOperator, ModelOperator
 from comparisons.stability.pressing import residual_figures
 from comparisons.stability.row import Figure, Findings
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import ElasticBody
+from fem.body.elasticity import ElasticBody
+from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 

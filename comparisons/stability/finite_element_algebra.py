@@ -20,10 +20,10 @@ from comparisons.stability.backward import (
 )
 from comparisons.stability.finite_bodies import flat_mesh
 from comparisons.stability.row import Case, Figure, Findings
-from fem.coating import Coating
-from fem.elasticity import ElasticBody, elastic_body
-from fem.support import Support
-from fem.surface import hat_forces
+from fem.body.coating import Coating
+from fem.body.elasticity import ElasticBody, elastic_body
+from fem.body.support import Support
+from fem.body.surface import hat_forces
 from meshes.block import BlockMesh
 from meshes.roughen import roughen
 

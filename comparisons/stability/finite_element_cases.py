@@ -33,7 +33,7 @@ from comparisons.stability.scenes import (
 
 PEAK, LENGTH, PLACE = 2e-3, 3e-3, 4e-3  # of Hertz's, with 19 hats on a half-width
 CUBIC_PEAK = 1e-3
-LOCKING = 0.49  # Poisson's ratio from which cubic elements are due (`fem.elasticity`)
+LOCKING = 0.49  # Poisson's ratio from which cubic elements are due (`fem.body.elasticity`)
 SAME = 1e-7  # what another unit may change: a mesh's coordinates are rounded to 1e-9 of an edge
 
 

@@ -25,8 +25,8 @@ from comparisons.stability.finite_element_algebra import BONDED, rough_on
 from comparisons.stability.pressing import departure, least_squares
 from comparisons.stability.rough_cases import flat, plateau, spike, steps
 from comparisons.stability.row import Case, Figure, Findings
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import elastic_body
+from fem.body.elasticity import elastic_body
+from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockMesh
 
 SAME = 1e-7  # of the peak: the iteration's own tolerance

@@ -136,8 +136,8 @@ def finite_results(
     from comparisons.stability.finite_bodies import compliance_of, flat_mesh, press_finite
     from comparisons.stability.finite_element_algebra import BONDED
     from comparisons.stability.finite_element_extremes import GRID
-    from fem.coating import Coating
-    from fem.elasticity import elastic_body
+    from fem.body.coating import Coating
+    from fem.body.elasticity import elastic_body
 
     flat = flat_mesh(40.0, 40.0, 1.5, 0.1, 0.3, 0.2)
     moved = flat.points.copy()

@@ -13,9 +13,9 @@ from analytic.material import Material
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from comparisons.adapted import Pressing, adapted_contact, half_plane_block
 from comparisons.adapted_refinement import joined_patches, next_sizes
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import Support, elastic_body
-from fem.far_field import FarField
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

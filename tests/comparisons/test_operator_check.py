@@ -23,7 +23,7 @@ from comparisons.plan import make_plan
 from comparisons.problem import problem_of
 from comparisons.resolve import load_scene, resolve_tables
 from comparisons.stages import Stages
-from fem.elasticity import elastic_body
+from fem.body.elasticity import elastic_body
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {

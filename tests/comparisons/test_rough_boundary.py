@@ -13,7 +13,7 @@ from comparisons.plan import make_plan
 from comparisons.problem import Problem, problem_of
 from comparisons.resolve import resolve_tables
 from comparisons.stages import Stages
-from fem.mumps import FemError
+from fem.solver.mumps import FemError
 from meshes.block import BlockMesh
 from meshes.build import build_block
 from meshes.quality import real_points, scaled_jacobians

@@ -118,7 +118,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     from analytic.contact.defect_correction import solve_with_model
     from analytic.contact.patches import contact_patches
     from analytic.operators.half_plane import HalfPlane
-    from fem.variational_inequality import solve_variational_inequality
+    from fem.contact.variational_inequality import solve_variational_inequality
 
     problem = problem_of(load_scene("sinusoid"))
     plan = make_plan(problem, MODELS)

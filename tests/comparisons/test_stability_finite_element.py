@@ -11,8 +11,8 @@ from comparisons.stability import (
 )
 from comparisons.stability.backward import THRESHOLD
 from comparisons.stability.row import Row, carried_out
-from fem import elasticity
-from fem.mumps import SymmetricFactor
+from fem.body import elasticity
+from fem.solver.mumps import SymmetricFactor
 
 
 def row_of(module, name: str) -> Row:

@@ -9,10 +9,10 @@ import pytest
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
 from comparisons.verify_blocks import forces_of, structured
-from fem.compliance import FiniteElementCompliance
-from fem.elasticity import ElasticBody, Support, elastic_body
-from fem.stress import NodalStress, nodal_stress
-from fem.surface import hat_nodes
+from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.body.surface import hat_nodes
+from fem.compliance.operator import FiniteElementCompliance
+from fem.stress.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 

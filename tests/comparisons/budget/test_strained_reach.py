@@ -9,7 +9,7 @@ import pytest
 
 from comparisons import finite_element_nonlinear
 from comparisons.finite_element_nonlinear import pressed_finitely
-from fem.mumps import FemError
+from fem.solver.mumps import FemError
 
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
 WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None, hats=None))

@@ -1,0 +1,1 @@
+"""An elastic block on a mesh: triangles, nodes, material, support, loaded surface."""

@@ -1,0 +1,53 @@
+"""A layer of another material on a body: its triangles, and the elastic constants of each."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.material import Material
+from fem.body.surface import SAME_POINT
+from meshes.block import BlockMesh
+
+
+@dataclass(frozen=True)
+class Coating:
+    """A layer of another `material` on the body, as thick [m] as the flat block's mesh has it."""
+
+    material: Material
+    thickness: float
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.thickness < np.inf:
+            raise ValueError(f"a coating's thickness must be positive, not {self.thickness:g} m")
+
+
+def coated_triangles(mesh: BlockMesh, coating: Coating | None) -> np.ndarray:
+    """(m,) whether a triangle belongs to the coating."""
+    if coating is None:
+        return np.zeros(len(mesh.triangles), dtype=bool)
+    height = mesh.points[mesh.triangles[:, :3], 1] - coating.thickness
+    slack = SAME_POINT * mesh.spec.depth
+    crossing = (height.min(axis=1) < -slack) & (height.max(axis=1) > slack)
+    if crossing.any():
+        raise ValueError(
+            f"{np.count_nonzero(crossing)} elements of the mesh cross the coating's lower side "
+            f"at a depth of {coating.thickness:g} m: mesh the block with edges along it"
+        )
+    return height.mean(axis=1) < 0.0
+
+
+def relative_constants(
+    material: Material, coating: Coating | None, coated: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Lame's constants mu and lambda (m,) of each triangle, by Young's modulus of the body."""
+    constants = np.tile(np.reshape(_lame(material, 1.0), (2, 1)), len(coated))
+    if coating is not None:
+        ratio = coating.material.youngs_modulus / material.youngs_modulus
+        constants[:, coated] = np.reshape(_lame(coating.material, ratio), (2, 1))
+    return constants[0], constants[1]
+
+
+def _lame(material: Material, modulus: float) -> tuple[float, float]:
+    """mu and lambda of a material with this Young's modulus instead of its own."""
+    nu = material.poissons_ratio
+    return modulus * 0.5 / (1.0 + nu), modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))

@@ -1,0 +1,284 @@
+"""Plane-strain elasticity of a block: displacements of degree 1, 2 or 3, one factorisation.
+
+Displacements and loads are arrays (n, 2), x and z components, in the numbering of `fem.body.nodes`,
+for quadratic displacements that of the mesh's own points; dolfinx's numbering stays inside. Under
+MPI every process holds the whole array and its own part of the matrix, so that what is computed
+from a displacement is the same on each.
+
+The stiffness is assembled for Young's modulus 1 of the body, a coating's relative to it, and the
+displacement divided by the modulus: the factor depends on the ratio of moduli, Poisson's ratios
+and the shape only, and results scale exactly.
+
+Which degree: quadratic, unless the material is nearly incompressible, then cubic; a mixed element
+is not needed. A pressure's work on its displacement is too small by (bonded layer, contact four
+times as wide as it is thick, n square cells of two triangles across the thickness)
+
+    nu         n    linear    quadratic   cubic     mixed (Taylor and Hood)
+    0.3        4    4e-3      1.0e-5      1.9e-8    6e-6
+    0.49       4    0.11      6e-4        6e-7      3e-5
+    0.4999     4    0.92      6e-3        4e-6      5e-5
+    0.499999   4    1.0       7e-3        5e-6      5e-5
+    0.499999   8    1.0       2e-3        3e-7      4e-6
+    0.499999   16   1.0       4e-4        2e-8      6e-7
+
+Near nu = 0.5 quadratic displacements lose two orders there: a thin bonded layer takes eight
+elements across for 2e-3 (on unstructured meshes 2e-4 with four, 3e-5 with eight), cubic ones take
+two for 1e-4. In a large block with 16 edges to a half-width the surface's slopes are off by 4e-2,
+7e-4 and 2e-4 with nu = 0.3, by all, 6e-3 and 5e-4 with nu = 0.499999. Linear displacements are for
+rough work with nu <= 0.3.
+
+On the same mesh cubic displacements have 2.2 times the unknowns of quadratic ones, their factor
+takes 2.5 times the memory and 2.2 to 3.3 times the time. Under a rough surface, whose edges are
+parabolas whatever the degree and whose pressures have kinks, an error costs the same with both:
+1e-4 of the displacement with 17 000 quadratic unknowns or 10 000 cubic ones, 1.4e-5 with 66 000 or
+37 000.
+"""
+
+from functools import cached_property
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from analytic.material import Material
+from fem import compat
+from fem.body.coating import Coating, coated_triangles, relative_constants
+from fem.body.locate import Locator
+from fem.body.nodes import Nodes, at_points, nodes_of
+from fem.body.support import Support, held_components
+from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
+from fem.body.transfer import conditions_of, domain_of, own_numbers
+from fem.solver.communicator import communicator
+from fem.solver.compilation import compiled, load_dolfinx
+from fem.solver.mumps import FemError, SymmetricFactor, release_with
+from meshes.block import BlockMesh
+from meshes.quality import corner_jacobians, real_points
+
+if TYPE_CHECKING:
+    import ufl
+    from dolfinx.fem import FunctionSpace
+
+# A body that can slide is refused a net horizontal load above this part of the whole load.
+HORIZONTAL_BALANCE = 1e-6
+
+
+class ElasticBody:
+    """An assembled body; factored at the first solution. Make one by `elastic_body`.
+
+    mesh, material, support   as given
+    coating                   as given; None without
+    coated                    (m,) whether a triangle belongs to the coating
+    degree                    of the displacement's polynomials
+    nodes                     (n, 2) [m] of the real body, where displacements are known
+    elements                  (m, 3, 6 or 10) nodes of each triangle, in the order of
+                              `fem.body.triangle`
+    held                      (n, 2) components that the support holds
+    surface                   the top side's nodes in order
+    sides                     mesh points on the four sides
+    top                       the top side's mesh points in order
+    points                    (k, 2) [m] mesh points of the real body, roughness included
+    curved                    whether elements have curved edges
+    space                     dolfinx's space of displacements
+    owned                     our number of each node of it that this process owns
+    matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
+    assembly_seconds          what mesh transfer and assembly took
+    locator                   finds the element that holds a point
+    factor                    the factorisation: its seconds, bytes and number of solves
+    """
+
+    def __init__(
+        self,
+        mesh: BlockMesh,
+        material: Material,
+        support: Support,
+        coating: Coating | None,
+        coated: np.ndarray,
+        numbering: Nodes,
+        held: np.ndarray,
+        owned: np.ndarray,
+        space,
+        matrix,
+        assembly_seconds: float,
+    ) -> None:
+        self.mesh, self.material, self.support = mesh, material, support
+        self.coating, self.coated, self.held = coating, coated, held
+        self._numbering, self.degree = numbering, numbering.degree
+        self.nodes, self.elements = numbering.real, numbering.elements
+        self.matrix, self.owned = matrix, owned
+        release_with(self, matrix)
+        # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
+        # survive it.
+        self.space = space
+        self.assembly_seconds = assembly_seconds
+
+    @property
+    def unknowns(self) -> int:
+        """Displacement components, the held ones included."""
+        return 2 * len(self.nodes)
+
+    @property
+    def curved(self) -> bool:
+        return bool(np.any(self.mesh.shift))
+
+    @property
+    def surface_material(self) -> Material:
+        """The coating's, or the body's without one."""
+        return self.coating.material if self.coating else self.material
+
+    @cached_property
+    def shear_modulus(self) -> np.ndarray:
+        """(m,) [Pa] of each triangle."""
+        return np.where(
+            self.coated, self.surface_material.shear_modulus, self.material.shear_modulus
+        )
+
+    @cached_property
+    def poissons_ratio(self) -> np.ndarray:
+        """(m,) of each triangle."""
+        return np.where(
+            self.coated, self.surface_material.poissons_ratio, self.material.poissons_ratio
+        )
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        return real_points(self.mesh)
+
+    @cached_property
+    def sides(self) -> BoundaryPoints:
+        return boundary_points(self.mesh.points, self.mesh.spec)
+
+    @cached_property
+    def surface(self) -> Surface:
+        return surface_of(self.mesh, self._numbering)
+
+    @cached_property
+    def top(self) -> Surface:
+        return surface_of(self.mesh, nodes_of(self.mesh, 2))
+
+    @cached_property
+    def locator(self) -> Locator:
+        return Locator(self.points, self.mesh.triangles, self.curved)
+
+    @cached_property
+    def factor(self) -> SymmetricFactor:
+        return SymmetricFactor(self.matrix)
+
+    def solve(self, load: np.ndarray) -> np.ndarray:
+        """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once.
+
+        Forces on held components are borne by the support. Raises ValueError if the body can
+        slide and the load has a horizontal resultant, FemError if the factorisation fails.
+        """
+        if self.support.can_slide:
+            net = np.abs(load[..., 0].sum(axis=-1))
+            if np.any(net > HORIZONTAL_BALANCE * np.abs(load).sum(axis=(-1, -2))):
+                raise ValueError(
+                    "a body on a frictionless base with free sides cannot bear a horizontal load: "
+                    "bond its base or hold its sides"
+                )
+        free = np.where(self.held, 0.0, load)
+        part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
+        return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
+
+    def at_points(self, displacement: np.ndarray) -> np.ndarray:
+        """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
+        return at_points(self._numbering, self.mesh, displacement)
+
+    def stiffness(self) -> csr_matrix:
+        """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only.
+
+        Rows and columns of held components are those of the identity times Young's modulus.
+        """
+        if self.matrix.comm.size > 1:
+            raise FemError("the stiffness as one matrix is to be had on one process only")
+        start, column, value = self.matrix.getValuesCSR()
+        component = (2 * self.owned[:, None] + np.arange(2)).ravel()
+        row = np.repeat(component, np.diff(start))
+        value = value * self.material.youngs_modulus
+        return csr_matrix((value, (row, component[column])), shape=(len(component),) * 2)
+
+    def _gathered(self, part: np.ndarray) -> np.ndarray:
+        """The whole displacement (..., n, 2) on every process from the parts they own."""
+        part = part.reshape(*part.shape[:-1], -1, 2)
+        whole = np.empty((*part.shape[:-2], *self.nodes.shape))
+        comm, pieces = self.matrix.comm, [(self.owned, part)]
+        if comm.size > 1:
+            pieces = comm.tompi4py().allgather((self.owned, part))
+        for owned, piece in pieces:
+            whole[..., owned, :] = piece
+        return whole
+
+
+def elastic_body(
+    mesh: BlockMesh,
+    material: Material,
+    support: Support,
+    *,
+    degree: int = 2,
+    coating: Coating | None = None,
+) -> ElasticBody:
+    """Assemble the stiffness of a block, with displacements of `degree` 1, 2 or 3.
+
+    A shape of its own (`mesh.shift`) gives elements with quadratic edges, whatever the degree.
+    Edges must follow the lower side of a `coating`.
+
+    Raises FemError if an element is turned over, ValueError if one crosses the interface.
+    """
+    load_dolfinx()
+    from dolfinx import fem
+
+    start = perf_counter()
+    numbering = nodes_of(mesh, degree)
+    held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
+    folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
+    if folded.any():
+        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
+    coated = coated_triangles(mesh, coating)
+    curved = bool(np.any(mesh.shift))
+    domain, number = domain_of(communicator(), mesh, 2 if curved else 1)
+    space = compiled(lambda: compat.displacement_space(domain, degree))
+    cell, node = own_numbers(mesh, domain, number, space, numbering)
+
+    # a form keeps no constant's value: it is compiled once for all bodies, and once for coated ones
+    constants = relative_constants(material, coating, coated)
+    if coating is None:
+        shear, lame = (fem.Constant(domain, compat.real_number(value[0])) for value in constants)
+    else:
+        shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
+    quadrature = quadrature_degree(degree, curved)
+    name = ("stiffness", degree, curved, quadrature, coating is not None)
+    form = compiled(
+        lambda: compat.compile_bilinear(
+            name, lambda: _work(space, shear, lame, quadrature), space, [shear, lame]
+        )
+    )
+    matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
+
+    owned = node[: space.dofmap.index_map.size_local]
+    seconds = perf_counter() - start
+    return ElasticBody(
+        mesh, material, support, coating, coated, numbering, held, owned, space, matrix, seconds
+    )
+
+
+def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
+    """Work of the stresses of one displacement on the strains of another."""
+    import ufl
+
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    strain = ufl.sym(ufl.grad(u))
+    stress = 2.0 * shear * strain + lame * ufl.tr(strain) * ufl.Identity(2)
+    points = {"quadrature_degree": quadrature}
+    return ufl.inner(stress, ufl.sym(ufl.grad(v))) * ufl.dx(domain=space.mesh, metadata=points)
+
+
+def quadrature_degree(degree: int, curved: bool) -> int:
+    """Degree of the polynomials that the stiffness' quadrature integrates exactly.
+
+    On straight triangles that of the product of two strains, and exact. On curved ones the product
+    with the two slopes of the element's map, which is divided by its determinant: a constant stress
+    does exact work, and the order is that of straight ones. Two degrees less keep the order too,
+    but leave 1 to 5 % more error where the boundary has slope 0.8.
+    """
+    return max(1, 2 * degree if curved else 2 * degree - 2)

@@ -1,0 +1,65 @@
+"""How a block is held."""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+
+from fem.body.surface import BoundaryPoints
+
+Base = Literal["bonded", "frictionless"]
+Sides = Literal["free", "rollers", "fixed"]
+
+
+@dataclass(frozen=True)
+class Support:
+    """How the block is held.
+
+    base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
+    sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
+    within  (x, z) [m]: points with |x| or z beyond are held altogether, which makes a smaller
+            body of the same mesh; infinite where the block goes on to its own boundary
+
+    As a stand-in for a half-plane a square block bonded and fixed all round is the best of its
+    size: Hertz's largest shear stress comes out 0.22 % high at a depth of 400 half-widths and
+    0.9 % at 100. With rollers it is 0.38 and 1.5 %, with free sides 0.41 and 1.6 %, and 0.31 and
+    1.2 % if such a block is twice as wide. The pressure changes by 1e-4.
+
+    With a frictionless base and free sides the bottom point nearest to the middle is held
+    horizontally; a load with a horizontal resultant has no equilibrium then.
+    """
+
+    base: Base = "bonded"
+    sides: Sides = "free"
+    within: tuple[float, float] = (np.inf, np.inf)
+
+    def __post_init__(self) -> None:
+        if self.base not in get_args(Base):
+            raise ValueError(f"base must be one of {get_args(Base)}, not {self.base!r}")
+        if self.sides not in get_args(Sides):
+            raise ValueError(f"sides must be one of {get_args(Sides)}, not {self.sides!r}")
+        if not min(self.within) > 0.0:
+            raise ValueError(f"within must be two positive lengths, not {self.within}")
+
+    @property
+    def can_slide(self) -> bool:
+        """Whether nothing but one pinned point resists a horizontal force."""
+        return self.base == "frictionless" and self.sides == "free"
+
+
+def held_components(flat: np.ndarray, support: Support, sides: BoundaryPoints) -> np.ndarray:
+    """(n, 2) whether the support holds a component, of nodes at `flat` (n, 2) in the flat block."""
+    held = np.zeros(flat.shape, dtype=bool)
+    held[sides.bottom, 1] = True
+    if support.base == "bonded":
+        held[sides.bottom, 0] = True
+    flanks = np.union1d(sides.left, sides.right)
+    if support.sides != "free":
+        held[flanks, 0] = True
+    if support.sides == "fixed":
+        held[flanks, 1] = True
+    held[(np.abs(flat) > support.within).any(axis=1)] = True
+    if support.can_slide:
+        middle = np.argmin(np.abs(flat[sides.bottom, 0]))
+        held[sides.bottom[middle], 0] = True
+    return held

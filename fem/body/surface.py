@@ -1,0 +1,216 @@
+"""The loaded side of a block: its nodes in order, and the nodal forces of hat pressures.
+
+Nomenclature
+    x_i                  hat nodes [m], i = 0 ... n+1, ascending; no pressure at the outer two
+    phi_i(x)             hat function: 1 at x_i, 0 at its neighbours, linear between; i = 1 ... n
+    t, x(t)              place on an edge of the surface, 0 to 1, and its x [m]: a quadratic
+    N_a(t)               shape function of surface node a, of the displacement's degree
+    (d_x, d_z)           direction along which a pressure acts
+    B                    (2k, n) nodal force of a unit hat, B[2a + c, i] = integral N_a phi_i d_c dx
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem.body.nodes import Nodes
+from fem.body.triangle import edge_shapes
+from meshes.block import BlockMesh, BlockSpec
+
+# Closer than this part of the block, or of the edge or hat in question, is in the same place. The
+# smallest elements of a block are 1e-6 of it.
+SAME_POINT = 1e-9
+
+# A direction that varies along the surface is integrated with it. On edges whose middle is in the
+# middle the integrand has degree 5 with cubic displacements and a linear direction, 3 more where
+# the mesh is bent along x: five Gauss points integrate both exactly.
+GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
+
+Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Nodes of the top side in order: vertices at every `degree`-th place, inner nodes between.
+
+    x        (k,) [m] of the real body, ascending
+    point    (k,) numbers among the body's nodes
+    edges    (e, 3) x [m] of each edge's start, middle and end
+    degree   of the displacement
+    """
+
+    x: np.ndarray
+    point: np.ndarray
+    edges: np.ndarray
+    degree: int
+
+
+@dataclass(frozen=True)
+class BoundaryPoints:
+    """Numbers of the points on each side of the block."""
+
+    top: np.ndarray
+    bottom: np.ndarray
+    left: np.ndarray
+    right: np.ndarray
+
+
+def boundary_points(flat: np.ndarray, spec: BlockSpec) -> BoundaryPoints:
+    """Points (n, 2) on the flat block's four sides; a corner belongs to both of its sides."""
+    x, z = flat.T
+
+    def side(distance: np.ndarray, extent: float) -> np.ndarray:
+        return np.flatnonzero(np.abs(distance) <= SAME_POINT * extent)
+
+    return BoundaryPoints(
+        top=side(z, spec.depth),
+        bottom=side(z - spec.depth, spec.depth),
+        left=side(x + spec.half_width, spec.half_width),
+        right=side(x - spec.half_width, spec.half_width),
+    )
+
+
+def surface_of(mesh: BlockMesh, nodes: Nodes) -> Surface:
+    """Nodes on the top side, in the order they have on the flat block.
+
+    Raises ValueError if the mesh's points there are not vertices and their midpoints in turn, or
+    if the real surface overhangs.
+    """
+    top = _ordered(mesh.points, mesh.spec)
+    flat, real = mesh.points[top, 0], (mesh.points + mesh.shift)[top, 0]
+    if len(flat) < 5 or len(flat) % 2 == 0:
+        raise ValueError(f"the top side has {len(flat)} points, not vertices and midpoints in turn")
+    off = np.abs(flat[1::2] - 0.5 * (flat[:-1:2] + flat[2::2]))
+    if np.any(off > SAME_POINT * np.diff(flat[::2])):
+        raise ValueError("a midpoint of the top side is not in the middle of its edge")
+    edges = np.column_stack([real[:-1:2], real[1::2], real[2::2]])
+    length, bend = _length_and_bend(edges)
+    if np.any(np.abs(bend) >= length):
+        raise ValueError("the surface overhangs: x does not ascend along it")
+    point = _ordered(nodes.flat, mesh.spec)
+    return Surface(nodes.real[point, 0], point, edges, nodes.degree)
+
+
+def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
+    """x (count + 2,) [m] of the nodes of equal hats at x0 + i pitch, with their outer feet."""
+    return x0 + pitch * np.arange(-1, count + 1)
+
+
+def straight_down(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(d_x, d_z) = (0, 1): the normal of a flat surface, into the body."""
+    return np.zeros_like(x), np.ones_like(x)
+
+
+def tangent_of(direction: Direction) -> Direction:
+    """Direction of the sliding traction: `direction` turned by a right angle, towards +x."""
+
+    def tangent(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        along, down = direction(x)
+        return down, -along
+
+    return tangent
+
+
+@dataclass(frozen=True)
+class HatPoints:
+    """Gauss points under hats, five on each piece between element vertices and hat nodes.
+
+    x         (e, g) [m]
+    weight    (e, g) [m]
+    shape     (a, e, g) shape functions of the piece's edge, and `node` (a, e) their surface nodes
+    hat       (2, e, g) the two hats over the piece, and `column` (2, e) their numbers; one that is
+              not among the hats, -1 or their count, bears no pressure
+    """
+
+    x: np.ndarray
+    weight: np.ndarray
+    shape: np.ndarray
+    node: np.ndarray
+    hat: np.ndarray
+    column: np.ndarray
+
+
+def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
+    """Where integrals over `hats` (count + 2,) [m], with their outer feet, are evaluated.
+
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
+    """
+    hats = np.asarray(hats, dtype=float)
+    if hats.ndim != 1 or len(hats) < 3 or not np.all(np.diff(hats) > 0.0):
+        raise ValueError("the hats' nodes must be three or more numbers that ascend")
+    vertex = np.append(surface.edges[:, 0], surface.edges[-1, 2])
+    count, pitch = len(hats) - 2, np.diff(hats)
+    if (
+        hats[0] < vertex[0] - SAME_POINT * pitch[0]
+        or hats[-1] > vertex[-1] + SAME_POINT * pitch[-1]
+    ):
+        raise ValueError(
+            f"the pressures reach from {hats[0]:g} m to {hats[-1]:g} m, "
+            f"but the surface only from {vertex[0]:g} m to {vertex[-1]:g} m"
+        )
+    within = vertex[(vertex > hats[0]) & (vertex < hats[-1])]
+    cut = np.union1d(hats, within)
+    middle = 0.5 * (cut[:-1] + cut[1:])
+    element = np.clip(np.searchsorted(vertex, middle) - 1, 0, len(vertex) - 2)
+    interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
+
+    edge = surface.edges[element]
+    begin, end = _place(edge, cut[:-1]), _place(edge, cut[1:])
+    t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + GAUSS_POINTS)
+    length, bend = (value[:, None] for value in _length_and_bend(edge))
+    x = edge[:, :1] + t * (length + bend * (1.0 - t))
+    rising = (x - hats[interval, None]) / pitch[interval, None]
+    return HatPoints(
+        x=x,
+        weight=0.5 * (end - begin)[:, None] * GAUSS_WEIGHTS * (length + bend * (1.0 - 2.0 * t)),
+        shape=np.moveaxis(edge_shapes(t, surface.degree), -1, 0),
+        node=surface.degree * element + np.arange(surface.degree + 1)[:, None],
+        hat=np.stack([1.0 - rising, rising]),
+        column=interval + np.arange(-1, 1)[:, None],
+    )
+
+
+def hat_forces(
+    surface: Surface, hats: np.ndarray, direction: Direction = straight_down
+) -> csr_matrix:
+    """Nodal forces B (2k, count) [m] of unit hat pressures, exact.
+
+    `hats` (count + 2,) [m] are the hats' nodes, ascending, and the feet of the outer two, where
+    the pressure is zero. A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are
+    the x and z force at surface node a. The integrals run over the pieces between element vertices
+    and hat nodes, on which the integrand is a polynomial. With a `direction` that varies they are
+    exact up to its linear part on each piece.
+
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
+    """
+    points, count = hat_points(surface, hats), len(hats) - 2
+    along = np.stack(np.broadcast_arrays(*direction(points.x)))
+    # value[a, c, h, piece]: shape function, component, hat, piece
+    value = np.einsum("aeg,cheg->ache", points.shape * points.weight, along[:, None] * points.hat)
+    row = 2 * points.node[:, None, None, :] + np.arange(2)[None, :, None, None]
+    row, column = np.broadcast_arrays(row, points.column[None, None, :, :])
+    inside = (column >= 0) & (column < count) & (value != 0.0)
+    return csr_matrix(
+        (value[inside], (row[inside], column[inside])), shape=(2 * len(surface.x), count)
+    )
+
+
+def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:
+    """Numbers of the points (n, 2) on the flat block's top side, by x."""
+    top = boundary_points(flat, spec).top
+    return top[np.argsort(flat[top, 0])]
+
+
+def _length_and_bend(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """L and c (e,) [m] of x(t) = x(0) + L t + c t (1 - t) on edges (e, 3)."""
+    start, middle, end = edges.T
+    return end - start, 4.0 * middle - 2.0 * (start + end)
+
+
+def _place(edges: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """t (e,) at which edges (e, 3) have x (e,)."""
+    length, bend = _length_and_bend(edges)
+    slope, gone = length + bend, x - edges[:, 0]
+    return 2.0 * gone / (slope + np.sqrt(np.maximum(slope**2 - 4.0 * bend * gone, 0.0)))

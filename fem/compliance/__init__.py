@@ -1,0 +1,1 @@
+"""Surface compliance of a finite-element body as an operator."""

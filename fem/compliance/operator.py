@@ -1,0 +1,114 @@
+"""Surface compliance of a finite-element body as an operator on hat pressures.
+
+C = B^T K^-1 B: one load vector, one back-substitution, one weighted mean of the surface
+displacement with the same hats; symmetric and positive definite by construction. With a far field
+(`fem.compliance.far_field`) the displacement that the outer boundary is given adds a symmetric
+part. Nomenclature: p hat pressures [Pa], K stiffness, B nodal forces of unit hats
+(`fem.body.surface`).
+"""
+
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import Direction, hat_forces, straight_down, tangent_of
+from fem.compliance.far_field import FarField
+
+# Right-hand sides that are solved at once for the dense matrix; more only costs memory.
+BATCH = 32
+
+
+class FiniteElementCompliance:
+    """Pressures on `count` hats to weighted displacements of `body`.
+
+    hats        (count + 2,) [m] the hats' nodes, ascending, with the feet of the outer two
+    direction   None: pressure along +z. Else a function of x [m] that gives the two components
+                (d_x, d_z) of the force per length of x that a unit pressure exerts: for a
+                contact on a rough boundary (slope, 1) of the smooth roller, since the traction
+                acts along the roller's normal
+    far         None: the body is held as its support says. Else its boundary gets the half-plane's
+                displacement; made for the same body and the hats' stretch
+    normal      B of the pressure, (2k, count)
+    tangential  B of a sliding traction towards +x, (2k, count); made when first asked for
+    applications   back-substitutions so far
+
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface.
+    """
+
+    def __init__(
+        self,
+        body: ElasticBody,
+        hats: np.ndarray,
+        direction: Direction | None = None,
+        far: FarField | None = None,
+    ) -> None:
+        direction = straight_down if direction is None else direction
+        self.body, self.hats, self.count, self.far = body, hats, len(hats) - 2, far
+        self.normal = hat_forces(body.surface, hats, direction)
+        self._means = self.normal.T.tocsr()  # a transposed view anew for each product costs more
+        self._direction = direction
+        self.applications = 0
+
+    @cached_property
+    def tangential(self) -> csr_matrix:
+        return hat_forces(self.body.surface, self.hats, tangent_of(self._direction))
+
+    def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
+        """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
+
+        With `friction` the sliding traction friction * pressure acts too; the operator is then
+        no longer symmetric.
+        """
+        force = self._force(pressure, friction)
+        self.applications += 1
+        moved = self.weighted(self.body.solve(self._load(force)))
+        return moved if self.far is None else moved + self._means @ self.far.symmetric(force)
+
+    def apply_all(self, pressures: np.ndarray, friction: float = 0.0) -> np.ndarray:
+        """`apply` to the columns of `pressures` (count, m) at once, (count, m) [m^2]: cheaper."""
+        return self._columns(self._force(pressures, friction)).T
+
+    def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
+        """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
+        self.applications += 1
+        load = self.load(pressure, friction)
+        return self.body.solve(load) if self.far is None else self.far.displacement(load)
+
+    def load(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
+        """Nodal forces (n, 2) [N/m] of a pressure (count,) [Pa] and its sliding traction."""
+        return self._load(self._force(pressure, friction))
+
+    def weighted(self, displacement: np.ndarray) -> np.ndarray:
+        """B^T u (count,) [m^2] of a displacement (n, 2) [m]."""
+        return self._means @ displacement[self.body.surface.point].ravel()
+
+    def matrix(self, friction: float = 0.0) -> np.ndarray:
+        """C dense (count, count) [m^2/Pa]: one back-substitution a hat."""
+        forces = self.normal + friction * self.tangential if friction else self.normal
+        return np.vstack(
+            [self._columns(forces[:, i : i + BATCH].toarray()) for i in range(0, self.count, BATCH)]
+        ).T
+
+    def _columns(self, force: np.ndarray) -> np.ndarray:
+        """Columns of C, as rows, for a batch of columns of surface forces (2k, m) [N/m]."""
+        count = force.shape[1]
+        load = np.zeros((count, *self.body.nodes.shape))
+        load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
+        self.applications += count
+        moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
+        if self.far is not None:
+            moved = moved + self.far.symmetric(force)
+        return (self._means @ moved).T
+
+    def _force(self, pressure: np.ndarray, friction: float) -> np.ndarray:
+        """Forces (2k, …) [N/m] on the surface's nodes under a pressure (count, …) [Pa]."""
+        force = self.normal @ pressure
+        return force + friction * (self.tangential @ pressure) if friction else force
+
+    def _load(self, force: np.ndarray) -> np.ndarray:
+        """Forces (n, 2) on all nodes from those (2k,) on the surface's."""
+        load = np.zeros(self.body.nodes.shape)
+        load[self.body.surface.point] = force.reshape(-1, 2)
+        return load

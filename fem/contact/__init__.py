@@ -1,0 +1,1 @@
+"""Contact of nonlinear bodies, and the independent solver."""

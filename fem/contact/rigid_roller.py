@@ -1,0 +1,99 @@
+"""A rigid roller against the surface where it is now: current place, current normal.
+
+    g_i = integral phi_i (z + s(x)) dX,   (x, z) = (X + u_x, Z + u_z)
+    T p = integral N p ((s', 1) + friction (1, -s')) dX
+
+The roller's own normal at the place that a surface point has come to is (s', 1) up to its length,
+so that the force is the gap's derivative: frictionless contact has an energy. As p is a force per
+reference length of x with a vertical part of one, integral p dX is the load itself, and the
+pressure on the deformed surface is p / (dx/dX).
+
+Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
+above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import csr_matrix, diags
+
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import hat_points
+from fem.contact.terms import ContactTerms
+
+# s, s' and s'' of places x
+Roller = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
+
+# Part of the radius at which a circle is carried on as a straight line of slope 2: no contact is
+# meant to get there, but hats may lie beneath.
+STEEPEST = 2.0 / np.sqrt(5.0)
+
+
+def circle(radius: float) -> Roller:
+    """A roller of this radius [m], its true shape."""
+
+    def rise(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        inside = np.clip(x, -STEEPEST * radius, STEEPEST * radius)
+        below = np.sqrt(radius**2 - inside**2)
+        slope = inside / below
+        bend = np.where(x == inside, radius**2 / below**3, 0.0)
+        return inside**2 / (radius + below) + slope * (x - inside), slope, bend
+
+    return rise
+
+
+def parabola(radius: float) -> Roller:
+    """x^2 / 2R, the half-plane's roller; flat for an infinite radius."""
+
+    def rise(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return x**2 / (2.0 * radius), x / radius, np.full_like(x, 1.0 / radius)
+
+    return rise
+
+
+class CurrentContact:
+    """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m].
+
+    The hats belong to places of the undeformed body and move with it. Raises ValueError if one
+    sticks out of the surface.
+    """
+
+    def __init__(
+        self, body: ElasticBody, hats: np.ndarray, roller: Roller, friction: float = 0.0
+    ) -> None:
+        points, count = hat_points(body.surface, hats), len(hats) - 2
+        self.frictionless, self._friction, self._roller = not friction, friction, roller
+        self._weight = points.weight.ravel()
+        number = np.arange(points.x.size).reshape(points.x.shape)
+        node = np.broadcast_to(body.surface.point[points.node][..., None], points.shape.shape)
+        row = np.broadcast_to(number, points.shape.shape)
+
+        def of_component(axis: int) -> csr_matrix:
+            place = (row.ravel(), 2 * node.ravel() + axis)
+            return csr_matrix((points.shape.ravel(), place), (number.size, 2 * len(body.nodes)))
+
+        self._x, self._z = of_component(0), of_component(1)
+        column = np.broadcast_to(points.column[..., None], points.hat.shape)
+        row = np.broadcast_to(number, points.hat.shape)
+        among = (column >= 0) & (column < count)
+        self._hats = csr_matrix(
+            (points.hat[among], (row[among], column[among])), (number.size, count)
+        )
+        self._undeformed = body.nodes
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Terms (see `fem.contact.terms.Contact`) where the surface is now."""
+        place = (self._undeformed + displacement).ravel()
+        rise, slope, bend = self._roller(self._x @ place)
+        gap = self._hats.T @ (self._weight * (self._z @ place + rise))
+        weighted = diags(self._weight) @ self._hats
+        along, down = self._x.T @ diags(slope) @ weighted, self._z.T @ weighted
+        gradient = (along + down).tocsr()
+        turning = self._x.T @ diags(bend * self._weight * (self._hats @ pressure)) @ self._x
+        if self.frictionless:
+            return ContactTerms(gap, gradient, gradient, turning.tocsr())
+        force = gradient + self._friction * (
+            self._x.T @ weighted - self._z.T @ diags(slope) @ weighted
+        )
+        bent = self._z.T @ diags(bend * self._weight * (self._hats @ pressure)) @ self._x
+        return ContactTerms(gap, gradient, force.tocsr(), (turning - self._friction * bent).tocsr())

@@ -1,0 +1,116 @@
+"""What `fem.contact.nonlinear` asks of a body: its response, and where it meets the hats.
+
+Nomenclature: u displacement [m] of a body's n nodes, K stiffness [Pa], p hat pressures [Pa], g the
+body's part of the weighted gap [m^2], phi_i hat functions, B nodal forces of unit hats [m]
+(`fem.body.surface`).
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import Surface
+
+
+class Response(Protocol):
+    """A body's forces against displacements of its n nodes, with its history if it has one.
+
+    held        (n, 2) whether the support holds a component; those are left at rest
+    symmetric   whether the tangent is
+    """
+
+    held: np.ndarray
+    symmetric: bool
+
+    def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
+        """Internal nodal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa] from the accepted state.
+
+        Rows of held components are not looked at. Raises FemError where the body cannot follow,
+        as when an element is turned over; a shorter step is then tried.
+        """
+        ...
+
+    def accept(self, displacement: np.ndarray) -> None:
+        """Take the displacement (n, 2) [m] of an increment that is done into the history."""
+        ...
+
+
+class LinearResponse:
+    """An elastic body's linear response, K u."""
+
+    symmetric = True
+
+    def __init__(self, body: ElasticBody) -> None:
+        self.held, self._matrix = body.held, body.stiffness()
+
+    def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
+        """K u (n, 2) [N/m] and K [Pa]."""
+        return (self._matrix @ displacement.ravel()).reshape(-1, 2), self._matrix
+
+    def accept(self, displacement: np.ndarray) -> None:
+        """Nothing: it has no history."""
+
+
+@dataclass(frozen=True)
+class ContactTerms:
+    """One body's part of the contact at a displacement and a pressure.
+
+    gap        (count,) [m^2] integral phi_i (opening) dx that this body adds, approach left out
+    gradient   (2n, count) [m] its derivative with respect to u
+    force      (2n, count) [m] nodal forces of unit hats; `gradient` itself without friction
+    stiffness  (2n, 2n) [Pa] derivative of force @ pressure with respect to u; None: none
+    """
+
+    gap: np.ndarray
+    gradient: csr_matrix
+    force: csr_matrix
+    stiffness: csr_matrix | None = None
+
+
+class Contact(Protocol):
+    """Where a body meets the grid of hats. `frictionless`: force and gradient are the same."""
+
+    frictionless: bool
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Terms at a displacement (n, 2) [m] and a pressure (count,) [Pa]."""
+        ...
+
+
+class LinearContact:
+    """Contact at the undeformed place: gap B'u, forces B p + friction T p, both fixed.
+
+    `normal` B and `tangential` T (2k, count) are the `hat_forces` on the k nodes of `surface`,
+    `count` the number n of the body's nodes.
+    """
+
+    def __init__(
+        self,
+        count: int,
+        surface: Surface,
+        normal: csr_matrix,
+        friction: float = 0.0,
+        tangential: csr_matrix | None = None,
+    ) -> None:
+        if friction and tangential is None:
+            raise ValueError("friction needs the nodal forces of a sliding traction")
+        self.frictionless = not friction
+        self._gradient = on_all_nodes(count, surface, normal)
+        self._force = self._gradient
+        if friction:
+            self._force = self._gradient + friction * on_all_nodes(count, surface, tangential)
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Terms (see `Contact`); only the gap depends on the displacement."""
+        gap = self._gradient.T @ displacement.ravel()
+        return ContactTerms(gap, self._gradient, self._force)
+
+
+def on_all_nodes(count: int, surface: Surface, forces: csr_matrix) -> csr_matrix:
+    """Rows of all 2n components from those (2k, m) of the surface's nodes."""
+    component = (2 * surface.point[:, None] + np.arange(2)).ravel()
+    place = (component, np.arange(component.size))
+    return csr_matrix((np.ones(component.size), place), (2 * count, component.size)) @ forces

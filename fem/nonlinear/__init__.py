@@ -1,0 +1,1 @@
+"""Bodies that are not linear: finite deformation, plastic flow."""

@@ -1,0 +1,164 @@
+"""A body pressed by a rigid roller with nothing linearised: finite strains, current normals.
+
+What it is made of can be exchanged, so that what the linear theory leaves out can be told apart:
+a linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
+(`fem.nonlinear.hyperelastic.NeoHookeanBody`), contact at the undeformed place
+(`fem.contact.terms.LinearContact`) or where the surface is now
+(`fem.contact.rigid_roller.CurrentContact`).
+
+An elastic roller is not offered: its surface would have to be searched for where the body's meets
+it, and to take its small displacement at the undeformed place instead would leave out as much as
+is looked for.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fem.body.elasticity import ElasticBody
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
+from fem.contact.rigid_roller import CurrentContact, Roller
+from fem.contact.terms import Contact, Response
+from fem.nonlinear.hyperelastic import (
+    NeoHookeanBody,
+    along_surface,
+    nodal_cauchy_stress,
+    nodal_stress_across,
+)
+from fem.stress.stress import NodalStress
+from fem.stress.surface_load import SurfaceLoad
+
+
+@dataclass(frozen=True)
+class FiniteDeformation:
+    """A body in contact with a rigid roller, deformed as far as it is.
+
+    body, hats, roller, friction   as given
+    solution   pressure, displacement, approach, load, mean gaps, residuals, increments
+    """
+
+    body: ElasticBody
+    hats: np.ndarray
+    roller: Roller
+    friction: float
+    solution: NonlinearSolution
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """(count,) [Pa] vertical force per undeformed length of x, as in the linear theory."""
+        return self.solution.state.pressure
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """(n, 2) [m] at the body's nodes."""
+        return self.solution.state.displacements[0]
+
+    @property
+    def approach(self) -> float:
+        """Depth [m] of the roller's lowest point below z = 0 of the undeformed body."""
+        return self.solution.state.approach
+
+    @property
+    def gap(self) -> np.ndarray:
+        """(count,) [m] mean opening under each hat, along z."""
+        return self.solution.gap
+
+    @cached_property
+    def place(self) -> np.ndarray:
+        """x (count,) [m] to which the hats' nodes have come."""
+        at = self.hats[1:-1]
+        return at + np.interp(at, self.body.top.x, self._moved[:, 0])
+
+    @cached_property
+    def cauchy_pressure(self) -> np.ndarray:
+        """(count,) [Pa] force per deformed area, at `place`."""
+        return self._on_deformed(self.hats[1:-1], self.pressure)
+
+    @cached_property
+    def stress(self) -> NodalStress:
+        """Cauchy's stresses at the mesh points, which are now at `deformed_points`.
+
+        The stress across the plane is lambda ln J / J, and nu (sx + sz) for small strains only.
+        """
+
+        def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            return self.roller(x)[1], np.ones_like(x)
+
+        load = SurfaceLoad(self.body, self.hats, self.pressure, self.friction, direction)
+        nodal = np.concatenate([[0.0], self.pressure, [0.0]])
+        x = self.body.top.x
+        pressure = self._on_deformed(x, np.interp(x, self.hats, nodal))
+        return nodal_cauchy_stress(self.body, self.displacement, load, pressure)
+
+    @cached_property
+    def stress_across(self) -> np.ndarray:
+        """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
+        return nodal_stress_across(self.body, self.displacement)
+
+    @cached_property
+    def deformed_points(self) -> np.ndarray:
+        """(k, 2) [m] where the mesh points are now."""
+        return self.body.points + self.body.at_points(self.displacement)
+
+    @cached_property
+    def _moved(self) -> np.ndarray:
+        return self.body.at_points(self.displacement)[self.body.top.point]
+
+    def _on_deformed(self, x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+        """Pressure per deformed length of x at undeformed places x."""
+        top = self.body.top.x
+        return pressure / np.interp(x, top, 1.0 + along_surface(top, self._moved)[:, 0])
+
+
+def press_finitely(
+    body: ElasticBody,
+    hats: np.ndarray,
+    roller: Roller,
+    start: np.ndarray,
+    load: float | None = None,
+    approach: float | None = None,
+    friction: float = 0.0,
+    hardness: float = np.inf,
+) -> FiniteDeformation:
+    """Press a body of neo-Hookean material by a rigid roller whose lowest point is at x = 0.
+
+    body       shape, support and elastic constants; `geometry` means its real boundary
+    hats       (count + 2,) [m] nodes of the pressure on the undeformed surface, with outer feet
+    roller     its true shape: `fem.contact.rigid_roller.circle(radius)`
+    start      (count,) [Pa] the linear pressure under the load wanted: Newton's method starts there
+    load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
+               z = 0, positive into the body
+    friction   q = friction p along the roller's tangent, fully coupled; towards +x
+    hardness   H [Pa], cap on `pressure`
+
+    Raises FemError where it does not converge, on more than one process and with a coating,
+    ValueError for a load that cannot be borne.
+    """
+    bodies = [(NeoHookeanBody(body), CurrentContact(body, hats, roller, friction))]
+    solution = press(bodies, body, hats, start, load, approach, friction, hardness)
+    return FiniteDeformation(body, hats, roller, friction, solution)
+
+
+def press(
+    bodies: list[tuple[Response, Contact]],
+    body: ElasticBody,
+    hats: np.ndarray,
+    start: np.ndarray,
+    load: float | None = None,
+    approach: float | None = None,
+    friction: float = 0.0,
+    hardness: float = np.inf,
+    gap: np.ndarray | None = None,
+) -> NonlinearSolution:
+    """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
+
+    `gap` (count,) [m^2] is what the kinematics leaves out, for contact at the undeformed place
+    the initial gap.
+    """
+    weights = 0.5 * (hats[2:] - hats[:-2])
+    moved = FiniteElementCompliance(body, hats).displacement(start, friction)
+    state = ContactState((np.where(body.held, 0.0, moved),), start, approach=0.0)
+    gap = np.zeros_like(weights) if gap is None else gap
+    return solve_nonlinear_contact(bodies, gap, weights, state, load, approach, hardness)

@@ -1,0 +1,1 @@
+"""What solves: processes, compiled forms, factorisations by MUMPS."""

@@ -1,0 +1,1 @@
+"""Stresses from displacements: recovery, kinks, maxima, error indicator."""

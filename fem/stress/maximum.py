@@ -1,0 +1,130 @@
+"""The largest value of a stress quantity in a body, and where it is.
+
+Nodes alone miss a flat maximum by half an element. Elements with a high node are sampled; the
+best of them are sampled finely, and away from the surface, where stresses are smooth, a cubic
+fitted to the stresses of the elements around the best sample gives the place. Hertz's largest
+shear stress at 10 to 80 edges a half-width: value within 1e-3, depth within 6e-3 (the best
+sample: 1.5e-2).
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from analytic.stress_state import Extremum
+from fem.body.elasticity import ElasticBody
+from fem.body.triangle import shapes
+from fem.stress.nodes import MaterialStress
+from fem.stress.stress import NodalStress, within
+
+Quantity = Callable[[MaterialStress], np.ndarray]
+Window = tuple[float, float, float]
+
+UNSEEN = 0.25  # what may lie between an element's nodes above the highest, of the maximum
+COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
+BEST = 16  # elements sampled finely
+# Elements that share the highest sample reach it alike but for rounding, which must not choose
+# the stresses that the cubic goes through: those around all of them. The next sample of an element
+# is lower by about 1e-5.
+ALIKE = 1e-8
+# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it the stresses are
+# not smooth on the elements' scale, and the sample is the better answer.
+MISFIT = 0.01
+
+
+def maximum(
+    body: ElasticBody, nodal: NodalStress, quantity: Quantity, window: Window | None = None
+) -> Extremum:
+    """Largest value of a `quantity` made of the stresses (and Poisson's ratio) point by point.
+
+    `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1. Raises ValueError
+    if no sample lies in it.
+    """
+    triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
+
+    def sampled(elements: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        at = _lattice(count)
+        place = np.einsum("mac,qa->mqc", points[triangles[elements]], shapes(at))
+        stress = np.moveaxis(within(body, nodal, elements, at), -1, 0)
+        nu = np.broadcast_to(body.poissons_ratio[elements, None], stress.shape[1:])
+        value = quantity(MaterialStress(*stress, nu))
+        return np.where(_inside(place, window), value, -np.inf), place
+
+    at_nodes = np.where(_inside(points, window), quantity(nodal.stress), -np.inf)
+    highest = at_nodes[triangles].max(axis=1)
+    top = highest.max()
+    promising = np.flatnonzero(highest >= top - UNSEEN * abs(top))
+    if top == -np.inf:  # a window between the nodes
+        promising = np.arange(len(triangles))
+    coarse, _ = sampled(promising, COARSE)
+    best = np.sort(promising[np.argsort(coarse.max(axis=1))[-BEST:]])
+    fine, place = sampled(best, FINE)
+    top = fine.max()
+    if top == -np.inf:
+        raise ValueError(f"no part of the body lies in the window {window}")
+    high = fine >= top - ALIKE * abs(top)
+    element, point = np.argwhere(high)[0]
+    found = Extremum(float(fine[element, point]), *map(float, place[element, point]))
+
+    away = np.linalg.norm(place - place[element, point], axis=-1)
+    size = np.ptp(place[element], axis=0).max()
+    sharing = best[(high & (away < ALIKE * size)).any(axis=1)]
+    touching = np.isin(triangles, triangles[sharing]).any(axis=1)
+    patch = np.unique(triangles[touching])
+    if np.isin(nodal.nodes.point[patch], body.top.point).any():
+        return found
+    nu = body.poissons_ratio[best[element]]
+    smooth = _smooth_maximum(points[patch], nodal.values[patch], nu, quantity, found)
+    return smooth if smooth and _inside(np.array([smooth.x, smooth.z]), window) else found
+
+
+def _lattice(count: int) -> np.ndarray:
+    """Reference points (q, 2) with `count` steps along an edge."""
+    return np.array([[i, j] for i in range(count + 1) for j in range(count + 1 - i)]) / count
+
+
+def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
+    """Whether places (..., 2) lie in the window."""
+    if window is None:
+        return np.ones(place.shape[:-1], dtype=bool)
+    x0, x1, z1 = window
+    return (place[..., 0] >= x0) & (place[..., 0] <= x1) & (place[..., 1] <= z1)
+
+
+def _smooth_maximum(
+    points: np.ndarray, stress: np.ndarray, nu: float, quantity: Quantity, start: Extremum
+) -> Extremum | None:
+    """Largest value of the cubics through `stress` (k, 3) at `points`; None if they do not fit."""
+    from scipy.optimize import minimize
+
+    def of(values: np.ndarray) -> np.ndarray:
+        return quantity(MaterialStress(*values.T, np.full(len(values), nu)))
+
+    origin = np.array([start.x, start.z])
+    unit = np.abs(points - origin).max()
+    offset = (points - origin) / unit
+    terms = _cubic(offset)
+    if start.value == 0.0 or len(points) <= terms.shape[1]:
+        return None
+    fit, *_ = np.linalg.lstsq(terms, stress, rcond=None)
+    misfit = of(terms @ fit) - of(stress)
+    if np.abs(misfit).max() > MISFIT * abs(start.value):
+        return None
+
+    def loss(at: np.ndarray) -> float:
+        return -float(of(_cubic(at[None]) @ fit)[0]) / abs(start.value)
+
+    low, high = offset.min(axis=0), offset.max(axis=0)
+    # to 1e-9 of the patch: the place must not depend on how the stresses were rounded
+    bounds = list(zip(low, high, strict=True))
+    top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
+    if not top.success or np.any((top.x <= low) | (top.x >= high)):
+        return None
+    place = origin + unit * top.x
+    return Extremum(-float(top.fun) * abs(start.value), float(place[0]), float(place[1]))
+
+
+def _cubic(at: np.ndarray) -> np.ndarray:
+    """Terms (k, 10) of a cubic at points (k, 2)."""
+    x, z = at.T
+    return np.stack([x**i * z ** (d - i) for d in range(4) for i in range(d + 1)], axis=-1)

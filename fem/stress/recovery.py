@@ -1,0 +1,208 @@
+"""Stresses at the nodes from displacements: superconvergent patch recovery.
+
+The stresses of quadratic displacements are most accurate at the three inner Gauss points of an
+element. Around each vertex a quadratic polynomial is fitted to those of the elements that meet
+there (`fem.stress.patches`); its value is the vertex's stress, and the mean of the two vertices'
+polynomials the stress of an edge's midpoint (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng.
+33, 1331-1364). Linear displacements are sampled at the middle of the element, and the polynomial
+is linear; cubic ones at six points, and the polynomial is cubic.
+
+Polynomials do not follow the kinks of a pressure. Each patch is therefore fitted to the
+displacement without that of the kinks near it, interpolated on the same elements, and their
+stress is added to the fit again (`fem.stress.kinks`). Patches at the surface have samples on its
+edges too, where the load gives the stress across it and the surface's stretch the one along it.
+
+Against the exact stresses of hat pressures on a flat surface (edges as long as the pitch, 10 to
+80 to a half-width, Hertz and random, friction 0 to 0.3) the error in the first layer of elements is
+1.2 to 1.8 times that in the third, and a third to a sixth of what it is without regard to kinks. On
+a wavy surface of slope 0.1, ten elements to a wave, it is twice that in the third layer.
+"""
+
+import numpy as np
+
+from fem.body.elasticity import ElasticBody
+from fem.body.triangle import GAUSS, edge_shapes, gradients, shapes
+from fem.stress.kinks import Kinks
+from fem.stress.nodes import stress_nodes
+from fem.stress.patches import Patches, patches_of
+from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
+
+# Where the stresses of displacements of each degree are sampled in an element: Gauss points of
+# degree 1, 2 and 4 (Dunavant 1985, Int. J. Numer. Methods Eng. 21, 1129-1148).
+NEAR_EDGE, NEAR_VERTEX = 0.445948490915965, 0.091576213509771
+SAMPLED = {
+    1: np.array([[1.0, 1.0]]) / 3.0,
+    2: GAUSS,
+    3: np.array(
+        [
+            place
+            for a in (NEAR_EDGE, NEAR_VERTEX)
+            for place in ([a, a], [1.0 - 2.0 * a, a], [a, 1.0 - 2.0 * a])
+        ]
+    ),
+}
+
+# Weight of a sample on the surface's edges against one in an element. More helps where the surface
+# bends within a few elements, less where it is flat and the pressure kinked: a weight of 16 instead
+# of 4 changes the error in the first layer by -30 % and +25 %, one of 1 by +40 % and -5 %.
+SURFACE_WEIGHT = 4.0
+
+# Weight of the curvature's smallness against the fit: decides only where samples leave it open.
+RIDGE = 1e-9
+
+
+def element_stress(body: ElasticBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (m, q, 3) [Pa] of a displacement (n, 2) at reference points (q, 2)."""
+    return _stress(body, np.arange(len(body.elements)), displacement[body.elements], at)
+
+
+def recovered_stress(
+    body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad | None = None
+) -> np.ndarray:
+    """sx, sz, txz (k, 3) [Pa] at the body's `stress_nodes` of a displacement (n, 2) [m].
+
+    `load` is what acts on the surface; without it nothing is known there.
+    """
+    nodes = stress_nodes(body)
+    points, patches = body.points[nodes.point], patches_of(body, nodes)
+    sampled = SAMPLED[body.degree]
+    place = np.einsum(
+        "mac,qa->mqc", body.points[body.mesh.triangles], shapes(sampled), optimize=True
+    )
+    centre, patch, first = points[patches.vertex], patches.patch, patches.start[:-1]
+    offset = place[patches.element] - centre[patch][:, None]
+    count = np.diff(patches.start) * len(sampled)
+    radius = np.sqrt(np.add.reduceat((offset**2).sum(axis=(1, 2)), first) / count)
+    stress = element_stress(body, displacement, sampled)[patches.element]
+    if load is not None:
+        near = _NearKinks(body, load.kinks, patches, points, radius)
+        stress -= near.samples(sampled)
+
+    terms = _terms(offset / radius[patch][:, None, None], body.degree)
+    moments = np.add.reduceat(terms.transpose(0, 2, 1) @ terms, first, axis=0)
+    sums = np.add.reduceat(terms.transpose(0, 2, 1) @ stress, first, axis=0)
+    if load is not None:
+        patch, place, stress = near.surface_samples(load, displacement)
+        terms = _terms((place - centre[patch][:, None]) / radius[patch][:, None, None], body.degree)
+        weighted = SURFACE_WEIGHT * terms.transpose(0, 2, 1)
+        np.add.at(moments, patch, weighted @ terms)
+        np.add.at(sums, patch, weighted @ stress)
+    curved = np.arange(3, terms.shape[-1])
+    moments[:, curved, curved] += RIDGE * count[:, None]
+    fit = np.linalg.solve(moments, sums)
+
+    offset = points[patches.middle][:, None] - centre[patches.ends]
+    terms = _terms(offset / radius[patches.ends][..., None], body.degree)
+    at_vertex, at_middle = fit[:, 0], np.einsum("eki,ekic->ekc", terms, fit[patches.ends])
+    if load is not None:
+        at_vertex, at_middle = at_vertex + near.at_vertices(), at_middle + near.at_middles()
+    result = np.empty((len(points), 3))
+    result[patches.vertex] = at_vertex
+    result[patches.middle] = np.einsum("ek,ekc->ec", patches.shares, at_middle)
+    return result
+
+
+class _NearKinks:
+    """The kinks near each patch: what is to be taken from its samples and added to its fit."""
+
+    def __init__(
+        self,
+        body: ElasticBody,
+        kinks: Kinks,
+        patches: Patches,
+        points: np.ndarray,
+        radius: np.ndarray,
+    ) -> None:
+        self.body, self.kinks, self.patches, self.points = body, kinks, patches, points
+        seen = patches.coated == body.coated.any()
+        self.weights = kinks.weights(points[patches.vertex], radius, seen)
+
+    def samples(self, sampled: np.ndarray) -> np.ndarray:
+        """sx, sz, txz (p, q, 3) of the kinks' displacement interpolated on the elements."""
+        near = self.weights.count[self.patches.patch] > 0
+        element = self.patches.element[near]
+        moved = self._displacement(self.patches.patch[near], self.body.elements[element])
+        samples = np.zeros((len(near), len(sampled), 3))
+        samples[near] = _stress(self.body, element, moved, sampled)
+        return samples
+
+    def surface_samples(
+        self, load: SurfaceLoad, displacement: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Patch (s,), place (s, q, 2) and stress (s, q, 3) without kinks, on the surface's edges.
+
+        Across the surface the stress is the load's; along it that of the surface's stretch.
+        """
+        body, (patch, edge) = self.body, self.patches.beside.T
+        point = body.top.point[2 * edge[:, None] + np.arange(3)]
+        node = body.surface.point[body.degree * edge[:, None] + np.arange(body.degree + 1)]
+        at, _ = np.polynomial.legendre.leggauss(body.degree)
+        at = 0.5 * (1.0 + at)
+        place = edge_shapes(at, 2) @ body.points[point]
+        longer = _edge_slopes(at, 2) @ body.points[point]
+        moved = displacement[node] - self._displacement(patch, node)
+        stretch = _edge_slopes(at, body.degree) @ moved
+        number = np.arange(place[..., 0].size).reshape(place.shape[:2])
+        own = self.kinks.stress(self.weights, patch, place.reshape(-1, 2), number)
+
+        x = place[..., 0].ravel()
+        t = load.tangent(x).reshape(place.shape)
+        s_nn, s_nt = (s.reshape(number.shape) for s in load.across(x))
+        _, kinks_nn, kinks_nt = to_surface(t, own)
+        s_nn, s_nt = s_nn - kinks_nn, s_nt - kinks_nt
+        material = body.surface_material
+        nu = material.poissons_ratio
+        e_tt = (stretch * longer).sum(-1) / (longer**2).sum(-1)
+        s_tt = material.plane_strain_modulus * e_tt + nu / (1.0 - nu) * s_nn
+        return patch, place, from_surface(t, s_tt, s_nn, s_nt)
+
+    def at_vertices(self) -> np.ndarray:
+        """sx, sz, txz (v, 3) of the kinks at the patches' vertices."""
+        every, vertex = np.arange(len(self.patches.vertex)), self.patches.vertex[:, None]
+        return self.kinks.stress(self.weights, every, self.points, vertex)[:, 0]
+
+    def at_middles(self) -> np.ndarray:
+        """sx, sz, txz (e, 2, 3) at the edges' middles, of the kinks near each end's patch."""
+        middle = np.repeat(self.patches.middle, 2)[:, None]
+        ends = self.patches.ends.ravel()
+        return self.kinks.stress(self.weights, ends, self.points, middle).reshape(-1, 2, 3)
+
+    def _displacement(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
+        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body.
+
+        Elements of a patch share nodes: each is asked for once.
+        """
+        body, count = self.body, len(self.body.nodes)
+        pair, which = np.unique(patch[:, None] * count + node, return_inverse=True)
+        patch, point = np.divmod(pair, count)
+        moved = self.kinks.displacement(
+            self.weights, patch, body.nodes, point[:, None], body.surface_material
+        )
+        return moved[which.reshape(node.shape), 0]
+
+
+def _edge_slopes(at: np.ndarray, degree: int) -> np.ndarray:
+    """d shape / dt (q, degree + 1) of an edge's nodes in turn, at places t (q,) from 0 to 1."""
+    power = np.arange(degree + 1)
+    nodes = (power[:, None] / degree) ** power
+    slope = power * at[:, None] ** np.maximum(power - 1, 0)
+    return slope @ np.linalg.inv(nodes)
+
+
+def _stress(
+    body: ElasticBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray
+) -> np.ndarray:
+    """sx, sz, txz (r, q, 3) [Pa] in elements (r,) from displacements (r, k, 2) of their nodes."""
+    slope = gradients(body.points[body.mesh.triangles[element]], moved, at)
+    exx, ezz = slope[..., 0, 0], slope[..., 1, 1]
+    shear, nu = body.shear_modulus[element, None], body.poissons_ratio[element, None]
+    pressure = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    twist = shear * (slope[..., 0, 1] + slope[..., 1, 0])
+    return np.stack([pressure + 2.0 * shear * exx, pressure + 2.0 * shear * ezz, twist], axis=-1)
+
+
+def _terms(offset: np.ndarray, degree: int) -> np.ndarray:
+    """Terms (..., k) x^i z^j of a polynomial at offsets (..., 2), the lowest first."""
+    x, z = offset[..., 0], offset[..., 1]
+    powers = [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
+    return np.stack([x**i * z**j for i, j in powers], axis=-1)

@@ -1,0 +1,114 @@
+"""Stresses of a solved body at its nodes and at any point."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from analytic.stress_state import PlaneStress
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import Direction, straight_down
+from fem.body.triangle import shapes
+from fem.stress.kinks import Kinks
+from fem.stress.nodes import MaterialStress, StressNodes, stress_nodes
+from fem.stress.recovery import recovered_stress
+from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
+
+
+@dataclass(frozen=True)
+class NodalStress:
+    """Stresses at the nodes of a body, and how they run between them.
+
+    stress  (k,) at the nodes [Pa], with Poisson's ratio there
+    nodes   mesh point of each, and the nodes of each triangle; a plain body has one node a mesh
+            point, in the mesh's order
+    kinks   of the pressure, around which stresses do not run like polynomials; None: they all do
+    """
+
+    stress: MaterialStress
+    nodes: StressNodes
+    kinks: Kinks | None = None
+
+    @cached_property
+    def values(self) -> np.ndarray:
+        """sx, sz, txz (k, 3) [Pa]."""
+        return np.column_stack([self.stress.sx, self.stress.sz, self.stress.txz])
+
+
+def nodal_stress(
+    body: ElasticBody,
+    displacement: np.ndarray,
+    hats: np.ndarray,
+    pressure: np.ndarray,
+    friction: float = 0.0,
+    direction: Direction = straight_down,
+) -> NodalStress:
+    """Stresses under a displacement (n, 2) [m].
+
+    The `pressure` (count,) [Pa] on `hats` (count + 2,) [m] causes it, and `friction` times that
+    as sliding traction towards +x; all as in `fem.compliance.operator`. They make the stresses at
+    the surface: on a flat one sz = -p and txz = -friction p exactly, and on a rough one the same
+    holds on its inclined faces. The stress along the surface, and all below it, are recovered from
+    the displacement (`fem.stress.recovery`).
+    """
+    nodes = stress_nodes(body)
+    load = SurfaceLoad(body, hats, pressure, friction, direction)
+    values = recovered_stress(body, displacement, load)
+    top, x = nodes.at_surface(body.top.point), body.top.x
+    t = load.tangent(x)
+    s_tt, _, _ = to_surface(t, values[top])
+    values[top] = from_surface(t, s_tt, *load.across(x))
+    stress = MaterialStress(*values.T, _poissons_ratio(body, nodes))
+    return NodalStress(stress, nodes, load.kinks)
+
+
+def at_mesh_points(body: ElasticBody, stress: PlaneStress) -> NodalStress:
+    """Stresses at the mesh's points of a plain body (n,), with polynomials between them."""
+    if body.coated.any():
+        raise ValueError("a coated body has two stresses at the points of its interface")
+    nodes = stress_nodes(body)
+    nu = _poissons_ratio(body, nodes)
+    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes)
+
+
+def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> PlaneStress:
+    """Stresses [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
+    element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
+    inside = element >= 0
+    found = np.full((3, x.size), np.nan)
+    found[:, inside] = within(body, nodal, element[inside], at[inside, None])[:, 0].T
+    return PlaneStress(*found.reshape(3, *x.shape))
+
+
+def within(
+    body: ElasticBody, nodal: NodalStress, element: np.ndarray, at: np.ndarray
+) -> np.ndarray:
+    """sx, sz, txz (r, q, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
+
+    Quadratic between the nodes, but for the kinks near the element: the difference between their
+    stress and its own quadratic is added.
+    """
+    share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
+    held, which = np.unique(element, return_inverse=True)
+    value = nodal.values[nodal.nodes.triangles[held]]
+    if nodal.kinks is None:
+        return share @ value[which]
+    triangles = body.mesh.triangles[held]
+    corner = body.points[triangles[:, :3]]
+    centre = corner.mean(axis=1)
+    radius = np.sqrt(((corner - centre[:, None]) ** 2).sum(axis=2).mean(axis=1))
+    seen = body.coated[held] == body.coated.any()
+    weights = nodal.kinks.weights(centre, radius, seen)
+    every = np.arange(len(held))
+    value = value - nodal.kinks.stress(weights, every, body.points, triangles)
+    place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
+    number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
+    return share @ value[which] + nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+
+
+def _poissons_ratio(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
+    """(k,) of the material at each node."""
+    nu = np.empty(len(nodes.point))
+    nu[nodes.triangles] = body.poissons_ratio[:, None]
+    return nu

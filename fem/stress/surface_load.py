@@ -1,0 +1,99 @@
+"""What acts on the surface of a body, and the stresses that it makes there.
+
+Nomenclature
+    t, n               unit tangent towards +x and unit normal out of the body, (k, 2)
+    s_tt, s_nn, s_nt   stress along the surface, across it, shear
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import Direction, straight_down, tangent_of
+from fem.stress.kinks import Kinks
+
+
+@dataclass(frozen=True)
+class SurfaceLoad:
+    """Hat pressures on a body and the sliding traction that goes with them.
+
+    hats       (count + 2,) [m] nodes of the hats, with the feet of the outer two
+    pressure   (count,) [Pa]
+    friction   times the pressure is the sliding traction towards +x
+    direction  of the pressure, as in `fem.compliance.operator`
+    """
+
+    body: ElasticBody
+    hats: np.ndarray
+    pressure: np.ndarray
+    friction: float = 0.0
+    direction: Direction = straight_down
+
+    @cached_property
+    def kinks(self) -> Kinks:
+        """Places where the load's slope along the surface jumps."""
+        slope = np.diff(self._nodal) / np.diff(self.hats)
+        bend = np.diff(slope, prepend=0.0, append=0.0)
+        x, bend = self.hats[bend != 0.0], bend[bend != 0.0]
+        along = self.tangent(x) @ [1.0, 1j]
+        # the bend is of a force per length of x, along x: both by length of arc
+        jump = self._force(x) @ [1.0, 1j] * bend * along.real**2
+        return Kinks(x + 1j * self._surface(x), along, 1j * jump / along)
+
+    def tangent(self, x: np.ndarray) -> np.ndarray:
+        """t (k, 2) at x (k,) [m]."""
+        rise = self._surface(x, 1)
+        return np.column_stack([np.ones_like(rise), rise]) / np.hypot(1.0, rise)[:, None]
+
+    def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
+        t = self.tangent(x)
+        load = (np.interp(x, self.hats, self._nodal) * t[:, 0])[:, None] * self._force(x)
+        return (load * normal(t)).sum(-1), (load * t).sum(-1)
+
+    @cached_property
+    def _nodal(self) -> np.ndarray:
+        return np.concatenate([[0.0], self.pressure, [0.0]])
+
+    @cached_property
+    def _surface(self) -> CubicSpline:
+        """z [m] of the surface at x [m]: smooth through its points, as quadratic edges are not."""
+        top = self.body.top
+        return CubicSpline(top.x, self.body.points[top.point, 1])
+
+    def _force(self, x: np.ndarray) -> np.ndarray:
+        """Force (k, 2) per length of x under unit pressure, its sliding traction included."""
+        along = np.stack(tangent_of(self.direction)(x), axis=-1)
+        return np.stack(self.direction(x), axis=-1) + self.friction * along
+
+
+def normal(t: np.ndarray) -> np.ndarray:
+    """n (..., 2) to tangents t (..., 2)."""
+    return np.stack([t[..., 1], -t[..., 0]], axis=-1)
+
+
+def to_surface(t: np.ndarray, stress: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """s_tt, s_nn, s_nt (...) of sx, sz, txz (..., 3) at tangents t (..., 2)."""
+    n = normal(t)
+
+    def component(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        mixed = a[..., 0] * b[..., 1] + a[..., 1] * b[..., 0]
+        weights = np.stack([a[..., 0] * b[..., 0], a[..., 1] * b[..., 1], mixed], axis=-1)
+        return (weights * stress).sum(-1)
+
+    return component(t, t), component(n, n), component(t, n)
+
+
+def from_surface(t: np.ndarray, s_tt: np.ndarray, s_nn: np.ndarray, s_nt: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (..., 3) of s_tt, s_nn, s_nt (...) at tangents t (..., 2)."""
+    n = normal(t)
+
+    def component(i: int, j: int) -> np.ndarray:
+        mixed = t[..., i] * n[..., j] + n[..., i] * t[..., j]
+        own = s_tt * t[..., i] * t[..., j] + s_nn * n[..., i] * n[..., j]
+        return own + s_nt * mixed
+
+    return np.stack([component(0, 0), component(1, 1), component(0, 1)], axis=-1)

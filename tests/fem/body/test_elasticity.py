@@ -1,0 +1,273 @@
+"""Patch tests, supports, scaling and coatings of the elastic body; orders: test_manufactured."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic.material import Material
+from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
+from fem.solver.mumps import FemError
+
+MATERIAL = Material(3.0, 0.3)
+
+
+def wavy(x):
+    return 0.03 * np.cos(2.0 * x + 0.3)
+
+
+@pytest.fixture(scope="module")
+def small(structured_block):
+    def make(height=None, cells=6):
+        return structured_block(
+            np.linspace(-1, 1, cells + 1), np.linspace(0, 1, cells // 2 + 1), height, 7
+        )
+
+    return make
+
+
+def stress_of(material, exx, ezz, gxz):
+    nu, modulus = material.poissons_ratio, material.youngs_modulus
+    factor = modulus / ((1 + nu) * (1 - 2 * nu))
+    return (
+        factor * ((1 - nu) * exx + nu * ezz),
+        factor * ((1 - nu) * ezz + nu * exx),
+        material.shear_modulus * gxz,
+    )
+
+
+# Linear displacements on curved elements are no polynomials of the coordinates: no patch test.
+@pytest.mark.parametrize(
+    ("height", "degree"),
+    [(None, 1), (None, 2), (None, 3), (wavy, 2), (wavy, 3)],
+    ids=["straight-1", "straight-2", "straight-3", "curved-2", "curved-3"],
+)
+@pytest.mark.parametrize(
+    ("support", "strain"),
+    [
+        (Support("bonded", "free"), (0.0, -1e-3, 2e-3)),
+        (Support("frictionless", "free"), (4e-4, -1e-3, 0.0)),
+        (Support("frictionless", "rollers"), (0.0, -1e-3, 0.0)),
+    ],
+    ids=["shear", "stretch", "confined"],
+)
+def test_constant_strain_is_reproduced_exactly(
+    small, exact_forces, height, degree, support, strain
+):
+    mesh = small(height)
+    body = elastic_body(mesh, MATERIAL, support, degree=degree)
+    exx, ezz, gxz = strain
+    x, z = body.nodes.T
+    exact = np.column_stack([exx * x + gxz * (z - 1.0), ezz * (z - 1.0)])
+    sx, sz, txz = stress_of(MATERIAL, exx, ezz, gxz)
+    load = exact_forces(mesh, lambda x, z: (sx + 0 * x, sz, txz), degree=degree)
+    np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
+
+
+@pytest.fixture(params=[1, 2, 3])
+def degree(request):
+    return request.param
+
+
+@pytest.mark.parametrize("ratio", [1e-6, 0.1, 1e6])
+def test_a_coating_under_uniform_traction_is_reproduced_exactly(
+    structured_block, exact_forces, degree, ratio
+):
+    """Uniform pressure and shear: each layer strains by its own compliance; sx jumps."""
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, np.array([0.0, 0.1, 0.25, 0.5, 1.0]))
+    coat = Material(ratio * MATERIAL.youngs_modulus, 0.2)
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=Coating(coat, 0.25))
+    assert np.count_nonzero(body.coated) == len(body.coated) // 2
+    z = body.nodes[:, 1]
+    below, above = np.minimum(1.0 - z, 0.75), np.maximum(0.25 - z, 0.0)
+    exact = np.zeros(body.nodes.shape)
+    for material, height in ((MATERIAL, below), (coat, above)):
+        # bonded below, so exx = 0; moved along by shear, down by pressure
+        mass, shear = stress_of(material, 0.0, 1.0, 1.0)[1:]
+        exact += np.outer(height, [-0.4 / shear, 1.0 / mass])
+
+    def stress(x, z):
+        nu = np.where(z < 0.25, coat.poissons_ratio, MATERIAL.poissons_ratio)
+        return -nu / (1.0 - nu), -1.0, 0.4
+
+    load = exact_forces(mesh, stress, degree=degree)
+    np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
+
+
+def test_each_triangle_has_the_constants_of_its_material(structured_block):
+    line = np.linspace(-1, 1, 5)
+    mesh = structured_block(line, np.linspace(0, 1, 5))
+    coat = Material(7.0, 0.1)
+    body = elastic_body(mesh, MATERIAL, Support(), coating=Coating(coat, 0.5))
+    depth = body.points[body.mesh.triangles[:, :3], 1].mean(axis=1)
+    np.testing.assert_array_equal(body.coated, depth < 0.5)
+    np.testing.assert_array_equal(body.poissons_ratio, np.where(depth < 0.5, 0.1, 0.3))
+    shear = np.where(depth < 0.5, coat.shear_modulus, MATERIAL.shear_modulus)
+    np.testing.assert_array_equal(body.shear_modulus, shear)
+    assert body.surface_material == coat
+    plain = elastic_body(mesh, MATERIAL, Support())
+    assert not plain.coated.any()
+    assert set(plain.shear_modulus) == {MATERIAL.shear_modulus}
+    assert plain.surface_material == MATERIAL
+
+
+def test_coatings_that_the_mesh_does_not_follow_are_refused(small):
+    with pytest.raises(ValueError, match=r"\d+ elements of the mesh cross the coating"):
+        elastic_body(small(), MATERIAL, Support(), coating=Coating(MATERIAL, 0.25))
+    with pytest.raises(ValueError, match="thickness must be positive"):
+        Coating(MATERIAL, 0.0)
+    with pytest.raises(ValueError, match="1, 2 or 3, not 4"):
+        elastic_body(small(), MATERIAL, Support(), degree=4)
+
+
+def test_a_coating_of_the_body_s_material_is_none(structured_block, degree):
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, line[3:], wavy)
+    plain = elastic_body(mesh, MATERIAL, Support(), degree=degree)
+    coated = elastic_body(
+        mesh, MATERIAL, Support(), degree=degree, coating=Coating(MATERIAL, line[4])
+    )
+    np.testing.assert_array_equal(coated.solve(pressed(coated)), plain.solve(pressed(plain)))
+
+
+@pytest.mark.parametrize("height", [None, wavy], ids=["straight", "curved"])
+def test_displacements_at_the_mesh_s_points(small, degree, height):
+    """Polynomials of the displacement's degree on straight elements; on curved ones what lies in
+    all degrees: constants, and at vertices anything."""
+    body = elastic_body(small(height), MATERIAL, Support(), degree=degree)
+    assert body.unknowns == 2 * len(body.nodes)
+
+    def moved(place):
+        x, z = np.moveaxis(place, -1, 0)
+        power = degree if height is None else 0
+        return np.stack([1.0 + (x - 0.3 * z) ** power, (0.5 * x * z + z) ** (power // 2)], axis=-1)
+
+    both = np.stack([moved(body.nodes), 2.0 * moved(body.nodes)])
+    found = body.at_points(both)
+    np.testing.assert_allclose(found[1], 2.0 * found[0], rtol=1e-15)
+    np.testing.assert_allclose(found[0], moved(body.points), atol=1e-14)
+    vertices = body.mesh.triangles[:, :3]
+    np.testing.assert_array_equal(body.at_points(body.nodes)[vertices], body.points[vertices])
+    np.testing.assert_array_equal(body.elements[:, :3].shape, vertices.shape)
+    if degree > 1:
+        np.testing.assert_allclose(body.at_points(body.nodes), body.points, atol=1e-15)
+
+
+def pressed(body: ElasticBody) -> np.ndarray:
+    """A load that pushes down on a few surface nodes, unevenly."""
+    load = np.zeros(body.nodes.shape)
+    load[body.surface.point[2:7], 1] = [1.0, 2.0, 0.5, 3.0, 1.0]
+    return load
+
+
+def test_points_keep_their_own_numbers(small, degree):
+    """The pressed points move most, and nothing depends on how points are numbered."""
+    mesh = small()
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
+    moved = body.solve(pressed(body))
+    assert np.argmax(moved[:, 1]) in body.surface.point[2:7]
+    order = np.random.default_rng(2).permutation(len(mesh.points))
+    rank = np.argsort(order)
+    shuffled = replace(
+        mesh, points=mesh.points[order], triangles=rank[mesh.triangles], shift=mesh.shift[order]
+    )
+    again = elastic_body(shuffled, MATERIAL, Support(), degree=degree)
+    found = again.at_points(again.solve(pressed(again)))
+    np.testing.assert_allclose(found, body.at_points(moved)[order], atol=1e-13)
+
+
+def test_displacement_scales_with_load_and_inversely_with_the_moduli(structured_block, degree):
+    line = np.linspace(-1, 1, 7)
+    mesh = structured_block(line, line[3:])
+
+    def body(size):
+        coating = Coating(Material(7.0 * size, 0.2), line[4])
+        return elastic_body(mesh, Material(size, 0.3), Support(), degree=degree, coating=coating)
+
+    soft, hard = body(1e-3), body(2e12)
+    moved = soft.solve(pressed(soft))
+    np.testing.assert_allclose(hard.solve(5.0 * pressed(hard)) * 2e15, 5.0 * moved, rtol=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e6])
+def test_displacement_does_not_depend_on_the_unit_of_length(structured_block, degree, size):
+    line = np.linspace(-1, 1, 7)
+
+    def body(size):
+        mesh = structured_block(size * line, size * line[3:], lambda x: size * wavy(x / size))
+        coating = Coating(Material(2.0, 0.1), size * line[4])
+        return elastic_body(mesh, MATERIAL, Support(), degree=degree, coating=coating)
+
+    one, other = body(1.0), body(size)
+    np.testing.assert_allclose(
+        other.solve(pressed(other)), one.solve(pressed(one)), rtol=1e-9, atol=1e-12
+    )
+
+
+def test_many_loads_at_once_are_the_loads_one_by_one(small):
+    body = elastic_body(small(), MATERIAL, Support())
+    load = np.random.default_rng(1).normal(size=(3, *body.mesh.points.shape))
+    together = body.solve(load)
+    for one, moved in zip(load, together, strict=True):
+        np.testing.assert_allclose(body.solve(one), moved, rtol=1e-11, atol=1e-14)
+    assert body.factor.solves == 6
+
+
+def test_supports_hold_what_they_say(small, degree):
+    for base in ("bonded", "frictionless"):
+        for sides in ("free", "rollers", "fixed"):
+            body = elastic_body(small(), MATERIAL, Support(base, sides), degree=degree)
+            moved = body.at_points(body.solve(pressed(body)))
+            assert np.all(moved[body.sides.bottom, 1] == 0.0)
+            assert (base == "frictionless") == (np.abs(moved[body.sides.bottom, 0]).max() > 0.0)
+            flank = np.union1d(body.sides.left, body.sides.right)
+            flank = np.setdiff1d(flank, body.sides.bottom)
+            assert (sides == "free") == (np.abs(moved[flank, 0]).min() > 0.0)
+            assert (sides != "fixed") == (np.abs(moved[flank, 1]).min() > 0.0)
+
+
+def test_a_body_held_within_is_the_smaller_body(structured_block):
+    """The middle of a block, held at half its extent, is a block of half its size."""
+    line = np.linspace(-2.0, 2.0, 17)
+    large = structured_block(line, np.linspace(0.0, 2.0, 9))
+    small = structured_block(line[4:13], np.linspace(0.0, 1.0, 5))
+    held = elastic_body(large, MATERIAL, Support("bonded", "fixed", within=(0.99, 0.99)))
+    alone = elastic_body(small, MATERIAL, Support("bonded", "fixed"))
+    places = {tuple(p): i for i, p in enumerate(np.round(large.points, 9))}
+    same = np.array([places[tuple(p)] for p in np.round(small.points, 9)])
+    load = np.random.default_rng(3).normal(size=small.points.shape)
+    wider = np.zeros(large.points.shape)
+    wider[same] = load
+    moved = held.solve(wider)
+    np.testing.assert_allclose(moved[same], alone.solve(load), atol=1e-12)
+    assert not np.any(np.delete(moved, same, axis=0))
+    with pytest.raises(ValueError, match="within"):
+        Support(within=(0.0, 1.0))
+
+
+def test_a_body_that_can_slide_refuses_a_net_horizontal_load(small):
+    body = elastic_body(small(), MATERIAL, Support("frictionless", "free"))
+    load = pressed(body)
+    load[body.surface.point[4], 0] = 0.1
+    with pytest.raises(ValueError, match="cannot bear a horizontal load"):
+        body.solve(load)
+    load[body.surface.point[6], 0] = -0.1
+    assert np.abs(body.solve(load)).max() > 0.0
+    load[body.surface.point[6], 0] = 0.0
+    held = elastic_body(small(), MATERIAL, Support("frictionless", "rollers"))
+    assert np.abs(held.solve(load)).max() > 0.0
+
+
+def test_unknown_supports_are_refused():
+    with pytest.raises(ValueError, match="'glued'"):
+        Support("glued")
+    with pytest.raises(ValueError, match="'loose'"):
+        Support("bonded", "loose")
+
+
+def test_roughness_that_turns_elements_over_is_refused(structured_block):
+    line = np.linspace(-1, 1, 9)
+    mesh = structured_block(line, np.linspace(0, 0.1, 3), lambda x: -0.2 * np.cos(9 * x))
+    with pytest.raises(FemError, match=r"\d+ elements of the mesh are turned over"):
+        elastic_body(mesh, MATERIAL, Support())

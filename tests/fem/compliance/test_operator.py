@@ -1,0 +1,85 @@
+"""The compliance operator: symmetric, positive, and the half-plane's up to a datum."""
+
+import numpy as np
+import pytest
+
+from analytic.material import Material
+from fem.body.elasticity import Support, elastic_body
+from fem.body.surface import hat_nodes
+from fem.compliance.operator import FiniteElementCompliance
+
+MATERIAL = Material(2.0, 0.3)
+PITCH, COUNT = 0.1, 21
+HATS = hat_nodes(-1.0, PITCH, COUNT)
+
+
+def half_plane(pitch: float, count: int, modulus: float) -> np.ndarray:
+    """-2/(pi E') integral integral phi_i phi_j ln|x - s|, a fourth difference of x^4 ln|x| / 24.
+
+    Up to a constant that depends on the datum (Johnson 1985, eq. 2.24, integrated twice).
+    """
+    offset = np.arange(-2, count + 2)
+    safe = np.where(offset == 0, 1, np.abs(offset))
+    kernel = offset.astype(float) ** 4 * np.log(safe) / 24.0
+    entry = np.convolve(kernel, [1, -4, 6, -4, 1], mode="valid") * pitch**2
+    distance = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
+    return -2.0 / (np.pi * modulus) * entry[distance]
+
+
+def block(structured_block, graded, edge, extent=300.0, half_span=1.5):
+    outer = graded(extent - half_span, 1.5 * edge, 1.25)
+    middle = np.linspace(-half_span, half_span, round(2 * half_span / edge) + 1)
+    x = np.concatenate([-half_span - outer[:0:-1], middle, half_span + outer[1:]])
+    return structured_block(x, graded(extent, edge, 1.25))
+
+
+@pytest.fixture(scope="module")
+def fine(structured_block, graded):
+    body = elastic_body(block(structured_block, graded, 0.05), MATERIAL, Support())
+    return FiniteElementCompliance(body, HATS)
+
+
+def without_datum(matrix):
+    """Differences of neighbouring rows and columns: no constant displacement left."""
+    return np.diff(np.diff(matrix, axis=0), axis=1)
+
+
+def test_matrix_is_symmetric_and_positive_definite(fine):
+    matrix = fine.matrix()
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-13 * np.abs(matrix).max())
+    assert np.linalg.eigvalsh(matrix).min() > 0.0
+
+
+def test_apply_is_the_matrix_and_counts(fine):
+    before = fine.applications
+    matrix = fine.matrix()
+    assert fine.applications == before + COUNT
+    before = fine.applications
+    pressure = np.random.default_rng(5).uniform(size=COUNT)
+    np.testing.assert_allclose(fine.apply(pressure), matrix @ pressure, rtol=1e-11)
+    assert fine.applications == before + 1
+
+
+def error_of(matrix, material):
+    """Largest error of an entry with the datum removed, relative to the largest entry."""
+    exact = without_datum(half_plane(PITCH, COUNT, material.plane_strain_modulus))
+    return np.abs(without_datum(matrix) - exact).max() / np.abs(exact).max()
+
+
+def test_columns_are_the_half_planes_and_the_mesh_error_is_of_order_three(structured_block, graded):
+    """The strain energy of a kinked (hat) pressure converges with the cube of the edge length."""
+    errors = []
+    for edge in (0.05, 0.025, 0.0125):
+        body = elastic_body(block(structured_block, graded, edge), MATERIAL, Support())
+        errors.append(error_of(FiniteElementCompliance(body, HATS).matrix(), MATERIAL))
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert errors[0] < 1.5e-2
+    assert np.all(np.abs(orders - 3.0) < 0.3), orders
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.49, 0.4999])
+def test_nearly_incompressible_bodies_do_not_lock(structured_block, graded, poisson):
+    material = Material(2.0, poisson)
+    body = elastic_body(block(structured_block, graded, 0.025), material, Support())
+    error = error_of(FiniteElementCompliance(body, HATS).matrix(), material)
+    assert error < 2e-2

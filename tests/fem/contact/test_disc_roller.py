@@ -1,0 +1,180 @@
+"""A roller of its true circular shape: its compliance, and Hertz's contact with it.
+
+Reference is the exact solution or the half-plane on the same pressure elements. What a disc
+does otherwise is of second order in a/R: the sector's depth (0.6 R here) makes most of it, as it
+does with a flat block; the arc instead of the parabola a quarter of (a/R)^2 at the contact's edge.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
+from analytic.exact.hertz import hertz_from_load
+from analytic.grid import HatGrid
+from analytic.material import Material
+from analytic.operators.half_plane import HalfPlane, SumOfBodies
+from fem.body.elasticity import Support, elastic_body
+from fem.body.surface import hat_nodes
+from fem.compliance.operator import FiniteElementCompliance
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.disc import bent, sagitta
+
+MATERIAL = Material(1.0, 0.3)
+EDGES = 40  # a half-width
+HALF_WIDTH, DEPTH = 0.7, 0.6  # of the radius
+GROUND = np.array([[-1.2, 1.2]])  # refined, in half-widths
+
+
+class TestSector:
+    def test_compliance_tends_to_the_flat_block_s_with_the_curvature(self, structured_block):
+        """The same block, 2 wide and 1 deep, bent less and less: a difference of order 1 in 1/R."""
+        flat = structured_block(np.linspace(-1, 1, 41), np.linspace(0, 1, 21), seed=4)
+        hats = hat_nodes(-0.5, 0.05, 21)
+
+        def matrix(mesh):
+            body = elastic_body(mesh, MATERIAL, Support())
+            return FiniteElementCompliance(body, hats).matrix()
+
+        straight = matrix(flat)
+        radii = np.array([16.0, 32.0, 64.0])
+        difference = [np.linalg.norm(matrix(bent(flat, r)) - straight) for r in radii]
+        order = np.log2(np.divide(difference[:-1], difference[1:]))
+        assert order == pytest.approx(1.0, abs=0.1)
+        assert 0.05 < radii[-1] * difference[-1] / np.linalg.norm(straight) < 5.0
+
+    def test_compliance_is_symmetric_and_positive_definite(self, structured_block):
+        flat = structured_block(np.linspace(-1, 1, 21), np.linspace(0, 1, 11), seed=4)
+        body = elastic_body(bent(flat, 1.6), MATERIAL, Support())
+        matrix = FiniteElementCompliance(body, hat_nodes(-0.5, 0.1, 11)).matrix()
+        np.testing.assert_allclose(matrix, matrix.T, atol=1e-13 * np.abs(matrix).max())
+        assert np.linalg.eigvalsh(matrix).min() > 0.0
+
+    @pytest.mark.parametrize("radius", [1.5, 10.0])
+    def test_displacement_of_a_bent_body_is_of_order_three(
+        self, structured_block, exact_forces, manufactured, radius
+    ):
+        """A smooth displacement that vanishes on the inner arc, from its forces."""
+
+        class Held(manufactured):
+            def displacement(self, x, z):
+                out = (x**2 + (radius - z) ** 2 - (radius - 1.0) ** 2) / radius
+                return out * np.sin(1.3 * x + 0.4 * z), out * np.cos(0.7 * x - 0.9 * z)
+
+        exact, errors = Held(MATERIAL), []
+        for cells in (8, 16, 32):
+            line = np.linspace(-1, 1, 2 * cells + 1)
+            mesh = bent(structured_block(line, line[cells:], seed=6), radius)
+            body = elastic_body(mesh, MATERIAL, Support())
+            moved = body.solve(exact_forces(mesh, exact.stress, exact.body_force))
+            wanted = np.stack(exact.displacement(*body.points.T), axis=1)
+            errors.append(np.sqrt(np.mean((moved - wanted) ** 2) / np.mean(wanted**2)))
+        order = np.log2(np.divide(errors[:-1], errors[1:]))
+        assert np.all((order > 2.8) & (order < 4.2)), order
+        assert errors[-1] < 1e-5
+
+
+@cache
+def half_plane(edge: float):
+    """So large a block that it stands for one, refined as the disc is."""
+    block = build_block(BlockSpec(4000.0, 4000.0, GROUND, edge))
+    return elastic_body(block, MATERIAL, Support(sides="fixed"))
+
+
+@cache
+def disc(radius: float, edge: float):
+    """Its sector, free to the sides."""
+    flat = build_block(BlockSpec(HALF_WIDTH * radius, DEPTH * radius, GROUND, edge))
+    return elastic_body(bent(flat, radius), MATERIAL, Support())
+
+
+class Pressed:
+    """A disc of radius 1 / (a/R) on a rigid flat, or on a half-plane of its own material, under
+    the load that gives Hertz's half-width 1.
+
+    slope   of the traction's direction on both bodies, in a unit of x/R
+    """
+
+    def __init__(self, ratio: float, on_half_plane: bool = False, slope: float = 0.0) -> None:
+        radius, pitch = 1.0 / ratio, 1.0 / EDGES
+        grid = HatGrid.within(-1.2, 1.2, pitch)
+        hats = hat_nodes(grid.x[0], pitch, grid.count)
+        modulus = MATERIAL.plane_strain_modulus / (2.0 if on_half_plane else 1.0)
+
+        def along(share):
+            return lambda x: (share * x / radius, np.ones_like(x))
+
+        bodies = [FiniteElementCompliance(disc(radius, pitch), hats, along(-slope))]
+        if on_half_plane:
+            bodies.append(FiniteElementCompliance(half_plane(pitch), hats, along(slope)))
+        self.hertz = hertz_from_load(np.pi * modulus / (4.0 * radius), radius, modulus)
+        self.grid = grid
+        constraints = Constraints(load=self.hertz.load_per_length)
+        model = HalfPlane(grid.count, pitch, modulus)
+        gap = grid.average(lambda x: sagitta(x, radius))
+        self.solution = solve_with_model(
+            SumOfBodies(*bodies), model, gap, grid.weights, constraints
+        )
+        parabola = grid.average(lambda x: x**2 / (2.0 * radius))
+        self.half_plane = solve_contact(model, parabola, grid.weights, constraints)
+
+    @property
+    def peak(self) -> float:
+        """Relative difference of the largest pressure from the half-plane's."""
+        return self.solution.pressure.max() / self.half_plane.pressure.max() - 1.0
+
+    @property
+    def norm(self) -> float:
+        """The same of the whole pressure, in the 2-norm."""
+        other = self.half_plane.pressure
+        return np.linalg.norm(self.solution.pressure - other) / np.linalg.norm(other)
+
+
+pressed = cache(Pressed)
+
+
+class TestHertz:
+    def test_a_small_contact_is_hertz_s(self):
+        case = pressed(0.01)
+        assert case.solution.converged and case.solution.iterations["steps"] <= 6
+        x = case.grid.x
+        error = case.solution.pressure - case.hertz.pressure(x)
+        assert case.solution.pressure.max() == pytest.approx(case.hertz.peak_pressure, rel=5e-4)
+        assert np.abs(error[np.abs(x) < 0.9]).max() < 2e-3 * case.hertz.peak_pressure
+        assert case.solution.pressure == pytest.approx(
+            case.solution.pressure[::-1], abs=1e-3 * case.hertz.peak_pressure
+        )
+
+    @pytest.mark.parametrize(("on_half_plane", "amount"), [(False, 1.2), (True, 0.63)])
+    def test_what_the_disc_does_otherwise_is_of_second_order(self, on_half_plane, amount):
+        """Of two bodies the half-plane's half of the compliance has no part in it."""
+        ratios = np.array([0.1, 0.05, 0.025])
+        cases = [pressed(ratio, on_half_plane) for ratio in ratios]
+        peak = np.array([case.peak for case in cases])
+        assert np.log2(peak[:-1] / peak[1:]) == pytest.approx(2.0, abs=0.1)
+        assert peak[0] == pytest.approx(amount * ratios[0] ** 2, rel=0.05)
+        norm = np.array([case.norm for case in cases])
+        assert np.log2(norm[:-1] / norm[1:]) == pytest.approx(2.0, abs=0.25)
+
+    def test_a_common_direction_of_the_traction_does_not_matter_between_equal_bodies(self):
+        """What leans forward on the one body leans back on the other: the effects of first order
+        cancel."""
+        off = []
+        for ratio in (0.1, 0.05):
+            straight, leaning = pressed(ratio, True), pressed(ratio, True, 1.0)
+            off.append(leaning.peak - straight.peak)
+        assert np.log2(off[0] / off[1]) == pytest.approx(2.0, abs=0.1)
+        assert abs(off[1]) < 5e-4
+
+    def test_on_a_rigid_flat_the_traction_is_upright(self):
+        """Along the disc's own normal the pressure is off in the first order of a/R."""
+        off = []
+        for ratio in (0.05, 0.025):
+            straight, leaning = pressed(ratio), pressed(ratio, False, 1.0)
+            off.append(leaning.peak - straight.peak)
+        assert np.log2(off[0] / off[1]) == pytest.approx(0.9, abs=0.2)
+        assert abs(off[0]) > 4e-3

@@ -1,0 +1,178 @@
+"""Newton's method with an active set: linear bodies against dense solutions, nonlinear ones."""
+
+import numpy as np
+import pytest
+
+from fem.body.elasticity import Support
+from fem.contact.newton import RESIDUAL
+from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.terms import LinearContact, LinearResponse
+from fem.solver.mumps import FemError
+
+
+@pytest.fixture(scope="module")
+def contact(grid):
+    def of_body(body, friction=0.0):
+        hats = grid.compliance(body)
+        return LinearContact(len(body.nodes), body.surface, hats.normal, friction, hats.tangential)
+
+    return of_body
+
+
+@pytest.fixture(scope="module")
+def solve(grid):
+    def solved(bodies, gap, start=None, **wanted):
+        start = state_at_rest(bodies, np.ones(grid.count)) if start is None else start
+        return solve_nonlinear_contact(bodies, gap, grid.weights, start, **wanted)
+
+    return solved
+
+
+def test_linear_bodies_have_the_dense_solution(
+    grid, block, block_matrix, dense, gap_and_load, contact, solve
+):
+    gap, load = gap_and_load
+    bodies = [(LinearResponse(block), contact(block))]
+    found = solve(bodies, gap, load=load)
+    pressure, approach = dense(block_matrix, gap, grid.weights, load)
+    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
+    assert found.state.approach == pytest.approx(approach, rel=1e-9)
+    assert found.state.load == load
+    opening = (gap + block_matrix @ pressure) / grid.pitch - approach
+    np.testing.assert_allclose(
+        found.gap, opening, atol=1e-9 * np.ptp(block_matrix @ pressure) / grid.pitch
+    )
+    assert found.iterations <= 15
+    assert found.cuts == 0
+    # the approach leads to the same
+    again = solve(bodies, gap, approach=found.state.approach)
+    np.testing.assert_allclose(again.state.pressure, pressure, atol=1e-9 * pressure.max())
+    assert again.state.load == pytest.approx(load, rel=1e-8)
+
+
+def test_increments_lead_to_the_same(grid, block, contact, solve):
+    bodies = [(LinearResponse(block), contact(block))]
+    once = solve(bodies, grid.rough, load=0.6)
+    often = solve(bodies, grid.rough, load=0.6, increments=4)
+    np.testing.assert_allclose(often.state.pressure, once.state.pressure, atol=1e-9)
+    assert often.parts == pytest.approx((0.25, 0.5, 0.75, 1.0))
+    on = solve(bodies, grid.rough, start=once.state, load=0.3)
+    back = solve(bodies, grid.rough, load=0.3)
+    np.testing.assert_allclose(on.state.pressure, back.state.pressure, atol=1e-9)
+
+
+def test_pressure_is_capped_at_the_hardness(grid, block, block_matrix, contact, solve):
+    """The conditions themselves, on the dense compliance: open, touching or crushed."""
+    hardness, load = 0.4, 0.6
+    found = solve(
+        [(LinearResponse(block), contact(block))], grid.rough, load=load, hardness=hardness
+    )
+    pressure = found.state.pressure
+    opening = (grid.rough + block_matrix @ pressure) / grid.pitch - found.state.approach
+    none, full = pressure == 0.0, pressure == hardness
+    assert none.sum() > 5
+    assert full.sum() > 5
+    scale = np.ptp(block_matrix @ pressure) / grid.pitch
+    assert opening[none].min() > -1e-8 * scale
+    assert opening[full].max() < 1e-8 * scale
+    assert np.abs(opening[~none & ~full]).max() < 1e-8 * scale
+    assert grid.weights @ pressure == pytest.approx(load, rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1e-6, 1e6])
+def test_an_elastic_roller_is_a_second_body(
+    grid, block, block_matrix, dense, ratio, contact, solve
+):
+    roller = grid.body(ratio, 0.2, support=Support("bonded", "fixed"))
+    load = 0.6 * min(1.0, ratio)
+    bodies = [(LinearResponse(b), contact(b)) for b in (block, roller)]
+    found = solve(bodies, grid.rough, load=load)
+    pressure, _ = dense(
+        block_matrix + grid.compliance(roller).matrix(), grid.rough, grid.weights, load
+    )
+    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-8 * pressure.max())
+
+
+def test_friction_is_coupled(grid, block, dense, contact, solve):
+    """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
+    forces, friction = grid.compliance(block), 0.3
+    columns = [forces.apply(unit, friction) for unit in np.eye(grid.count)]
+    found = solve([(LinearResponse(block), contact(block, friction))], grid.smooth, load=0.6)
+    assert found.iterations <= 10
+    pressure, _ = dense(np.array(columns).T, grid.smooth, grid.weights, 0.6)
+    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
+    without, _ = dense(forces.matrix(), grid.smooth, grid.weights, 0.6)
+    assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
+    with pytest.raises(ValueError, match="sliding traction"):
+        LinearContact(len(block.nodes), block.surface, forces.normal, friction)
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e9])
+def test_units_do_not_matter(grid, block, size, contact, solve):
+    unit = solve([(LinearResponse(block), contact(block))], grid.rough, load=0.3)
+    other = grid.body(size)
+    scaled = solve([(LinearResponse(other), contact(other))], grid.rough, load=0.3 * size)
+    np.testing.assert_allclose(scaled.state.pressure / size, unit.state.pressure, atol=1e-12)
+
+
+class Stiffening:
+    """K u (1 + s |u|^2): a smooth nonlinear body whose tangent is known, as a stand-in."""
+
+    symmetric = True
+
+    def __init__(self, body, stiffening, limit=np.inf):
+        self.held, self.limit = body.held, limit
+        self.matrix, self.by = body.stiffness(), stiffening
+        self.accepted = []
+
+    def linearised(self, displacement):
+        """Componentwise strengthening of springs to the ground beside the linear body."""
+        from scipy.sparse import diags
+
+        u = displacement.ravel()
+        if np.abs(u).max() > self.limit:
+            raise FemError("too far")
+        force = self.matrix @ u + self.by * u**3
+        return force.reshape(-1, 2), self.matrix + diags(3.0 * self.by * u**2)
+
+    def accept(self, displacement):
+        self.accepted.append(displacement)
+
+
+def test_newton_converges_quadratically(grid, block, contact, solve):
+    """From one load to the next with every hat touching before and after."""
+    bodies, gap = [(Stiffening(block, 0.02), contact(block))], 0.002 * grid.smooth
+    start = solve(bodies, gap, load=0.6).state
+    found = solve(bodies, gap, start=start, load=1.2)
+    history = np.array(found.residuals[-1])
+    assert history[-1] <= RESIDUAL
+    late = np.log(history[(history > 1e-11) & (history < 0.1)])  # below is round-off
+    orders = np.diff(late[1:]) / np.diff(late[:-1])
+    assert len(orders) >= 2
+    assert np.all((orders > 1.7) & (orders < 2.3)), history
+
+
+def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, contact, solve):
+    """Increments are halved, each is accepted once, and the end is where it is without limit."""
+    free = solve([(Stiffening(block, 0.02), contact(block))], grid.smooth, load=0.6)
+    reach = np.abs(free.state.displacements[0]).max()
+    limited = Stiffening(block, 0.02, 1.02 * reach)
+    found = solve([(limited, contact(block))], grid.smooth, load=0.6)
+    np.testing.assert_allclose(found.state.pressure, free.state.pressure, atol=1e-7)
+    assert len(limited.accepted) == len(found.parts)
+    np.testing.assert_array_equal(limited.accepted[-1], found.state.displacements[0])
+    assert found.parts[-1] == 1.0
+
+
+def test_what_does_not_converge_is_an_error(grid, block, contact, solve):
+    stuck = Stiffening(block, 0.02, 1e-6)
+    with pytest.raises(FemError, match=r"did not converge beyond 0 % of the load: .*too far"):
+        solve([(stuck, contact(block))], grid.smooth, load=0.6)
+    assert stuck.accepted == []
+
+
+def test_loads_that_cannot_be_borne_are_refused(grid, block, contact, solve):
+    bodies = [(LinearResponse(block), contact(block))]
+    for wanted in ({"load": 0.0}, {"load": 3.0, "hardness": 1.0}, {}, {"load": 1, "approach": 1}):
+        with pytest.raises(ValueError):
+            solve(bodies, grid.smooth, **wanted)

@@ -1,0 +1,258 @@
+"""Sliding on finite elements: traction q = mu p that moves the surfaces, and with them the contact.
+
+Requirement: place and pressures of the contact of a sliding cylinder are the exact ones within
+1 % of its half-width; reference: the closed solution (analytic), tabulated to 30 digits.
+"""
+
+import json
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_coupled_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.exact.sliding import SlidingContact, sliding_from_load
+from analytic.grid import HatGrid
+from analytic.material import Material, combined_modulus, dundurs_constants
+from analytic.operators.dense_tangential import DenseCoupledCompliance
+from analytic.operators.half_plane import SumOfBodies
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.surface.synthetic import self_affine
+from fem.body.elasticity import Support, elastic_body
+from fem.body.surface import hat_nodes
+from fem.compliance.operator import FiniteElementCompliance
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+DATA = Path(__file__).parents[2] / "data/f_rounded_punch_and_sliding.json"
+TABLE = json.loads(DATA.read_text())["sliding_cylinder"]
+STEEL, SOFT, CORK = Material(1.0, 0.3), Material(1.0, 0.49), Material(1.0, 0.0)
+LOAD = 0.5 * np.pi  # with a radius of E*/2: half-width and peak pressure 1 without friction
+EDGES = 20
+GRID = HatGrid.within(-1.7, 1.7, 1.0 / EDGES)
+HATS = hat_nodes(GRID.x[0], GRID.pitch, GRID.count)
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """A body under pressures and what they drag along."""
+
+    compliance: FiniteElementCompliance
+    friction: float
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        return self.compliance.apply(pressure, self.friction)
+
+
+@cache
+def ground(extent: float = 1000.0, mirrored: bool = False):
+    mesh = build_block(BlockSpec(extent, extent, np.array([[-1.8, 1.8]]), GRID.pitch))
+    if not mirrored:
+        return mesh
+    return replace(
+        mesh, points=mesh.points * [-1.0, 1.0], triangles=mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
+    )
+
+
+@cache
+def surface(material: Material, extent: float = 1000.0, mirrored: bool = False):
+    """Of so large a block that it stands for a half-plane."""
+    body = elastic_body(ground(extent, mirrored), material, Support(sides="fixed"))
+    return FiniteElementCompliance(body, HATS)
+
+
+def sliding_bodies(body, roller, friction: float, **how) -> SumOfBodies:
+    """The roller is dragged the other way, in a frame with the same x."""
+    pair = ((body, friction), (roller, -friction))
+    return SumOfBodies(*(Sliding(surface(m, **how), f) for m, f in pair if m is not None))
+
+
+def solved(body: Material, roller: Material | None, friction: float, **how):
+    """Solution on finite elements under the load, and the exact one."""
+    modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
+    radius = 0.5 * modulus
+    found = solve_with_coupled_model(
+        sliding_bodies(body, roller, friction, **how),
+        CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction * beta),
+        GRID.average(lambda x: 0.5 * x**2 / radius),
+        GRID.weights,
+        Constraints(load=LOAD),
+    )
+    return found, sliding_from_load(LOAD, radius, modulus, friction, beta)
+
+
+def load_line(found) -> float:
+    return float(GRID.x @ found.pressure / found.pressure.sum())
+
+
+def is_exact(found, exact: SlidingContact, most: float = 2e-3) -> None:
+    """The load line to `most` half-widths, the edges and the pressure away from them to 1 %."""
+    assert found.converged and found.iterations["steps"] <= 7
+    assert load_line(found) == pytest.approx(exact.load_position, abs=most)
+    (patch,) = contact_patches(GRID.x, found.pressure, found.gap)
+    assert patch == pytest.approx(exact.edges, abs=0.01)
+    peak = exact.peak_pressure
+    assert found.pressure.max() == pytest.approx(peak, rel=1e-3)
+    left, right = exact.edges
+    inner = (GRID.x > left + 0.3) & (GRID.x < right - 0.3)
+    error = found.pressure - exact.pressure(GRID.x)
+    assert np.abs(error[inner]).max() < 0.01 * peak
+    assert np.linalg.norm(error) < 0.08 * np.linalg.norm(exact.pressure(GRID.x))
+
+
+class TestRigidRoller:
+    @pytest.mark.parametrize("row", [TABLE[k] for k in (0, 1, 2, 4)], ids=lambda r: r["mu"])
+    def test_tabulated_solutions(self, row):
+        """nu = 0.3 (beta = 2/7) and nu = 0 (beta = 1/2)."""
+        body, friction = (STEEL if row["beta"] == "2/7" else CORK), float(row["mu"])
+        found, exact = solved(body, None, friction)
+        is_exact(found, exact)
+        wider = float(row["ahalf_over_aHertz_same_load"])
+        shift = float(row["load_line_x_over_ahalf"]) * wider
+        assert shift < -0.02
+        assert load_line(found) == pytest.approx(shift, rel=0.01)
+
+    @pytest.mark.parametrize("body", [SOFT, STEEL, CORK], ids=["nu 0.49", "nu 0.3", "nu 0"])
+    def test_as_much_friction_as_pressure(self, body):
+        """mu = 1: mu beta 0.01, 2/7 and 1/2."""
+        found, exact = solved(body, None, 1.0)
+        is_exact(found, exact)
+        assert load_line(found) < -0.01
+
+    def test_what_is_left_is_the_block_s_size(self):
+        """It shears and tilts: inversely as its size."""
+        errors = []
+        for extent in (60.0, 120.0, 240.0):
+            found, exact = solved(STEEL, None, 0.5, extent=extent)
+            errors.append(load_line(found) - exact.load_position)
+        order = np.log2(np.divide(errors[:-1], errors[1:]))
+        assert order == pytest.approx(1.0, abs=0.25)
+        assert 1e-4 < errors[-1] < 3e-3
+
+    def test_reversed_sliding_is_the_mirrored_contact(self):
+        """To the tolerance of the iteration, on the mirrored mesh."""
+        there, _ = solved(STEEL, None, 0.4)
+        back, _ = solved(STEEL, None, -0.4, mirrored=True)
+        assert back.pressure == pytest.approx(there.pressure[::-1], abs=1e-6)
+        assert load_line(back) > 0.05
+
+
+class TestElasticRoller:
+    @pytest.mark.parametrize(
+        ("body", "roller"),
+        [(STEEL, Material(5.0, 0.0)), (STEEL, CORK), (Material(0.3, 0.1), Material(1.0, 0.4))],
+    )
+    def test_unlike_bodies(self, body, roller):
+        found, exact = solved(body, roller, 1.0)
+        is_exact(found, exact)
+        assert abs(exact.load_position) > 0.03
+        changed, _ = solved(roller, body, 1.0)
+        assert load_line(changed) == pytest.approx(-load_line(found), abs=1e-3)
+
+    def test_equal_bodies_stay_where_they_are(self):
+        found, _ = solved(STEEL, STEEL, 1.0)
+        still, _ = solved(STEEL, STEEL, 0.0)
+        assert found.converged
+        assert found.pressure == pytest.approx(still.pressure, abs=1e-6)
+
+
+@cache
+def rough_surface(poisson: float):
+    pitch = 1.0 / EDGES
+    block = BlockSpec(200.0, 200.0, np.array([[-3.1, 3.1]]), pitch)
+    body = elastic_body(build_block(block), Material(1.0, poisson), Support(sides="fixed"))
+    grid = HatGrid.within(-3.0, 3.0, pitch)
+    return grid, FiniteElementCompliance(body, hat_nodes(grid.x[0], pitch, grid.count))
+
+
+def rough_gap(grid: HatGrid, seed: int) -> np.ndarray:
+    """Waves down to ten pressure elements; contact in several patches."""
+    curve = self_affine(
+        hurst=0.8,
+        samples=1025,
+        length=12.0,
+        seed=seed,
+        rms_slope=2.0,
+        shortest_wavelength=0.5,
+        longest_wavelength=3.0,
+    ).spline()
+    return grid.average(lambda x: x**2 - curve(x))
+
+
+class TestRoughProfiles:
+    @pytest.mark.parametrize("friction", [0.1, -0.3, 1.0])
+    @pytest.mark.parametrize("seed", [1, 2, 3])
+    def test_few_steps_to_what_an_independent_solver_finds(self, dense, seed, friction):
+        """nu = 0: mu beta of 0.05, 0.15 and 0.5, in as few steps as without friction."""
+        grid, compliance = rough_surface(0.0)
+        matrix = whole(compliance, friction)
+        gap = rough_gap(grid, seed)
+        model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.5 * friction)
+        found = solve_with_coupled_model(
+            Sliding(compliance, friction), model, gap, grid.weights, Constraints(load=LOAD)
+        )
+        assert found.converged and found.iterations["steps"] <= 7
+        pressure, approach = dense(matrix, gap, grid.weights, LOAD)
+        assert found.pressure == pytest.approx(pressure, abs=1e-5 * pressure.max())
+        assert found.approach == pytest.approx(approach, rel=1e-8)
+        assert len(contact_patches(grid.x, found.pressure, found.gap)) > 1
+
+    @pytest.mark.parametrize("hardness", [2.0, np.inf])
+    def test_the_whole_matrix_gives_the_same(self, hardness):
+        grid, compliance = rough_surface(0.0)
+        gap, constraints = rough_gap(grid, 4), Constraints(load=LOAD, hardness=hardness)
+        model = CoupledHalfPlane(grid.count, grid.pitch, 1.0, 0.25)
+        found = solve_with_coupled_model(
+            Sliding(compliance, 0.5), model, gap, grid.weights, constraints
+        )
+        direct = solve_coupled(
+            DenseCoupledCompliance(whole(compliance, 0.5)), gap, grid.weights, constraints
+        )
+        assert found.converged and direct.converged
+        assert found.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())
+
+
+@cache
+def tangential(compliance: FiniteElementCompliance) -> np.ndarray:
+    """Displacements under tractions alone, column by column."""
+    unit = np.eye(compliance.count)
+    columns = [compliance.apply(column, 1.0) - compliance.apply(column) for column in unit]
+    return np.stack(columns, axis=1)
+
+
+def whole(compliance: FiniteElementCompliance, friction: float) -> np.ndarray:
+    """The matrix of a sliding body."""
+    return compliance.matrix() + friction * tangential(compliance)
+
+
+@pytest.mark.parametrize("base", ["bonded", "frictionless"])
+def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
+    """Far from a half-plane: the iteration says whether it arrived, the whole matrix serves."""
+    x = np.linspace(-4.0, 4.0, 161)
+    mesh = structured_block(x, np.linspace(0.0, 0.3, 7))
+    sides = "free" if base == "bonded" else "rollers"
+    body = elastic_body(mesh, Material(1.0, 0.2), Support(base, sides))
+    compliance = FiniteElementCompliance(body, HATS)
+    beta = dundurs_constants(body.material, None)[1]
+    modulus = body.material.plane_strain_modulus
+    gap = GRID.average(lambda x: 0.05 * x**2)
+    constraints = Constraints(load=0.1)
+    found = solve_with_coupled_model(
+        Sliding(compliance, 0.5),
+        CoupledHalfPlane(GRID.count, GRID.pitch, modulus, 0.5 * beta),
+        gap,
+        GRID.weights,
+        constraints,
+    )
+    direct = solve_coupled(
+        DenseCoupledCompliance(whole(compliance, 0.5)), gap, GRID.weights, constraints
+    )
+    assert direct.converged and direct.residuals.worst < 1e-12
+    assert 0.5 < np.ptp(contact_patches(GRID.x, direct.pressure, direct.gap)) < 3.0
+    assert found.converged
+    assert found.pressure == pytest.approx(direct.pressure, abs=1e-5 * direct.pressure.max())

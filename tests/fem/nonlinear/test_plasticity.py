@@ -1,0 +1,208 @@
+"""The elastic-plastic body: its force and tangent by two other roads, and its limit load."""
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from analytic.material import Material
+from fem import compat
+from fem.body.elasticity import Support, elastic_body
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import state_at_rest
+from fem.contact.terms import LinearContact
+from fem.nonlinear.plastic_newton import newton_by_contacts
+from fem.nonlinear.plasticity import PlasticBody
+from fem.nonlinear.return_mapping import ElasticPlastic
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+E, Y = 200.0, 0.5
+METAL = ElasticPlastic(Material(E, 0.3), Y, 12.0)
+
+
+def height(x):
+    return 0.05 * np.cos(3.0 * x)
+
+
+def made(structured_block, shape=None):
+    x, z = np.linspace(-1.0, 1.0, 7), np.linspace(0.0, 1.0, 5)
+    mesh = structured_block(x, z, shape, seed=2)
+    return elastic_body(mesh, METAL.elastic, Support("bonded", "free"))
+
+
+@pytest.fixture(scope="module", params=[None, height], ids=["flat", "curved"])
+def body(request, structured_block):
+    return made(structured_block, request.param)
+
+
+def moved(body, size, seed):
+    """A displacement with strains of some `size` yield strains, zero where the body is held."""
+    wave = np.random.default_rng(seed).normal(size=(2, 4))
+    x, z = body.nodes.T
+    shape = np.stack([np.sin(row @ [x, z, x * z, z**2 + x**2]) for row in wave], axis=-1)
+    return np.where(body.held, 0.0, size * Y / E * shape)
+
+
+def with_history(body):
+    plastic = PlasticBody(body, METAL)
+    plastic.accept(moved(body, 2.0, 1))
+    assert 0.2 < np.mean(plastic.state.equivalent > 0.0) < 1.0
+    return plastic
+
+
+def test_strain_of_linear_displacement(body):
+    plastic = PlasticBody(body, METAL)
+    slope = np.array([[1.0, 2.0], [-0.5, 3.0]])
+    strain = plastic.strain(body.nodes @ slope.T)
+    np.testing.assert_allclose(strain, np.tile([1.0, 3.0, 1.5], (len(strain), 1)), atol=1e-12)
+
+
+def test_forces_of_a_constant_stress_are_those_of_its_tractions(body, exact_forces):
+    plastic = PlasticBody(body, METAL)
+    stress = np.array([1.0, -2.0, 0.7])
+    force = plastic.force_of(np.tile(stress, (len(plastic.points), 1)))
+    np.testing.assert_allclose(force, exact_forces(body.mesh, lambda x, z: stress), atol=1e-13)
+
+
+def test_elastic_body_until_it_yields(body):
+    plastic = PlasticBody(body, METAL)
+    displacement = moved(body, 0.05, 3)
+    force, tangent = plastic.linearised(displacement)
+    assert not plastic.flow(displacement).yields.any()
+    assert abs(tangent - body.stiffness()).max() == 0.0
+    np.testing.assert_array_equal(force.ravel(), body.stiffness() @ displacement.ravel())
+
+
+def test_force_is_that_of_the_stress(structured_block):
+    """Where the quadrature of both is the same, on straight triangles."""
+    plastic = with_history(made(structured_block))
+    displacement = moved(plastic.body, 3.0, 4)
+    force, _ = plastic.linearised(displacement)
+    plastic.accept(displacement)
+    whole = plastic.force_of(plastic.stress(displacement, plastic.state)[0])
+    free = ~plastic.held
+    np.testing.assert_allclose(force[free], whole[free], atol=1e-13)
+    assert np.abs(whole.sum(axis=0)).max() < 1e-13
+
+
+def test_tangent_is_the_derivative_of_the_force(body):
+    plastic = with_history(body)
+    displacement, way = moved(body, 3.0, 4), moved(body, 1.0, 5)
+    _, tangent = plastic.linearised(displacement)
+    h = 1e-6
+    ahead, behind = (plastic.linearised(displacement + s * way)[0] for s in (h, -h))
+    slope = (ahead - behind).ravel() / (2.0 * h)
+    np.testing.assert_allclose(tangent @ way.ravel(), slope, atol=2e-8 * np.abs(slope).max())
+    assert abs(tangent - tangent.T).max() < 1e-12 * abs(tangent).max()
+    assert abs(tangent - body.stiffness()).max() > 0.1 * abs(tangent).max()
+
+
+def test_force_and_tangent_are_those_of_quadrature_functions(structured_block):
+    """dolfinx assembles both from stresses and tangents at the same points."""
+    plastic = with_history(made(structured_block))
+    body, displacement = plastic.body, moved(plastic.body, 3.0, 4)
+    force, tangent = plastic.linearised(displacement)
+    step = plastic.flow(displacement)
+    stress, _ = plastic.stress(displacement, step.state)
+    shear, nu = METAL.elastic.shear_modulus, METAL.elastic.poissons_ratio
+    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
+    elastic = np.diag([2.0 * shear, 2.0 * shear, shear])
+    elastic[:2, :2] += lame
+    consistent = np.tile(elastic, (len(stress), 1, 1))
+    consistent[step.yields] -= step.lost
+    node, vector, matrix = assembled_by_dolfinx(body, plastic.points, stress, consistent)
+    free = ~body.held[node].ravel()
+    ours = force[node].ravel()
+    np.testing.assert_allclose(ours[free], vector[free], atol=1e-13)
+    component = (2 * node[:, None] + np.arange(2)).ravel()[free]
+    difference = tangent.toarray()[np.ix_(component, component)] - matrix[np.ix_(free, free)]
+    assert np.abs(difference).max() < 1e-13 * abs(tangent).max()
+
+
+def assembled_by_dolfinx(body, points, stress, tangent):
+    """Our node of each of dolfinx's, its force vector and its matrix; all matched by place."""
+    import basix
+    import ufl
+    from dolfinx import fem
+    from dolfinx.fem.petsc import assemble_matrix, assemble_vector
+    from mpi4py import MPI
+
+    vertices, corner = np.unique(body.mesh.triangles[:, :3], return_inverse=True)
+    domain = compat.triangle_mesh(
+        MPI.COMM_SELF, corner.reshape(-1, 3), body.mesh.points[vertices], 1
+    )
+    space = compat.displacement_space(domain, 2)
+    places, _ = basix.make_quadrature(basix.CellType.triangle, 2)
+    shape = np.column_stack([1.0 - places.sum(axis=1), places])
+    at = shape @ domain.geometry.x[compat.cell_points(domain)][..., :2]
+    _, number = cKDTree(points).query(at.reshape(-1, 2))
+
+    def function(values):
+        kind = {"degree": 2, "scheme": "default"}
+        if hasattr(basix, "ufl"):
+            element = basix.ufl.quadrature_element("triangle", values.shape[1:], **kind)
+            quadrature = fem.functionspace(domain, element)
+        else:
+            family = ufl.VectorElement if values.ndim == 2 else ufl.TensorElement
+            size = {"dim": 3} if values.ndim == 2 else {"shape": (3, 3)}
+            element = family("Quadrature", domain.ufl_cell(), 2, quad_scheme="default", **size)
+            quadrature = fem.FunctionSpace(domain, element)
+        made = fem.Function(quadrature)
+        places = compat.cell_nodes(quadrature).ravel()
+        made.x.array.reshape(-1, values[0].size)[places] = values[number].reshape(len(number), -1)
+        return made
+
+    def strain(w):
+        return ufl.as_vector([w[0].dx(0), w[1].dx(1), w[0].dx(1) + w[1].dx(0)])
+
+    rule = {"quadrature_degree": 2, "quadrature_scheme": "default"}
+    dx = ufl.dx(domain=domain, metadata=rule)
+    u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
+    work = ufl.inner(ufl.dot(function(tangent), strain(u)), strain(v)) * dx
+    matrix = assemble_matrix(compat.compile_form(work))
+    matrix.assemble()
+    vector = assemble_vector(compat.compile_form(ufl.inner(function(stress), strain(v)) * dx))
+    _, node = cKDTree(body.nodes).query(space.tabulate_dof_coordinates()[:, :2])
+    return node, vector.getArray().copy(), matrix.convert("dense").getDenseArray().copy()
+
+
+def limit(edges, approaches):
+    """Mean pressure of a flat rigid punch of half-width 1 by the yield stress, as it sinks."""
+    spec = BlockSpec(8.0, 8.0, np.array([[-1.0, 1.0]]), 1.0 / edges, 0.2, (-4, 4, 2.5, 2.4 / edges))
+    metal = ElasticPlastic(Material(1000.0, 0.3), 1.0)
+    body = elastic_body(build_block(spec), metal.elastic, Support("bonded", "fixed"))
+    hats = np.linspace(-1.0, 1.0, 2 * edges + 1)
+    weights = np.full(len(hats) - 2, 1.0 / edges)
+    plastic = PlasticBody(body, metal)
+    normal = FiniteElementCompliance(body, hats).normal
+    bodies = [(plastic, LinearContact(len(body.nodes), body.surface, normal))]
+    state, found = state_at_rest(bodies, np.ones(len(weights))), []
+    for approach in approaches:
+        state, _ = newton_by_contacts(
+            bodies, np.zeros(len(weights)), weights, state, approach=approach
+        )
+        plastic.accept(state.displacements[0])
+        found.append(state.load / weights.sum())
+    return found
+
+
+def test_limit_load_of_a_flat_punch():
+    """(2 + pi) Y / sqrt 3 (Prandtl), from above and to first order; no locking beyond it.
+
+    Order with both bounds: 3.14, 3.058, 3.012 with 4, 8 and 16 edges against 2.969.
+    """
+    exact = (2.0 + np.pi) / np.sqrt(3.0)
+    coarse, fine = (limit(edges, [0.005, 0.03, 0.06, 0.1]) for edges in (4, 8))
+    errors = np.array([coarse[-1], fine[-1]]) / exact - 1.0
+    assert 0.0 < errors[1] < 0.035
+    assert 0.7 < np.log2(errors[0] / errors[1]) < 1.3
+    assert 1.0 < fine[-1] / fine[-2] < 1.001
+
+
+def test_bodies_that_cannot_flow_are_refused(structured_block):
+    body = made(structured_block)
+    with pytest.raises(ValueError, match="elastic constants"):
+        PlasticBody(body, ElasticPlastic(Material(E, 0.2), Y))
+    linear = elastic_body(body.mesh, METAL.elastic, Support(), degree=1)
+    with pytest.raises(ValueError, match="degree 2"):
+        PlasticBody(linear, METAL)

@@ -1,0 +1,212 @@
+"""Flow of the metal at a point: closed forms, an independent path, the tangent, scaling."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from analytic.material import Material
+from fem.nonlinear.return_mapping import ElasticPlastic, PlasticState, flow, stress
+
+E, Y = 200.0, 0.5
+HARDENING = [0.0, 15.0]
+
+
+def metal(hardening=0.0, poisson=0.3, unit=1.0):
+    return ElasticPlastic(Material(E * unit, poisson), Y * unit, hardening * unit)
+
+
+def led(law, path):
+    """Stress (3,), sy and state after strains (steps, 3) one after another."""
+    state = PlasticState.virgin(1)
+    for strain in path:
+        state = flow(law, strain[None], state).state
+    (inside,), (across,) = stress(law, path[-1][None], state)
+    return inside, across, state
+
+
+def equivalent(inside, across):
+    sx, sz, txz = inside
+    normal = (sx - sz) ** 2 + (sz - across) ** 2 + (across - sx) ** 2
+    return np.sqrt(0.5 * normal + 3.0 * txz**2)
+
+
+@pytest.mark.parametrize("steps", [1, 7])
+@pytest.mark.parametrize("hardening", HARDENING)
+def test_pure_shear(hardening, steps):
+    """tau = Y/sqrt 3, then the slope G H / (3 G + H), whatever the number of steps."""
+    law = metal(hardening)
+    shear = law.elastic.shear_modulus
+    first = Y / np.sqrt(3.0) / shear
+    twist = 3.0 * first
+    path = np.outer(np.linspace(0.0, 1.0, steps + 1)[1:], [0.0, 0.0, twist])
+    inside, across, state = led(law, path)
+    slope = shear * hardening / (3.0 * shear + hardening)
+    np.testing.assert_allclose(
+        inside, [0, 0, Y / np.sqrt(3.0) + slope * (twist - first)], atol=1e-14
+    )
+    assert across == pytest.approx(0.0, abs=1e-14)
+    plastic = twist - inside[2] / shear
+    assert state.equivalent[0] == pytest.approx(plastic / np.sqrt(3.0), rel=1e-12)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.4999])
+@pytest.mark.parametrize("hardening", HARDENING)
+def test_one_strain_alone(hardening, poisson):
+    """Strain exx only: q = 2 G exx up to Y, then q = Y + H k with 3 G k = 2 G exx - q."""
+    law = metal(hardening, poisson)
+    shear = law.elastic.shear_modulus
+    strain = -4.0 * Y / (2.0 * shear)
+    inside, across, state = led(law, np.array([[strain, 0.0, 0.0]]))
+    k = (2.0 * shear * abs(strain) - Y) / (3.0 * shear + hardening)
+    q = Y + hardening * k
+    mean = E / (3.0 * (1.0 - 2.0 * poisson)) * strain
+    np.testing.assert_allclose(inside, [mean - 2.0 * q / 3.0, mean + q / 3.0, 0.0], rtol=1e-12)
+    assert across == pytest.approx(mean + q / 3.0, rel=1e-12)
+    assert state.equivalent[0] == pytest.approx(k, rel=1e-12)
+
+
+@pytest.mark.parametrize("hardening", HARDENING)
+def test_below_yield_it_is_elastic_and_forgets(hardening):
+    law = metal(hardening)
+    strain = np.array([[1e-3, -4e-4, 7e-4]])
+    step = flow(law, strain, PlasticState.virgin(1))
+    (inside,), (across,) = stress(law, strain, step.state)
+    shear, nu = law.elastic.shear_modulus, 0.3
+    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu) * 6e-4
+    expected = [lame + 2e-3 * shear, lame - 8e-4 * shear, 7e-4 * shear]
+    np.testing.assert_allclose(inside, expected, rtol=1e-13)
+    assert across == pytest.approx(lame, rel=1e-13)
+    assert equivalent(inside, across) < Y
+    assert not step.yields.any()
+    assert step.lost.shape == (0, 3, 3)
+    assert not step.state.strain.any()
+
+
+def stretched(law, poisson, hardening, strain):
+    """Plane-strain tension (sz = 0, exx given) by integrating the rates of Prandtl and Reuss.
+
+    Written in full tensors with eyy = 0 and the rate of ezz from sz = 0: another road.
+    """
+    compliance = (np.eye(3) * (1.0 + poisson) - poisson * np.ones((3, 3))) / E
+    stiffness = np.linalg.inv(compliance)
+
+    def rates(_, y):
+        sigma = np.array([y[0], y[1], y[2]])  # xx, yy, zz
+        deviator = sigma - sigma.mean()
+        q = np.sqrt(1.5 * deviator @ deviator)
+        tangent = stiffness
+        if q >= (Y + hardening * y[3]) * (1.0 - 1e-12):
+            along = 1.5 * deviator / q
+            pushed = stiffness @ along
+            tangent = stiffness - np.outer(pushed, pushed) / (along @ pushed + hardening)
+        ezz = -tangent[2, 0] / tangent[2, 2]
+        rate = tangent @ np.array([1.0, 0.0, ezz])
+        k = 0.0
+        if tangent is not stiffness:
+            k = along @ stiffness @ np.array([1.0, 0.0, ezz]) / (along @ pushed + hardening)
+        return [*rate, k, ezz]
+
+    start = Y / np.sqrt(1.0 - poisson + poisson**2)
+    elastic = start * (1.0 - poisson**2) / E
+    ezz = -poisson * (1.0 + poisson) * start / E
+    begin = [start, poisson * start, 0.0, 0.0, ezz]
+    done = solve_ivp(rates, (elastic, strain), begin, rtol=1e-11, atol=1e-14, method="DOP853")
+    return done.y[:, -1]
+
+
+@pytest.mark.parametrize("hardening", HARDENING)
+def test_plane_strain_tension_converges_to_the_rates(hardening):
+    """First order in the step as the deviator turns from nu sx to sx/2 across; both bounds."""
+    law = metal(hardening)
+    strain = 3.0 * Y / E
+    sx, sy, sz, k, _ = stretched(law, 0.3, hardening, strain)
+    errors = []
+    for steps in (20, 40, 80):
+        state, ezz = PlasticState.virgin(1), 0.0
+        for exx in np.linspace(0.0, strain, steps + 1)[1:]:
+            for _ in range(30):  # Newton for sz = 0
+                at = np.array([[exx, ezz, 0.0]])
+                step = flow(law, at, state)
+                (inside,), (across,) = stress(law, at, step.state)
+                lame = 2.0 * law.elastic.shear_modulus * 0.3 / 0.4
+                slope = lame + 2.0 * law.elastic.shear_modulus
+                slope -= step.lost[0, 1, 1] if step.yields[0] else 0.0
+                ezz -= inside[1] / slope
+                if abs(inside[1]) < 1e-13 * Y:
+                    break
+            state = step.state
+        errors.append(abs(across - sy) / Y + abs(inside[0] - sx) / Y)
+        assert state.equivalent[0] == pytest.approx(k, rel=0.05)
+    assert sz == pytest.approx(0.0, abs=1e-9)
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all((orders > 0.8) & (orders < 1.2)), orders
+    assert errors[-1] < 2e-3
+
+
+@pytest.mark.parametrize("hardening", HARDENING)
+@pytest.mark.parametrize("size", [1.0, 30.0])
+def test_tangent_is_the_derivative(hardening, size):
+    """Central differences of the stress, from a state with a history, at every point at once."""
+    random = np.random.default_rng(3)
+    law = metal(hardening)
+    before = flow(law, 4.0 * Y / E * random.normal(size=(40, 3)), PlasticState.virgin(40)).state
+    strain = size * Y / E * random.normal(size=(40, 3))
+    step = flow(law, strain, before)
+    assert step.yields.sum() > 5
+    h = 1e-6 * size * Y / E
+    shear, nu = law.elastic.shear_modulus, 0.3
+    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
+    elastic = np.array([[lame + 2 * shear, lame, 0], [lame, lame + 2 * shear, 0], [0, 0, shear]])
+    for column in range(3):
+        ahead, behind = strain.copy(), strain.copy()
+        ahead[:, column] += h
+        behind[:, column] -= h
+        up, down = (stress(law, s, flow(law, s, before).state)[0] for s in (ahead, behind))
+        slope = (up - down) / (2.0 * h)
+        tangent = np.tile(elastic[:, column], (40, 1))
+        tangent[step.yields] -= step.lost[:, :, column]
+        np.testing.assert_allclose(tangent, slope, atol=1e-7 * E)
+    np.testing.assert_allclose(step.lost, step.lost.transpose(0, 2, 1), atol=1e-13 * E)
+
+
+@pytest.mark.parametrize("hardening", HARDENING)
+def test_stress_ends_on_the_yield_surface(hardening):
+    random = np.random.default_rng(5)
+    law = metal(hardening)
+    strain = 10.0 * Y / E * random.normal(size=(200, 3))
+    step = flow(law, strain, PlasticState.virgin(200))
+    inside, across = stress(law, strain, step.state)
+    reached = Y + hardening * step.state.equivalent
+    q = equivalent(inside.T, across)
+    np.testing.assert_allclose(q[step.yields], reached[step.yields], rtol=1e-12)
+    assert np.all(q[~step.yields] < Y)
+    assert 0 < np.count_nonzero(~step.yields) < 50
+    # what was reached is elastic when it is reached again, but for rounding
+    again = flow(law, strain, step.state)
+    np.testing.assert_allclose(again.state.strain, step.state.strain, atol=1e-14)
+
+
+def test_units_do_not_matter():
+    random = np.random.default_rng(7)
+    strain = 3.0 * Y / E * random.normal(size=(50, 3))
+    virgin = PlasticState.virgin(50)
+    small, large = (flow(metal(15.0, unit=unit), strain, virgin) for unit in (1.0, 2.0**30))
+    np.testing.assert_array_equal(small.state.strain, large.state.strain)
+    np.testing.assert_array_equal(small.lost * 2.0**30, large.lost)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.4999])
+def test_no_stress_no_flow(poisson):
+    """Zero strain, and strain that only changes the volume where nu is next to a half."""
+    step = flow(metal(0.0, poisson), np.zeros((1, 3)), PlasticState.virgin(1))
+    assert not step.yields.any()
+    assert np.isfinite(step.state.strain).all()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [((0.0, 0.0), "yield stress"), ((np.inf, 0.0), "yield stress"), ((1.0, -1.0), "hardening")],
+)
+def test_wrong_metals_are_refused(given, message):
+    with pytest.raises(ValueError, match=message):
+        ElasticPlastic(Material(E, 0.3), *given)

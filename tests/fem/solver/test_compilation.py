@@ -1,0 +1,145 @@
+"""The just-in-time compiler: silent when cold, idle once it has run, unharmed by a stop."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from fem.solver.compilation import STALE_SECONDS, compiled, remove_leftovers, uninterrupted
+
+PROJECT = Path(__file__).resolve().parents[3]
+SCRIPT = """
+import sys
+import numpy as np
+from analytic.material import Material
+from fem.body.elasticity import Support, elastic_body
+from meshes.block import BlockMesh, BlockSpec
+from meshes.second_order import add_midpoints
+
+vertices = np.array([[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [0.0, 1.0], [1.0, 1.0]])
+corners = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
+points, triangles = add_midpoints(vertices, corners)
+spec = BlockSpec(1.0, 1.0, np.array([[-1.0, 1.0]]), 1.0)
+material = Material(1.0, float(sys.argv[1]))
+for shift in (0.0 * points, 0.1 * (1.0 - points[:, 1:]) * [0.0, 1.0]):
+    body = elastic_body(BlockMesh(points, triangles, shift, spec), material, Support())
+    assert np.isfinite(body.solve(np.ones_like(points))).all()
+"""
+
+
+def run(cache, poissons_ratio=0.3):
+    environment = os.environ | {"XDG_CACHE_HOME": str(cache), "PYTHONPATH": str(PROJECT)}
+    command = [sys.executable, "-c", SCRIPT, str(poissons_ratio)]
+    done = subprocess.run(command, env=environment, cwd=PROJECT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout + done.stderr
+
+
+def test_a_cold_compile_is_silent_and_serves_later_processes(tmp_path):
+    """Of bodies of other materials, too."""
+    assert run(tmp_path) == ""
+    compiled = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.so")}
+    assert compiled
+    assert run(tmp_path, 0.25) == ""
+    assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.so")} == compiled
+
+
+def start(cache) -> subprocess.Popen:
+    environment = os.environ | {"XDG_CACHE_HOME": str(cache), "PYTHONPATH": str(PROJECT)}
+    return subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, "0.3"],
+        env=environment,
+        cwd=PROJECT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def unmarked(cache) -> list[Path]:
+    """Sources that are being compiled, or that nobody finished."""
+    sources = cache.rglob("libffcx_*.c")
+    return [source for source in sources if not source.with_suffix(".c.cached").exists()]
+
+
+def wait_for_a_source(cache) -> None:
+    deadline = time.monotonic() + 60.0
+    while not unmarked(cache):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def test_an_interrupt_lets_the_compiler_end(tmp_path):
+    """Ctrl-C in a terminal: the compiler gets it too."""
+    process = start(tmp_path)
+    wait_for_a_source(tmp_path)
+    os.killpg(process.pid, signal.SIGINT)
+    _, complaint = process.communicate(timeout=60)
+    assert complaint.endswith("KeyboardInterrupt\n")
+    assert process.returncode == -signal.SIGINT
+    assert unmarked(tmp_path) == []
+    assert run(tmp_path) == ""
+
+
+def test_what_a_killed_process_left_is_cleared_away(tmp_path):
+    process = start(tmp_path)
+    wait_for_a_source(tmp_path)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate(timeout=60)
+    left = unmarked(tmp_path)
+    assert left
+    for source in left:
+        os.utime(source, (time.time() - 2.0 * STALE_SECONDS,) * 2)
+    assert run(tmp_path) == ""
+    assert unmarked(tmp_path) == []
+
+
+def test_work_in_progress_and_finished_work_are_left_alone(tmp_path):
+    for name, age in (("young", 0.5), ("ready", 2.0), ("old", 2.0)):
+        source = tmp_path / f"libffcx_forms_{name}.c"
+        source.touch()
+        os.utime(source, (time.time() - age * STALE_SECONDS,) * 2)
+    (tmp_path / "libffcx_forms_ready.c.cached").touch()
+    remove_leftovers(tmp_path)
+    assert {path.stem for path in tmp_path.glob("*.c")} == {
+        "libffcx_forms_young",
+        "libffcx_forms_ready",
+    }
+
+
+def test_an_interrupt_is_held_back_and_then_comes():
+    done = []
+    with pytest.raises(KeyboardInterrupt), uninterrupted():
+        signal.raise_signal(signal.SIGINT)
+        done.append("all")
+    assert done == ["all"]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+def test_another_process_at_the_same_form_is_waited_for(monkeypatch, tmp_path):
+    monkeypatch.setattr("fem.compat.form_cache", lambda: tmp_path)
+    busy = [True, True, False]
+
+    def make():
+        if busy.pop(0):
+            raise TimeoutError("not ready after 10 s")
+        return "form"
+
+    assert compiled(make) == "form"
+    stale = tmp_path / "libffcx_forms_stale.c"
+    stale.touch()
+    os.utime(stale, (time.time() - 2.0 * STALE_SECONDS,) * 2)
+    assert compiled(lambda: "another") == "another"
+    assert stale.exists()  # nobody has waited for it
+    busy[:] = [True, False]
+    assert compiled(make) == "form"
+    assert not stale.exists()
+    busy[:] = [True] * 100
+    with pytest.raises(TimeoutError):
+        compiled(make)
+    assert 10.0 * (100 - len(busy)) > STALE_SECONDS

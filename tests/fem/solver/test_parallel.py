@@ -1,0 +1,71 @@
+"""The same displacements under mpirun."""
+
+import json
+
+import numpy as np
+import pytest
+
+SCRIPT = """
+import json, sys
+import numpy as np
+from mpi4py import MPI
+from analytic.material import Material
+from fem.compliance.operator import FiniteElementCompliance
+from fem.body.elasticity import Coating, Support, elastic_body
+from fem.compliance.far_field import FarField
+from fem.body.surface import hat_nodes
+from meshes.block import BlockMesh, BlockSpec
+
+def found(file, degree, thickness, far):
+    data = np.load(file)
+    spec = BlockSpec(1.0, 1.0, np.array([[-1.0, 1.0]]), 0.1)
+    mesh = BlockMesh(data["points"], data["triangles"], data["shift"], spec)
+    coating = Coating(Material(9.0, 0.1), thickness) if thickness else None
+    support = Support("bonded", "fixed") if far else Support("frictionless", "rollers")
+    body = elastic_body(mesh, Material(2.0, 0.3), support, degree=degree, coating=coating)
+    hats = hat_nodes(-0.25, 0.025, 21)
+    field = FarField(body, hats[0], hats[-1]) if far else None
+    operator = FiniteElementCompliance(body, hats, far=field)
+    pressure = np.linspace(0.0, 1.0, 21)
+    moved = operator.displacement(pressure, 0.2)
+    found = [operator.apply(pressure), operator.matrix() @ pressure, operator.weighted(moved)]
+    return [f.tolist() for f in found], body.matrix.getLocalSize()[0] / body.unknowns
+
+every = MPI.COMM_WORLD.gather([found(*case) for case in json.loads(sys.argv[1])])
+if MPI.COMM_WORLD.rank == 0:
+    print(json.dumps(every))
+"""
+# Profile, degree, thickness of a coating, far field of a half-plane.
+CASES = {
+    "straight": (False, 2, 0.0, False),
+    "curved and coated": (True, 3, 0.1, False),
+    "far field": (False, 2, 0.0, True),
+}
+
+
+@pytest.fixture(scope="module")
+def displacements(structured_block, launch, tmp_path_factory):
+    """By case, of one process and of each of two, and their shares of the matrix."""
+    line, given = np.linspace(-1, 1, 21), []
+    for rough, degree, thickness, far in CASES.values():
+        height = (lambda x: 0.02 * np.cos(4 * x)) if rough else None
+        mesh = structured_block(line, line[10:], height, seed=None if thickness else 9)
+        file = tmp_path_factory.mktemp("mesh") / "mesh.npz"
+        np.savez(file, points=mesh.points, triangles=mesh.triangles, shift=mesh.shift)
+        given.append((str(file), degree, thickness, far))
+
+    def found(processes):
+        done = launch(processes, "-c", SCRIPT, json.dumps(given))
+        assert done.returncode == 0, done.stderr
+        return [dict(zip(CASES, each, strict=True)) for each in json.loads(done.stdout)]
+
+    return *found(1), *found(2)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_two_processes_find_what_one_finds(displacements, case):
+    """Displacements under pressure, by the matrix, and under traction too; half the matrix each."""
+    (alone, _), (first, share), (second, rest) = (found[case] for found in displacements)
+    np.testing.assert_array_equal(first, second)
+    np.testing.assert_allclose(first, alone, rtol=1e-11)
+    assert share + rest == 1.0 and 0.4 < share < 0.6

@@ -1,0 +1,143 @@
+"""The field of a kink: against 30-digit values of hats, Hooke's law, turned surfaces, weights."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.material import Material
+from fem.stress import kinks as module
+from fem.stress.kinks import REACH, Kinks, Weights
+
+POINTS = json.loads(
+    (Path(__file__).parents[2] / "data" / "hat_stress.json").read_text(encoding="utf-8")
+)["points"]
+MATERIAL = Material(3.0, 0.3)
+
+
+def all_of(kinks, count):
+    """Weights 1 of every kink for `count` patches."""
+    each = len(kinks.place)
+    first, start = np.zeros(count, dtype=int), each * np.arange(count + 1)
+    return Weights(first, start, np.ones(start[-1]))
+
+
+def as_table(weights, each):
+    """Weights (n, each) of all kinks, 0 where a patch does not see them."""
+    table = np.zeros((len(weights.first), each))
+    for row, first, count, start in zip(
+        table, weights.first, weights.count, weights.start, strict=False
+    ):
+        row[first : first + count] = weights.value[start : start + count]
+    return table
+
+
+def stress(kinks, place):
+    every = np.arange(len(place))
+    return kinks.stress(all_of(kinks, len(place)), every, place, every[:, None])[:, 0]
+
+
+def displacement(kinks, place):
+    every = np.arange(len(place))
+    weights = all_of(kinks, len(place))
+    return kinks.displacement(weights, every, place, every[:, None], MATERIAL)[:, 0]
+
+
+def hat(friction, tangent=1.0):
+    """Three kinks: pressure 1 at the origin, 0 at a distance of 1 along the tangent."""
+    bend = np.array([1.0, -2.0, 1.0])
+    place = np.array([-1.0, 0.0, 1.0]) * tangent
+    return Kinks(place, np.full(3, tangent, dtype=complex), bend * (-1.0 + 1j * friction))
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_three_kinks_make_a_hat(friction):
+    near = [p for p in POINTS if abs(float(p["x_over_pitch"])) < 10 > float(p["z_over_pitch"])]
+    assert len(near) > 20
+    place, sx, sz, txz, sliding = (
+        np.array([[float(p[name]) for name in names] for p in near])
+        for names in (
+            ["x_over_pitch", "z_over_pitch"],
+            ["sx"],
+            ["sz"],
+            ["txz"],
+            ["sx_traction"],
+        )
+    )
+    exact = np.column_stack([sx + friction * sliding, sz + friction * txz, txz + friction * sx])
+    np.testing.assert_allclose(stress(hat(friction), place), exact, atol=1e-13)
+
+
+def test_the_displacement_has_the_kinks_stress():
+    kinks = hat(0.4, np.exp(0.3j))
+    place = np.random.default_rng(3).uniform([-2.0, 0.7], [2.0, 2.0], (20, 2))
+    step = 1e-5
+
+    def slope(axis):
+        shift = step * np.eye(2)[axis]
+        return (displacement(kinks, place + shift) - displacement(kinks, place - shift)) / (
+            2 * step
+        )
+
+    (exx, uz_x), (ux_z, ezz) = slope(0).T, slope(1).T
+    shear, nu = MATERIAL.shear_modulus, MATERIAL.poissons_ratio
+    mean = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    found = np.column_stack([mean + 2 * shear * exx, mean + 2 * shear * ezz, shear * (ux_z + uz_x)])
+    np.testing.assert_allclose(found, stress(kinks, place), atol=1e-8)
+
+
+def test_a_turned_surface_turns_stresses_and_displacements():
+    turn = np.exp(0.4j)
+    c, s = turn.real, turn.imag
+    matrix = np.array([[c, -s], [s, c]])
+    place = np.random.default_rng(4).uniform([-2.0, 0.1], [2.0, 2.0], (20, 2))
+    flat, turned = hat(0.2), hat(0.2, turn)
+    sx, sz, txz = stress(flat, place).T
+    tensor = matrix @ np.moveaxis(np.array([[sx, txz], [txz, sz]]), -1, 0) @ matrix.T
+    expected = np.column_stack([tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 0, 1]])
+    np.testing.assert_allclose(stress(turned, place @ matrix.T), expected, atol=1e-13)
+    moved = displacement(flat, place) @ matrix.T
+    np.testing.assert_allclose(displacement(turned, place @ matrix.T), moved, atol=1e-13)
+
+
+def test_weights_fade_with_the_distance_and_leave_out_other_materials():
+    kinks = Kinks(np.arange(-20.0, 21.0) + 0j, np.ones(41, dtype=complex), np.ones(41) + 0j)
+    centre = np.array([[0.3, 0.0], [0.3, 3.0], [0.3, 100.0], [0.3, 0.0]])
+    seen = np.array([True, True, True, False])
+    weights = as_table(kinks.weights(centre, np.ones(4), seen), 41)
+    distance = np.abs(centre @ [1.0, 1j] - kinks.place[:, None]).T
+    np.testing.assert_array_equal(weights > 0.0, (distance < REACH) & seen[:, None])
+    assert np.all(weights[0][distance[0] < 0.3 * REACH] > 0.97)
+    assert np.all(np.diff(weights[1][20:]) <= 0.0) and weights[1].max() < weights[0].max()
+
+
+def test_a_body_without_kinks_has_no_weights():
+    none = Kinks(np.empty(0, dtype=complex), np.empty(0, dtype=complex), np.empty(0, dtype=complex))
+    weights = none.weights(np.zeros((3, 2)), np.ones(3), np.ones(3, dtype=bool))
+    assert not weights.count.any()
+    every = np.arange(3)
+    assert not none.stress(weights, every, np.ones((3, 2)), every[:, None]).any()
+
+
+@pytest.mark.parametrize("pairs", [1, 7, 2**17])
+def test_sums_over_the_kinks_are_those_of_a_table(monkeypatch, pairs):
+    """However many are summed up at once, and whichever patches share a place."""
+    monkeypatch.setattr(module, "PAIRS", pairs)
+    rng = np.random.default_rng(5)
+    x = np.sort(rng.uniform(-20.0, 20.0, 30))
+    kinks = Kinks(x + 0j, np.ones(30, dtype=complex), rng.normal(size=30) + 1j)
+    centre = np.column_stack([rng.uniform(-30.0, 30.0, 40), rng.uniform(0.0, 9.0, 40)])
+    weights = kinks.weights(centre, rng.uniform(0.2, 2.0, 40), rng.random(40) < 0.8)
+    assert 0 < np.count_nonzero(weights.count) < 40
+    place = np.column_stack([rng.uniform(-20.0, 20.0, 50), rng.uniform(0.1, 5.0, 50)])
+    patch, point = rng.integers(0, 40, 60), rng.integers(0, 50, (60, 6))
+    found = kinks.stress(weights, patch, place, point)
+
+    single = [
+        Kinks(k[:1], k[1:2], k[2:])
+        for k in np.column_stack([kinks.place, kinks.tangent, kinks.jump])
+    ]
+    by_kink = np.array([stress(one, place) for one in single])
+    expected = np.einsum("rk,krqc->rqc", as_table(weights, 30)[patch], by_kink[:, point])
+    np.testing.assert_allclose(found, expected, atol=1e-13 * np.abs(expected).max())

@@ -1,0 +1,136 @@
+"""Largest stresses: Hertz's values and places, windows, smooth and kinked fields."""
+
+import numpy as np
+import pytest
+
+from analytic.exact.hertz import hertz_extremes
+from analytic.material import Material
+from analytic.stress_state import PlaneStress
+from fem.body.elasticity import Coating, Support, elastic_body
+from fem.stress.maximum import maximum
+from fem.stress.stress import at_mesh_points, nodal_stress
+
+
+def tau1(stress):
+    return stress.tau1
+
+
+@pytest.mark.parametrize(("edges", "depth"), [(10, 2e-2), (20, 1e-2), (40, 1e-2)])
+def test_hertzs_largest_shear_and_its_depth(pressed, edges, depth):
+    case = pressed(edges)
+    found = maximum(case.body, case.stress(0.0), tau1)
+    assert found.value == pytest.approx(case.hertz.tau1_max, rel=3e-3)
+    assert found.z == pytest.approx(case.hertz.tau1_max_depth, rel=depth)
+    assert abs(found.x) < 0.05
+
+
+@pytest.mark.parametrize("friction", [0.1, 0.2])
+def test_largest_shear_under_friction(pressed, friction):
+    case = pressed(20)
+    exact = hertz_extremes(case.hertz, friction).tau1
+    found = maximum(case.body, case.stress(friction), tau1)
+    assert found.value == pytest.approx(exact.value, rel=3e-3)
+    assert found.z == pytest.approx(exact.z, rel=2e-2)
+    assert found.x == pytest.approx(exact.x, abs=3e-2)
+
+
+def test_largest_orthogonal_shear(pressed):
+    case = pressed(20)
+    exact = hertz_extremes(case.hertz, 0.0).txz_max
+    found = maximum(case.body, case.stress(0.0), lambda stress: np.abs(stress.txz))
+    assert found.value == pytest.approx(exact.value, rel=3e-3)
+    assert found.z == pytest.approx(exact.z, rel=1.5e-2)
+    assert abs(found.x) == pytest.approx(abs(exact.x), rel=1e-2)
+
+
+@pytest.fixture(scope="module")
+def body(structured_block):
+    mesh = structured_block(np.linspace(-1, 1, 11), np.linspace(0, 1, 7), seed=6)
+    return elastic_body(mesh, Material(1.0, 0.3), Support())
+
+
+def field(body, value):
+    return at_mesh_points(body, PlaneStress(value, 0.0 * value, 0.0 * value))
+
+
+def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):
+    x, z = body.points.T
+    hill = field(body, 2.0 - (x - 0.123) ** 2 - 2.0 * (z - 0.456) ** 2)
+    found = maximum(body, hill, lambda stress: stress.sx)
+    assert (found.value, found.x, found.z) == pytest.approx((2.0, 0.123, 0.456), abs=1e-6)
+
+
+@pytest.fixture(scope="module")
+def ridge(structured_block):
+    """A body with an edge of elements along x = 0, and a smooth hill with its top on it."""
+    mesh = structured_block(np.linspace(-1, 1, 21), np.linspace(0, 1, 13))
+    body = elastic_body(mesh, Material(1.0, 0.3), Support())
+    x, z = body.points.T
+    return body, np.exp(-2.0 * x**2) * np.cos(2.0 * (z - 0.46))
+
+
+def test_rounding_does_not_choose_among_elements_that_share_the_top(ridge, rng):
+    body, hill = ridge
+    found = []
+    for _ in range(10):
+        rounded = hill * (1.0 + 1e-14 * rng.standard_normal(len(hill)))
+        top = maximum(body, field(body, rounded), lambda stress: stress.sx)
+        found.append((top.value, top.x, top.z))
+    assert found[0] == pytest.approx((1.0, 0.0, 0.46), abs=1e-2)
+    assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-8)
+
+
+def test_a_sharp_ridge_is_not_smoothed(body):
+    """A cone: its tip, on a node, is the sample's, not the lower one of a cubic."""
+    x, z = body.points.T
+    tip = np.argmin(np.hypot(x - 0.2, z - 0.5))
+    cone = field(body, 1.0 - np.hypot(x - x[tip], z - z[tip]))
+    found = maximum(body, cone, lambda stress: stress.sx)
+    assert (found.value, found.x, found.z) == pytest.approx((1.0, x[tip], z[tip]), abs=2e-2)
+
+
+def test_largest_at_the_surface_stays_there(body):
+    x, z = body.points.T
+    found = maximum(body, field(body, np.exp(-z) - x**2), lambda stress: stress.sx)
+    assert (found.x, found.z) == pytest.approx((0.0, 0.0), abs=1e-2)
+
+
+def test_the_window_limits_the_search(body):
+    x, z = body.points.T
+    slope = field(body, x + z)
+    found = maximum(body, slope, lambda stress: stress.sx, (-0.5, 0.25, 0.5))
+    assert found.value == pytest.approx(0.75, abs=0.03)
+    assert found.x <= 0.25 and found.z <= 0.5
+    with pytest.raises(ValueError, match="no part of the body"):
+        maximum(body, slope, lambda stress: stress.sx, (2.0, 3.0, 1.0))
+
+
+def test_each_material_has_its_own_poissons_ratio(structured_block):
+    """Strain alike on both sides: the quantity tells them apart only by Poisson's ratio."""
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
+    coating = Coating(Material(1.0, 0.1), 0.25)
+    body = elastic_body(mesh, Material(1.0, 0.4), Support(), coating=coating)
+    x, z = body.nodes.T
+    hats, none = np.array([-9.0, 0.0, 9.0]), np.zeros(1)
+    nodal = nodal_stress(body, np.column_stack([x, z]), hats, none)
+    found = maximum(body, nodal, lambda stress: -stress.poissons_ratio)
+    assert found.value == -0.1 and found.z < 0.25
+    found = maximum(body, nodal, lambda stress: stress.sy(stress.poissons_ratio))
+    lame = 0.4 / (1.4 * 0.2)
+    assert found.value == pytest.approx(2.0 * lame) and found.z >= 0.25
+
+
+def test_an_unstressed_body_has_a_largest_value_of_zero(body):
+    nothing = np.zeros(len(body.points))
+    assert maximum(body, field(body, nothing), tau1).value == 0.0
+
+
+@pytest.mark.parametrize(
+    ("sides", "extra"), [("fixed", 0.0087), ("rollers", 0.0147), ("free", 0.0161)]
+)
+def test_a_block_of_100_half_widths_stands_for_a_half_plane(pressed, sides, extra):
+    """Square, bonded below: what the held or free sides add to the largest shear stress."""
+    case = pressed(40, 0.15, 50.0, 100.0, sides=sides)
+    found = maximum(case.body, case.stress(0.0), tau1)
+    assert found.value / case.hertz.tau1_max - 1.0 == pytest.approx(extra, abs=1.5e-3)
+    assert case.pressure.max() == pytest.approx(1.0, abs=5e-4)

@@ -1,0 +1,127 @@
+"""Recovered stresses: exact for linear stresses, of high order for smooth ones."""
+
+import numpy as np
+import pytest
+
+from analytic.material import Material
+from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.triangle import GAUSS, jacobians, reference_nodes, slopes
+from fem.stress.nodes import stress_nodes
+from fem.stress.recovery import element_stress, recovered_stress
+
+MATERIAL = Material(3.0, 0.3)
+
+
+def body_of(structured_block, cells, seed=5):
+    line = np.linspace(-1, 1, cells + 1)
+    mesh = structured_block(line, np.linspace(0, 1, cells // 2 + 1), seed=seed)
+    return elastic_body(mesh, MATERIAL, Support())
+
+
+def stress_of(material, exx, ezz, gxz):
+    shear, nu = material.shear_modulus, material.poissons_ratio
+    bulk = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    return np.stack([bulk + 2 * shear * exx, bulk + 2 * shear * ezz, shear * gxz], axis=-1)
+
+
+def test_linear_stresses_are_recovered_exactly_everywhere(structured_block):
+    body = body_of(structured_block, 8)
+    x, z = body.points.T
+    moved = np.column_stack([x**2 - 0.3 * x * z + z, 0.5 * z**2 + x * z - 2 * x])
+    exact = stress_of(MATERIAL, 2 * x - 0.3 * z, z + x, -0.3 * x + 1 + z - 2)
+    np.testing.assert_allclose(recovered_stress(body, moved), exact, atol=1e-7)
+    elements = element_stress(body, moved, reference_nodes(2))
+    np.testing.assert_allclose(elements, exact[body.mesh.triangles], atol=1e-12)
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3])
+def test_stresses_of_the_degree_below_the_displacements_are_recovered_exactly(
+    structured_block, degree
+):
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5), seed=5)
+    body = elastic_body(mesh, MATERIAL, Support(), degree=degree)
+    power = degree - 1
+
+    def field(x, z):
+        return (x - 0.4 * z + 2.0) ** degree / degree, -((0.3 * x + z + 1.0) ** degree) / degree
+
+    x, z = body.points.T
+    first, second = (x - 0.4 * z + 2.0) ** power, -((0.3 * x + z + 1.0) ** power)
+    exact = stress_of(MATERIAL, first, second, -0.4 * first + 0.3 * second)
+    found = recovered_stress(body, np.column_stack(field(*body.nodes.T)))
+    np.testing.assert_allclose(found, exact, atol=1e-6 if degree > 1 else 1e-12)
+
+
+@pytest.mark.parametrize("thickness", [0.25, 0.5])
+def test_a_jump_at_an_interface_is_kept(structured_block, thickness):
+    """The displacement bends there; linear stresses on both sides, one or two elements thick."""
+    coating = Coating(Material(9.0, 0.2), thickness)
+    mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
+    body = elastic_body(mesh, MATERIAL, Support(), coating=coating)
+    nodes = stress_nodes(body)
+    x, z = body.points.T
+    below = np.maximum(z - thickness, 0.0)
+    moved = np.column_stack([x**2 + below * (x - z), x * z + below * (1.0 + 2.0 * z)])
+    found = recovered_stress(body, moved)
+
+    material = np.zeros(len(nodes.point), dtype=bool)
+    material[nodes.triangles] = body.coated[:, None]
+    x, z = body.points[nodes.point].T
+    coat = stress_of(coating.material, 2 * x, x, z)
+    depth = z - thickness
+    core = stress_of(MATERIAL, 2 * x + depth, x + 1 + 2 * z + 2 * depth, x - z - depth + z + 0 * x)
+    exact = np.where(material[:, None], coat, core)
+    np.testing.assert_allclose(found, exact, atol=1e-6)
+    twice = np.bincount(nodes.point)[nodes.point] == 2
+    assert twice.sum() == 2 * 17 and np.all(z[twice] == thickness)
+
+
+def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block):
+    """Virtual work of the elements' stresses: the load at free points, the reactions at held."""
+    body = body_of(structured_block, 12)
+    load = np.zeros(body.mesh.points.shape)
+    load[body.surface.point] = np.random.default_rng(8).normal(size=(len(body.surface.x), 2))
+    load[body.held] = 0.0
+    stress = element_stress(body, body.solve(load), GAUSS)
+    nodes = body.points[body.mesh.triangles]
+    jacobian = jacobians(nodes, GAUSS)
+    slope = np.einsum("qad,mqdc->mqac", slopes(GAUSS), np.linalg.inv(jacobian))
+    weight = np.abs(np.linalg.det(jacobian)) / 6.0
+    sx, sz, txz = np.moveaxis(stress, -1, 0)
+    tensor = np.stack([np.stack([sx, txz], axis=-1), np.stack([txz, sz], axis=-1)], axis=-1)
+    force = np.zeros_like(load)
+    np.add.at(force, body.mesh.triangles, np.einsum("mq,mqac,mqcd->mad", weight, slope, tensor))
+    np.testing.assert_allclose(force[~body.held], load[~body.held], atol=1e-12)
+    np.testing.assert_allclose(
+        force[body.held].reshape(-1, 2).sum(axis=0), -load.sum(axis=0), atol=1e-11
+    )
+
+
+def test_the_smallest_block_still_has_stresses(structured_block):
+    mesh = structured_block(np.linspace(-1, 1, 3), np.array([0.0, 1.0]))
+    body = elastic_body(mesh, MATERIAL, Support())
+    x, z = body.points.T
+    exact = stress_of(MATERIAL, 0 * x + 1, 0 * x - 2, 0 * x)
+    found = recovered_stress(body, np.column_stack([x, -2 * z]))
+    np.testing.assert_allclose(found, exact, atol=1e-7)
+
+
+def test_a_smooth_solution_is_recovered_with_order(structured_block, exact_forces, manufactured):
+    """Solved, not interpolated. The elements' own stresses at the nodes have order 2 as well, and
+    twenty times the error; the boundary's half patches catch up with the inner ones."""
+    exact = manufactured(MATERIAL)
+    errors, own = [], []
+    for cells in (8, 16, 32):
+        body = body_of(structured_block, cells)
+        moved = body.solve(exact_forces(body.mesh, exact.stress, exact.body_force))
+        truth = np.stack(exact.stress(*body.points.T), axis=-1)
+        error = recovered_stress(body, moved) - truth
+        inner = np.all(np.abs(body.points - [0.0, 0.5]) < [0.7, 0.3], axis=1)
+        errors.append([np.sqrt(np.mean(error[where] ** 2)) for where in (inner, ~inner)])
+        error = element_stress(body, moved, reference_nodes(2)) - truth[body.mesh.triangles]
+        own.append(np.sqrt(np.mean(error[inner[body.mesh.triangles]] ** 2)))
+    inner, outer = np.log2(np.divide(errors[:-1], errors[1:])).T
+    assert np.all((inner > 1.8) & (inner < 2.5)), inner
+    assert np.all((outer > 2.5) & (outer < 3.5)), outer
+    assert errors[-1][0] < 0.1 * own[-1]
+    assert errors[-1][1] < 0.1 * own[-1]
