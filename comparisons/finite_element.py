@@ -25,7 +25,7 @@ from comparisons.operator_difference import no_check, operator_check
 from comparisons.plan import Plan
 from comparisons.problem import Problem
 from comparisons.stages import Stages, peak_memory
-from meshes.grading import merge, reaches_unrefined
+from meshes.refined_ranges import merge, reaches_unrefined
 
 MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
 

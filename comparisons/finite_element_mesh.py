@@ -11,7 +11,7 @@ from comparisons.problem import Problem
 from meshes.block import BlockMesh, BlockSpec
 from meshes.disc import bent
 from meshes.estimate import estimate_unknowns
-from meshes.grading import refined_intervals
+from meshes.refined_ranges import refined_intervals
 from meshes.roughen import roughen
 
 EDGES_PER_HAT = 1  # element edges under each pressure element

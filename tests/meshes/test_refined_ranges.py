@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from meshes.block import BlockSpec
 from meshes.boundary import top_nodes
 from meshes.errors import MeshError
-from meshes.grading import MERGE_EDGES, merge, reaches_unrefined, refined_intervals
+from meshes.refined_ranges import MERGE_EDGES, merge, reaches_unrefined, refined_intervals
 
 SIZE = 0.125
 
