@@ -30,9 +30,9 @@ from comparisons.commands import (
     table,
     verify,
 )
-from comparisons.errors import InputError, SolverError, one_line
-from comparisons.exit_status import ExitStatus
-from comparisons.rank import as_one, is_several
+from comparisons.common.errors import InputError, SolverError, one_line
+from comparisons.common.exit_status import ExitStatus
+from comparisons.common.mpi import as_one, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
@@ -90,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _open_streams()
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
-        from comparisons.watch import watched
+        from comparisons.common.interrupt import watched
 
         return watched(lambda: _carry_out(arguments), f"interrupted; {WATCHED[arguments[0]]}")
     return as_one(lambda: _carry_out(arguments), FINISHED)

@@ -117,8 +117,8 @@ def package_of(path: Path) -> str:
         ("meshes", "from analytic import contact"),
         ("meshes", "import analytic"),
         ("fem", "def f():\n    from analytic.exact.hertz import field"),
-        ("fem", "import importlib\nimportlib.import_module('comparisons.run')"),
-        ("fem", "if TYPE_CHECKING:\n    from comparisons.scene import Scene"),
+        ("fem", "import importlib\nimportlib.import_module('comparisons.runs.run')"),
+        ("fem", "if TYPE_CHECKING:\n    from comparisons.scenes.scene import Scene"),
     ],
 )
 def test_an_import_against_the_arrows_is_seen(package, source):

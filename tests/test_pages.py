@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.budget.budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.budget.choice import SHARE_OF_TOLERANCE
-from comparisons.budget.effects import EFFECTS
-from comparisons.compare import PRESSURE_PER_RESIDUAL
-from comparisons.resolve import resolve_tables
-from comparisons.scene_finite_element import HELD_BLOCK
-from comparisons.uncertainty import DOMAIN, LOWEST_ORDER
+from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL
+from comparisons.assessment.effects.budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
+from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE
+from comparisons.assessment.uncertainty import DOMAIN, LOWEST_ORDER
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.schema.finite_element import HELD_BLOCK
 
 PROJECT = Path(__file__).resolve().parents[1]
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "pages").glob("*.md")}

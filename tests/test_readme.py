@@ -16,26 +16,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comparisons import run as run_module
-from comparisons.budget.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
+from comparisons.assessment.comparison import figures
+from comparisons.assessment.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
-from comparisons.compare import figures
-from comparisons.exit_status import ExitStatus
-from comparisons.files import OWN_FILES
-from comparisons.half_plane import half_plane_level
-from comparisons.outcome import Outcome
-from comparisons.plan import MODELS, make_plan
-from comparisons.problem import problem_of
-from comparisons.quantities import QUANTITIES
-from comparisons.report import overview
-from comparisons.report.style import drawing
-from comparisons.resolve import load_scene, resolve_tables
-from comparisons.scene import ResolvedScene
-from comparisons.scene_file import scene_names
-from comparisons.stages import Stages
-from comparisons.table import SHORT
-from comparisons.window import window_of
+from comparisons.common.exit_status import ExitStatus
+from comparisons.common.files import OWN_FILES
+from comparisons.common.progress import Stages
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.window import window_of
+from comparisons.report.figures.style import drawing
+from comparisons.report.terminal import SHORT
+from comparisons.results.outcome import Outcome
+from comparisons.runs import readme_picture as overview
+from comparisons.runs import run as run_module
+from comparisons.scenes.files import scene_names
+from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.scene import ResolvedScene
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")

@@ -61,13 +61,13 @@ def _levels(seed: int, unknowns: int, repeats: int) -> list:
     """A level of the seed's surface, its stress window left out, solved so many times."""
     from pathlib import Path
 
-    from comparisons.finite_element import finite_element_level
-    from comparisons.finite_element_mesh import Refinement
-    from comparisons.plan import make_plan
-    from comparisons.problem import problem_of
-    from comparisons.resolve import resolve_tables
-    from comparisons.scene_file import find_scene, read_toml
-    from comparisons.stages import Stages
+    from comparisons.common.progress import Stages
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+    from comparisons.models.plan import make_plan
+    from comparisons.models.problem import problem_of
+    from comparisons.scenes.files import find_scene, read_toml
+    from comparisons.scenes.resolve import resolve_tables
 
     tables = dict(read_toml(find_scene(SCENE)))
     tables.pop("stress")

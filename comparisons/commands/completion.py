@@ -5,14 +5,14 @@ from pathlib import Path
 
 def scenes(incomplete: str) -> list[str]:
     """Names of scenes, TOML files and folders that begin so."""
-    from comparisons.scene_file import scene_names
+    from comparisons.scenes.files import scene_names
 
     return [*_beginning(scene_names(), incomplete), *_paths(incomplete)]
 
 
 def maps(incomplete: str) -> list[str]:
     """The same with the names of finished maps."""
-    from comparisons.maps.request import FINISHED
+    from comparisons.studies.maps.request import FINISHED
 
     names = sorted(path.stem for path in FINISHED.glob("*.toml"))
     return [*_beginning(names, incomplete), *scenes(incomplete)]
@@ -20,14 +20,14 @@ def maps(incomplete: str) -> list[str]:
 
 def groups(incomplete: str) -> list[str]:
     """Dimensionless groups that a map may have as an axis."""
-    from comparisons.maps.groups import GROUPS
+    from comparisons.studies.maps.groups import GROUPS
 
     return _beginning(GROUPS, incomplete)
 
 
 def quantities(incomplete: str) -> list[str]:
     """Quantities that are compared."""
-    from comparisons.quantities import QUANTITIES
+    from comparisons.common.quantities import QUANTITIES
 
     return _beginning(QUANTITIES, incomplete)
 

@@ -8,7 +8,7 @@ import typer
 
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, show, show_file
-from comparisons.exit_status import ExitStatus
+from comparisons.common.exit_status import ExitStatus
 
 
 def cost(
@@ -25,9 +25,9 @@ def cost(
 
 
 def _cost(scene: str, out: Path | None, repeats: int, as_json: bool) -> int:
-    from comparisons.cost import cost as measured_cost
-    from comparisons.cost_table import cost_summary
-    from comparisons.resolve import load_scene
+    from comparisons.scenes.resolve import load_scene
+    from comparisons.studies.cost.cost import cost as measured_cost
+    from comparisons.studies.cost.table import cost_summary
 
     resolved = load_scene(scene)
     directory = out or RESULTS / f"{resolved.name}-cost"

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from comparisons.commands.arguments import Job, json_option
 from comparisons.commands.output import progress, show, show_json
-from comparisons.exit_status import ExitStatus
+from comparisons.common.exit_status import ExitStatus
 
 
 def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> Job:
@@ -15,8 +15,8 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
 
 
 def _doctor(as_json: bool) -> int:
-    from comparisons.doctor import doctor as examined
-    from comparisons.doctor import doctor_table
+    from comparisons.commands.doctor_checks import doctor as examined
+    from comparisons.commands.doctor_checks import doctor_table
 
     with progress() as listener:
         checks = examined(listener)

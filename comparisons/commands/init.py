@@ -9,7 +9,7 @@ import typer
 
 from comparisons.commands.arguments import Job, json_option
 from comparisons.commands.output import is_watched, show, show_json
-from comparisons.exit_status import ExitStatus
+from comparisons.common.exit_status import ExitStatus
 
 
 def init(
@@ -35,8 +35,8 @@ def init(
 def _init(
     profile: Path, out: Path | None, asked: dict[str, str | int | None], force: bool, as_json: bool
 ) -> int:
-    from comparisons.init.asked import asked_fields
-    from comparisons.init.begin import begin
+    from comparisons.studies.init.asked import asked_fields
+    from comparisons.studies.init.begin import begin
 
     begun = begin(profile, out, asked_fields(asked), force)
     if as_json:
@@ -44,7 +44,7 @@ def _init(
         return ExitStatus.DONE
     from rich.console import Console
 
-    from comparisons.init.table import init_table
+    from comparisons.studies.init.table import init_table
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(begun, Console().width - 1 if is_watched() else None, unicode))

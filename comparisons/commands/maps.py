@@ -9,8 +9,8 @@ import typer
 from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, json_option
 from comparisons.commands.output import progress, show, show_json
-from comparisons.exit_status import ExitStatus
-from comparisons.rank import from_first
+from comparisons.common.exit_status import ExitStatus
+from comparisons.common.mpi import from_first
 
 Axis = typer.Option(
     help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=completion.groups
@@ -46,11 +46,11 @@ def map_of(
 def _map(
     asked: tuple[str | None, ...], workers: str | None, out: Path | None, as_json: bool
 ) -> int:
-    from comparisons.maps.request import request_of
+    from comparisons.studies.maps.request import request_of
 
     request = from_first(lambda: request_of(*asked))
     directory = out or RESULTS / request.name
-    from comparisons.maps.command import exit_status, mapped
+    from comparisons.studies.maps.command import exit_status, mapped
 
     with progress() as listener:
         content = mapped(request, directory, workers, listener)
@@ -59,7 +59,7 @@ def _map(
     if as_json:
         show_json(content)
     else:
-        from comparisons.maps.table import map_table
+        from comparisons.studies.maps.table import map_table
 
         show(map_table(content, directory))
     return exit_status(content)

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from comparisons.errors import one_line
-from comparisons.rank import is_several
-from comparisons.stages import Listener, silent
+from comparisons.common.errors import one_line
+from comparisons.common.mpi import is_several
+from comparisons.common.progress import Listener, silent
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 
@@ -19,7 +19,7 @@ def progress() -> Iterator[Listener]:
     if not sys.stderr.isatty():
         yield silent
         return
-    from comparisons.progress_bar import progress_bar
+    from comparisons.common.progress_bar import progress_bar
 
     with progress_bar() as listener:
         yield listener

@@ -21,14 +21,14 @@ def paper(
 
 
 def _paper(out: Path | None, as_json: bool) -> int:
-    from comparisons.paper.reproduce import paper as reproduced
+    from comparisons.studies.paper.reproduce import paper as reproduced
 
     with progress() as listener:
         found = reproduced(out or RESULTS / "paper", listener=listener)
     if as_json:
         show_json(found.as_dict())
     else:
-        from comparisons.paper.table import paper_table
+        from comparisons.studies.paper.table import paper_table
 
         show(paper_table(found))
     return found.exit_status

@@ -8,7 +8,7 @@ import typer
 
 from comparisons.commands.arguments import RESULTS, Job, json_option
 from comparisons.commands.output import progress, say, show, show_json
-from comparisons.rank import from_first
+from comparisons.common.mpi import from_first
 
 
 def report(
@@ -31,8 +31,8 @@ def report(
 def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool) -> int:
     if summary is None and len(folders) > 1:
         summary = RESULTS / "summary.html"
-    from comparisons.exit_status import ExitStatus
-    from comparisons.report.again import draw_again, reports_content, reports_table
+    from comparisons.common.exit_status import ExitStatus
+    from comparisons.report.redraw import draw_again, reports_content, reports_table
 
     with progress() as listener:
         reports = from_first(lambda: draw_again(folders, summary, pdf, listener))

@@ -20,8 +20,8 @@ def rerun(
 
 
 def _rerun(folder: Path, out: Path | None, as_json: bool) -> int:
-    from comparisons.rerun import rerun as repeat
-    from comparisons.rerun_table import rerun_summary
+    from comparisons.runs.rerun import rerun as repeat
+    from comparisons.runs.rerun_table import rerun_summary
 
     with progress() as listener:
         repetition = repeat(folder, out, listener)

@@ -11,8 +11,8 @@ import typer
 from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, say, show, show_json
-from comparisons.errors import InputError, SceneError
-from comparisons.rank import from_first, is_first
+from comparisons.common.errors import InputError, SceneError
+from comparisons.common.mpi import from_first, is_first
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
@@ -54,18 +54,18 @@ def _run(
     as_json: bool,
 ) -> int:
     chosen = _models(models)
-    from comparisons.files import check_writable
-    from comparisons.plausible import doubts_about, doubts_about_result
-    from comparisons.resolve import load_scene
+    from comparisons.common.files import check_writable
+    from comparisons.results.plausibility import doubts_about, doubts_about_result
+    from comparisons.scenes.resolve import load_scene
 
     resolved = from_first(lambda: load_scene(scene))
     if tolerance is not None:
-        from comparisons.tolerance import with_tolerance
+        from comparisons.scenes.tolerance import with_tolerance
 
         resolved = with_tolerance(resolved, tolerance)
     directory = out or RESULTS / resolved.name
     from_first(lambda: check_writable(directory))
-    from comparisons.run import run as run_scene
+    from comparisons.runs.run import run as run_scene
 
     doubts = doubts_about(resolved)
     if sys.stderr.isatty():  # whoever waits need not wait for that
@@ -81,7 +81,7 @@ def _run(
     if as_json:
         show_json(outcome.result)
     else:
-        from comparisons.table import summary
+        from comparisons.report.terminal import summary
 
         show(summary(outcome))
     _say_doubts([*doubts, *doubts_about_result(outcome)])
@@ -91,7 +91,7 @@ def _run(
 def _say_doubts(doubts: list[str]) -> None:
     if not (doubts and is_first()):
         return
-    from comparisons.table import PLAIN
+    from comparisons.report.terminal import PLAIN
 
     for doubt in doubts:
         say(f"doubtful: {doubt.translate(PLAIN)}")
@@ -99,7 +99,7 @@ def _say_doubts(doubts: list[str]) -> None:
 
 def _print(directory: Path) -> None:
     """Print the report; without a browser say so, the run is none the worse for it."""
-    from comparisons.pdf import NoPdfError, print_report
+    from comparisons.report.pdf import NoPdfError, print_report
 
     try:
         print_report(directory)

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from comparisons.commands.arguments import Job, json_option
 from comparisons.commands.output import show_json
-from comparisons.exit_status import ExitStatus
+from comparisons.common.exit_status import ExitStatus
 
 
 def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> Job:
@@ -14,7 +14,7 @@ def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = F
 
 
 def _scenes(as_json: bool) -> int:
-    from comparisons.scene_file import scene_titles
+    from comparisons.scenes.files import scene_titles
 
     titles = scene_titles()
     if as_json:

@@ -21,8 +21,8 @@ def stability(
 
 
 def _stability(out: Path | None, as_json: bool) -> int:
-    from comparisons.stability.run import run_stability
-    from comparisons.stability.table import stability_table
+    from comparisons.studies.robustness.run import run_stability
+    from comparisons.studies.robustness.table import stability_table
 
     with progress() as listener:
         result = run_stability(out or RESULTS / "stability", listener)

@@ -8,7 +8,7 @@ import typer
 
 from comparisons.commands.arguments import Job
 from comparisons.commands.output import show_json
-from comparisons.exit_status import ExitStatus
+from comparisons.common.exit_status import ExitStatus
 
 
 def table(
@@ -25,7 +25,7 @@ def table(
 
 
 def _table(folders: list[Path], out: Path | None, as_json: bool) -> int:
-    from comparisons.tidy import as_csv, check_ending, tidy_rows, write_table
+    from comparisons.results.flat_table import as_csv, check_ending, tidy_rows, write_table
 
     if out is not None:
         check_ending(out)

@@ -22,8 +22,8 @@ def verify(
 
 
 def _verify(out: Path | None, report: Path | None, as_json: bool) -> int:
-    from comparisons.verify import verify as verify_all
-    from comparisons.verify_table import verify_summary
+    from comparisons.studies.verify.table import verify_summary
+    from comparisons.studies.verify.verify import verify as verify_all
 
     directory = out or RESULTS / "verify"
     with progress() as listener:

@@ -5,17 +5,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.outcome import Outcome
-from comparisons.quantities import QUANTITIES
-from comparisons.report.numbers import (
+from comparisons.assessment.verdict import Standing, half_space_verdict
+from comparisons.common.numbers import (
     given_percent,
     percent,
     plain,
     significant,
     with_unit,
 )
-from comparisons.report.words import LABELS, MODELS, label
-from comparisons.verdict import Standing, half_space_verdict
+from comparisons.common.quantities import QUANTITIES
+from comparisons.common.words import LABELS, MODELS, label
+from comparisons.results.outcome import Outcome
 
 Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from jinja2 import Environment
     from markupsafe import Markup
 
-FOLDER = Path(__file__).parent
+FOLDER = Path(__file__).parent / "templates"
 UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
 BAR = re.compile(r"\|(?=τ)")
 STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"

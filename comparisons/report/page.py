@@ -2,11 +2,16 @@
 
 from dataclasses import dataclass
 
-from comparisons.outcome import Outcome
-from comparisons.report.budget_rows import budget_rows
-from comparisons.report.comparison_rows import comparison_rows, figure_rows
-from comparisons.report.coupling import coupling_table
-from comparisons.report.evidence import (
+from comparisons.common.words import MODELS
+from comparisons.report.field_values import look_of
+from comparisons.report.figures.style import Picture, drawing
+from comparisons.report.headline import headline
+from comparisons.report.html import inline, rendered
+from comparisons.report.tables.budget import budget_rows
+from comparisons.report.tables.comparison import comparison_rows, figure_rows
+from comparisons.report.tables.compliance_check import operator_note, operator_table
+from comparisons.report.tables.coupling import coupling_table
+from comparisons.report.tables.evidence import (
     check_table,
     commands,
     convergence_tables,
@@ -15,13 +20,8 @@ from comparisons.report.evidence import (
     record_rows,
     refinement_text,
 )
-from comparisons.report.headline import headline
-from comparisons.report.html import inline, rendered
-from comparisons.report.look import look_of
-from comparisons.report.operator import operator_note, operator_table
-from comparisons.report.sheet import problem_sheet
-from comparisons.report.style import Picture, drawing
-from comparisons.report.words import MODELS
+from comparisons.report.tables.problem import problem_sheet
+from comparisons.results.outcome import Outcome
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Pictures:
 
 def render(outcome: Outcome) -> str:
     """The page of a finished run; equal outcomes give equal text."""
-    script, policy = inline("look.js")
+    script, policy = inline("field_values.js")
     return rendered(
         "page.html.j2",
         script=script,
@@ -75,15 +75,15 @@ def render(outcome: Outcome) -> str:
 
 def draw(outcome: Outcome) -> Pictures:
     """Draw what applies to the run."""
-    from comparisons.report.budget_picture import budget_picture
-    from comparisons.report.cost_picture import cost_picture
-    from comparisons.report.field_pictures import field_pictures, near_surface_pictures
-    from comparisons.report.mesh_picture import mesh_pictures
-    from comparisons.report.pressure_pictures import close_up_picture, pressure_picture
-    from comparisons.report.problem_picture import problem_picture
-    from comparisons.report.running_in_picture import running_in_picture
-    from comparisons.report.section_pictures import section_pictures
-    from comparisons.report.surface_picture import surface_picture
+    from comparisons.report.figures.budget import budget_picture
+    from comparisons.report.figures.cost import cost_picture
+    from comparisons.report.figures.fields import field_pictures, near_surface_pictures
+    from comparisons.report.figures.mesh import mesh_pictures
+    from comparisons.report.figures.pressures import close_up_picture, pressure_picture
+    from comparisons.report.figures.problem import problem_picture
+    from comparisons.report.figures.running_in import running_in_picture
+    from comparisons.report.figures.sections import section_pictures
+    from comparisons.report.figures.surfaces import surface_picture
 
     with drawing():
         return Pictures(

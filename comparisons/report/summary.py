@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
-from comparisons.outcome import Outcome
-from comparisons.quantities import QUANTITIES
+from comparisons.common.numbers import given_percent, percent, scale_of, significant
+from comparisons.common.quantities import QUANTITIES
+from comparisons.common.words import LABELS, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
-from comparisons.report.numbers import given_percent, percent, scale_of, significant
-from comparisons.report.sheet import GROUPS
-from comparisons.report.words import LABELS, label
+from comparisons.report.tables.problem import GROUPS
+from comparisons.results.outcome import Outcome
 
 FIGURES = ("peak_pressure", "contact_length", "tau1_max")
 # What a row may show, in the order of columns: name, head.

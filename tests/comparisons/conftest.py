@@ -23,19 +23,19 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, PlaneStress
-from comparisons.budget.budget import error_budget
-from comparisons.checkpoint import Checkpoint
-from comparisons.compare import compared, pair_histories
-from comparisons.level import Level, MeshField, ModelRun, StressResult, Window
-from comparisons.outcome import Outcome
-from comparisons.plan import make_plan
-from comparisons.problem import Problem, problem_of
-from comparisons.record import digest, record_of
+from comparisons.assessment.comparison import compared, pair_histories
+from comparisons.assessment.effects.budget import error_budget
+from comparisons.common.progress import silent
+from comparisons.models.level import Level, MeshField, ModelRun, StressResult, Window
+from comparisons.models.level_cache import Checkpoint
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.report.figures.style import Picture
 from comparisons.report.page import Pictures
-from comparisons.report.style import Picture
-from comparisons.resolve import resolve_tables
-from comparisons.result import result_of
-from comparisons.stages import silent
+from comparisons.results.outcome import Outcome
+from comparisons.results.record import digest, record_of
+from comparisons.results.result_json import result_of
+from comparisons.scenes.resolve import resolve_tables
 from meshes.block import BlockMesh, BlockSpec
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -149,7 +149,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         comparisons = compared(problem, runs, window)
         kept = Checkpoint(Path("results/made"), scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
-        with patch("comparisons.budget.budget.sampling_changes", lambda *_: rows):
+        with patch("comparisons.assessment.effects.budget.sampling_changes", lambda *_: rows):
             budget = error_budget(problem, plan, window, runs, comparisons, (), kept, silent)
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()

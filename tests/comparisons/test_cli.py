@@ -11,13 +11,13 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.commands.run import MODELS
-from comparisons.errors import InputError
-from comparisons.exit_status import ExitStatus
-from comparisons.scene_file import scene_titles
+from comparisons.common.errors import InputError
+from comparisons.common.exit_status import ExitStatus
+from comparisons.scenes.files import scene_titles
 
 ROOT = Path(__file__).parents[2]
 HEAVY = (
-    "comparisons.scene_schema",
+    "comparisons.scenes.schema.scene",
     "pint",
     "numpy",
     "scipy",
@@ -30,7 +30,7 @@ HEAVY = (
 
 
 class Run:
-    """Stands for `comparisons.run`: remembers its call, then returns or raises `result`."""
+    """Stands for `comparisons.runs.run`: remembers its call, then returns or raises `result`."""
 
     def __init__(self) -> None:
         self.calls = []
@@ -52,10 +52,10 @@ class Run:
 @pytest.fixture
 def solver(monkeypatch, tmp_path):
     run = Run()
-    monkeypatch.setitem(sys.modules, "comparisons.run", run)
+    monkeypatch.setitem(sys.modules, "comparisons.runs.run", run)
     table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
-    monkeypatch.setitem(sys.modules, "comparisons.table", table)
-    monkeypatch.setattr("comparisons.plausible.doubts_about_result", lambda outcome: [])
+    monkeypatch.setitem(sys.modules, "comparisons.report.terminal", table)
+    monkeypatch.setattr("comparisons.results.plausibility.doubts_about_result", lambda outcome: [])
     monkeypatch.chdir(tmp_path)
     return run
 
@@ -206,7 +206,7 @@ def test_doctor_shows_its_table(capsys, monkeypatch, works, status):
     module = types.SimpleNamespace(
         doctor=lambda listener: checks, doctor_table=lambda shown: f"{len(shown)} checks"
     )
-    monkeypatch.setitem(sys.modules, "comparisons.doctor", module)
+    monkeypatch.setitem(sys.modules, "comparisons.commands.doctor_checks", module)
     assert main(["doctor"]) == status
     assert capsys.readouterr() == ("2 checks\n", "")
 

@@ -8,7 +8,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
-from comparisons.verify_blocks import forces_of, structured
+from comparisons.studies.verify.blocks import forces_of, structured
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance

@@ -11,7 +11,7 @@ from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import self_affine, sinusoid
 
-SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/profiles"
+SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/library/profiles"
 MEASURED = Path(__file__).parents[3].parent / "shared/profiles"
 UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
 

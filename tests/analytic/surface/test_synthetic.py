@@ -11,7 +11,7 @@ from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import ground_texture, self_affine, sinusoid, smooth
 
-SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/profiles"
+SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/library/profiles"
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
 GROUND = {
     "rms_height": 0.4608e-6,

@@ -6,8 +6,8 @@ from html.parser import HTMLParser
 
 import pytest
 
-from comparisons.outcome import Outcome
 from comparisons.report.page import render
+from comparisons.results.outcome import Outcome
 
 VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

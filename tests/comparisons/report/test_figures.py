@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from comparisons.cli import app
-from comparisons.outcome import Outcome
-from comparisons.report.comparison_rows import comparison_rows
 from comparisons.report.headline import headline
 from comparisons.report.page import render
+from comparisons.report.tables.comparison import comparison_rows
+from comparisons.results.outcome import Outcome
 
 UNITS = {"GPa": 1e9, "MPa": 1e6, "kPa": 1e3, "Pa": 1.0, "m": 1.0, "mm": 1e-3, "µm": 1e-6}
 UNITS |= {"nm": 1e-9, "%": 1e-2, "": 1.0}

@@ -9,17 +9,18 @@ import pytest
 from matplotlib.transforms import Bbox
 
 from analytic.material import Material
-from comparisons.budget.effects import EFFECTS
-from comparisons.outcome import Outcome
-from comparisons.report import pressure_pictures, problem_picture
-from comparisons.report.budget_picture import LOOKS
-from comparisons.report.evidence import convergence_tables, effects_table, refinement_text
-from comparisons.report.field_layout import colour_bar, fill, layout, round_bands
+from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.report.figures import pressures as pressure_pictures
+from comparisons.report.figures import problem as problem_picture
+from comparisons.report.figures.budget import LOOKS
+from comparisons.report.figures.field_layout import colour_bar, fill, layout, round_bands
+from comparisons.report.figures.style import drawing
 from comparisons.report.headline import headline
-from comparisons.report.operator import FOUND, READING
-from comparisons.report.sheet import problem_sheet
-from comparisons.report.style import drawing
-from comparisons.scene import Coated, Yielding
+from comparisons.report.tables.compliance_check import FOUND, READING
+from comparisons.report.tables.evidence import convergence_tables, effects_table, refinement_text
+from comparisons.report.tables.problem import problem_sheet
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import Coated, Yielding
 
 HARD = Coated(Material(400e9, 0.22), 20e-6)
 GREY = np.array([0.299, 0.587, 0.114])  # of red, green and blue, as a printer sees them

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.outcome import Outcome
 from comparisons.report.page import render
+from comparisons.results.outcome import Outcome
 
 ROOT = "{http://www.w3.org/2000/svg}"
 LINK = "{http://www.w3.org/1999/xlink}href"

@@ -1,13 +1,13 @@
 """Finite elements by the method of manufactured solutions, as `crosscheck verify` runs it.
 
-Requirement, reference and tolerances: `comparisons.verify_manufactured`.
+Requirement, reference and tolerances: `comparisons.studies.verify.manufactured`.
 """
 
 import numpy as np
 import pytest
 
-from comparisons.verify_blocks import forces_of
-from comparisons.verify_manufactured import (
+from comparisons.studies.verify.blocks import forces_of
+from comparisons.studies.verify.manufactured import (
     BODIES,
     BODY,
     Exact,

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from analytic.surface.readers.columns import ProfileError, read_profile
 
-SHIPPED = Path(__file__).parents[4] / "comparisons/scenes/profiles"
+SHIPPED = Path(__file__).parents[4] / "comparisons/scenes/library/profiles"
 X = [0.0, 0.5, 1.5, 2.0, 4.25]
 HEIGHT = [0.125, -3.0, 2.5, 0.0, -0.75]
 

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.outcome import Outcome
-from comparisons.pdf import browser as installed
-from comparisons.pdf import options
+from comparisons.report.pdf import browser as installed
+from comparisons.report.pdf import options
+from comparisons.results.outcome import Outcome
 
 PATIENCE = 120.0  # s, for one answer
 # The browser reads its orders from the third file that it inherits, and answers on the fourth.

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from comparisons.outcome import Outcome
-from comparisons.report.field_pictures import COMPONENTS
+from comparisons.report.figures.fields import COMPONENTS
+from comparisons.results.outcome import Outcome
 
 WIDTH = 1280
 NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"

@@ -7,9 +7,9 @@ from unittest.mock import patch
 
 import pytest
 
-from comparisons.outcome import Outcome
-from comparisons.pdf import NoPdfError, print_pdf, print_report
 from comparisons.report.page import Pictures, render
+from comparisons.report.pdf import NoPdfError, print_pdf, print_report
+from comparisons.results.outcome import Outcome
 
 A4 = (594.96, 841.92)  # points, as a browser rounds them
 POINTS_TO_PIXELS = 96.0 / 72.0

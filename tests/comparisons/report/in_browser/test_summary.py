@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.outcome import Outcome
 from comparisons.report.summary import SummaryRow, summary_page, summary_row
+from comparisons.results.outcome import Outcome
 
 ENTER = 13
 

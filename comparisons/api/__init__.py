@@ -1,0 +1,226 @@
+"""crosscheck's steps as plain functions, for notebooks and scripts: scene in, result out.
+
+    from comparisons import api
+
+A scene is the name of one that comes along, the path of a TOML file, or its tables as a dict:
+
+>>> scene = {
+...     "title": "Steel on steel",
+...     "roller": {"radius": "8.2 mm", "youngs_modulus": "207 GPa", "poissons_ratio": 0.3},
+...     "body": {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3},
+...     "load": {"hertz_peak_pressure": "1 GPa", "friction": [0.0, 0.1]},
+...     "stress": {"points": [60, 20]},
+... }
+>>> found = run(scene, models="half-plane")
+>>> round(found.result["models"]["half_plane"][0]["contact"]["peak_pressure"] / 1e9, 4)
+1.0
+
+Results print as the tables of the command line; in a notebook they are shown as such. All figures
+are those of `result.json`, in SI units. Nothing is written unless a folder is given.
+
+>>> print(found)  # doctest: +ELLIPSIS
+Steel on steel
+...
+peak pressure   0, 0.1  1.000 GPa ...
+
+`found.plot` draws, `found.rows` is a table for pandas: `pandas.DataFrame(found.rows)`.
+
+>>> axes = found.plot.pressure()
+>>> axes[0].get_ylabel()
+'p/p₀'
+>>> [round(r["half_plane"], 3) for r in found.rows if r["quantity"] == "contact_ratio"]
+[1.0, 1.0]
+"""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from comparisons.api.results import CostStudy, Figures, Map, Run
+from comparisons.common.errors import InputError
+from comparisons.common.progress import Listener, silent
+from comparisons.models.plan import MODELS
+from comparisons.results.field_files import AUTOMATIC
+from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.scenes.tolerance import with_tolerance
+
+if TYPE_CHECKING:
+    from comparisons.studies.maps.executors import Workers
+
+__all__ = ["compare", "cost", "load", "map", "read", "report", "run"]
+
+Scene = ResolvedScene | Mapping | str | os.PathLike
+"""A scene as loaded, as tables, by its name or by its path."""
+
+
+def load(scene: Scene, tolerance: float | None = None) -> ResolvedScene:
+    """The scene with its profile in place, SI units.
+
+    scene      a name, a path, or tables as TOML has them (paths in them count from here)
+    tolerance  relative, of all that is judged, in place of the scene's own
+    Raises SceneError, one line, for anything that is wrong with it.
+
+    >>> load("sinusoid").load
+    Load(kind='hertz_peak_pressure', value=1000000000.0)
+    >>> load({"roller": {}})
+    Traceback (most recent call last):
+    comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length
+    above 0: \
+a number in m or "8.2 mm"
+    """
+    if isinstance(scene, Mapping):
+        name = "scene"
+        scene = resolve_tables(scene, name=name, folder=Path("."), source=name)
+    elif not isinstance(scene, ResolvedScene):
+        scene = load_scene(scene)
+    return scene if tolerance is None else with_tolerance(scene, tolerance)
+
+
+def run(
+    scene: Scene,
+    models: str | Sequence[str] = MODELS,
+    *,
+    tolerance: float | None = None,
+    out: str | os.PathLike | None = None,
+    fields: str = AUTOMATIC,
+    progress: Listener = silent,
+) -> Run:
+    """Solve a scene, compare the models, judge: what `crosscheck run` does.
+
+    models    half-plane, finite-element, or both
+    out       folder for the files of the run; None writes none
+    fields    format of the stress fields in files: auto, vtu, vtkhdf, msh
+    progress  is told each stage as it begins
+    Raises SceneError for a wrong scene, SolverError where no solution is found.
+
+    >>> coarse = {
+    ...     "roller": {"radius": 8e-3, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
+    ...     "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3},
+    ...     "load": {"per_length": 1e6},
+    ...     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5},
+    ...     "resolution": {"pitch": "20 um", "levels": 2},
+    ...     "finite_element": {"block": 20},
+    ...     "budget": {"effects": False},
+    ... }
+    >>> found = run(coarse)
+    >>> found.verdict
+    'holds'
+    >>> len(found.result["comparison"])
+    4
+    """
+    from comparisons.runs.run import run as run_scene
+
+    chosen = tuple(name for name in MODELS if name in _models(models))
+    place = None if out is None else Path(out)
+    return Run(run_scene(load(scene, tolerance), place, chosen, progress, fields))
+
+
+def read(folder: str | os.PathLike) -> Run:
+    """A run from the folder that it has left; nothing is solved.
+
+    Raises InputError where there is none.
+    """
+    from comparisons.report.saved import read_outcome
+
+    return Run(read_outcome(Path(folder)))
+
+
+def compare(*runs: Run) -> Figures:
+    """The figures of several runs, a row for each run, friction coefficient and quantity.
+
+    >>> light, heavy = (
+    ...     run(
+    ...         {
+    ...             "title": f"{load} N/m",
+    ...             "roller": {"radius": 8e-3, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
+    ...             "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3},
+    ...             "load": {"per_length": load},
+    ...         },
+    ...         "half-plane",
+    ...     )
+    ...     for load in (1e6, 4e6)
+    ... )
+    >>> both = compare(light, heavy)
+    >>> peaks = [row["half_plane"] for row in both.rows if row["quantity"] == "peak_pressure"]
+    >>> round(peaks[1] / peaks[0], 4)
+    2.0
+    """
+    if not runs:
+        raise InputError("compare: is given no run; allowed is at least one")
+    return Figures(tuple(row for each in runs for row in each.rows))
+
+
+def cost(
+    scene: Scene,
+    *,
+    repeats: int = 3,
+    out: str | os.PathLike | None = None,
+    progress: Listener = silent,
+) -> CostStudy:
+    """Error against run time of every method that applies: what `crosscheck cost` does.
+
+    It takes minutes. `out` keeps what was measured, and goes on from there.
+    """
+    from comparisons.studies.cost.cost import cost as measured
+
+    with TemporaryDirectory() as scratch:
+        place = Path(scratch) / "cost" if out is None else Path(out)
+        return CostStudy(measured(load(scene), place, repeats, progress))
+
+
+def map(
+    scene: str | os.PathLike,
+    points: str = "8x8",
+    *,
+    x: str | None = None,
+    y: str | None = None,
+    quantity: str = "peak_pressure",
+    workers: "Workers | int | None" = None,
+    out: str | os.PathLike | None = None,
+    progress: Listener = silent,
+) -> Map:
+    """The half-plane's own error over two dimensionless groups: what `crosscheck map` does.
+
+    scene    a name or a path
+    points   along x and y, "NxM"
+    x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
+    workers  processes, one a core by default
+    It takes minutes. `out` keeps each point, and goes on from there.
+    """
+    from comparisons.studies.maps.make import make_map
+    from comparisons.studies.maps.request import request_of
+
+    request = request_of(os.fspath(scene), points, x, y, quantity)
+    with TemporaryDirectory() as scratch:
+        place = Path(scratch) / "map" if out is None else Path(out)
+        content = make_map(request, place, workers, progress)
+    return Map(content, None if out is None else place)
+
+
+def report(found: Run, path: str | os.PathLike) -> Path:
+    """Write the report of a run, one page that needs no network; returns its path.
+
+    Raises InputError where there is no folder for it.
+    """
+    from comparisons.common.files import write_whole
+    from comparisons.report.page import render
+
+    path = Path(path)
+    if not path.parent.is_dir() or path.is_dir():
+        raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
+    write_whole(path, render(found.outcome))
+    return path
+
+
+def _models(given: str | Sequence[str]) -> list[str]:
+    names = [given] if isinstance(given, str) else list(given)
+    plain = [name.replace("-", "_") for name in names]
+    for name, each in zip(names, plain, strict=True):
+        if each not in MODELS:
+            raise InputError(f"models: there is no model {name}; allowed are {', '.join(MODELS)}")
+    if not plain:
+        raise InputError(f"models: is empty; allowed are {', '.join(MODELS)}")
+    return plain

@@ -1,0 +1,169 @@
+"""What the functions of `comparisons.api` return: figures, tables that print themselves, plots."""
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.errors import InputError
+from comparisons.report.plots import Plots
+from comparisons.results.flat_table import Row, rows_of
+from comparisons.results.outcome import Outcome
+from comparisons.studies.cost.cost import Cost
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from rich.console import RenderableType
+
+COLUMNS = 100  # of text; a notebook's cell is as wide
+PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
+
+
+class Printed:
+    """Prints as text and shows as HTML what `_table` returns for rich."""
+
+    def _table(self) -> "RenderableType":
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        from rich.console import Console
+
+        console = Console(file=io.StringIO(), width=COLUMNS, force_terminal=False)
+        console.print(self._table())
+        lines = console.file.getvalue().splitlines()
+        return "\n".join(line.rstrip() for line in lines)
+
+    def _repr_html_(self) -> str:
+        from rich.console import Console
+
+        console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
+        console.print(self._table())
+        return console.export_html(inline_styles=True, code_format=PAGE)
+
+
+@dataclass(frozen=True, repr=False)
+class Run(Printed):
+    """A finished run.
+
+    outcome  everything that was computed
+    """
+
+    outcome: Outcome
+
+    @property
+    def result(self) -> dict:
+        """Every figure, as result.json has it, SI units."""
+        return self.outcome.result
+
+    @property
+    def verdict(self) -> str:
+        """Of the half-plane here: holds, fails or undecided."""
+        return self.result["half_space"]["verdict"]
+
+    @property
+    def rows(self) -> list[Row]:
+        """The figures as records, one a friction coefficient and quantity
+        (`comparisons.results.flat_table`)."""
+        return rows_of(self.result, str(self.outcome.directory or self.outcome.problem.scene.name))
+
+    @property
+    def plot(self) -> Plots:
+        """What draws the run."""
+        return Plots(self.outcome)
+
+    def contact(self, model: str = "half_plane") -> dict[str, np.ndarray]:
+        """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
+        from comparisons.models.deformed import deformed_height
+
+        if model not in self.outcome.runs:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(self.outcome.runs)}")
+        level = self.outcome.runs[model].finest
+        return {
+            "x": level.grid.x,
+            "pressure": level.solution.pressure,
+            "gap": level.solution.gap,
+            "deformed_height": deformed_height(self.outcome.problem, level),
+        }
+
+    def _table(self) -> "RenderableType":
+        from comparisons.report.terminal import summary
+
+        return summary(self.outcome)
+
+
+@dataclass(frozen=True, repr=False)
+class Figures(Printed):
+    """Figures of several runs, as records (`comparisons.results.flat_table`)."""
+
+    rows: tuple[Row, ...]
+
+    def _table(self) -> "RenderableType":
+        from rich import box
+        from rich.table import Table
+
+        from comparisons.common.numbers import percent, with_unit
+        from comparisons.report.terminal import PLAIN, SHORT
+
+        table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
+        for name in ("run", "quantity", "mu", "half-plane", "finite elements", "own error"):
+            table.add_column(name, justify="left" if name in ("run", "quantity") else "right")
+        for row in self.rows:
+            values = (row["half_plane"], row["finite_element"])
+            cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]
+            own = row["own_error"]
+            cells.append("" if own is None else percent(own, signed=True))
+            head = (row["title"], SHORT[row["quantity"]], f"{row['friction']:g}")
+            table.add_row(*(cell.translate(PLAIN) for cell in (*head, *cells)))
+        return table
+
+
+@dataclass(frozen=True, repr=False)
+class CostStudy(Printed):
+    """Error against time of every method on one scene."""
+
+    study: Cost
+
+    def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
+        """The diagram of a quantity."""
+        from comparisons.report.figures.style import handed_over
+        from comparisons.studies.cost.picture import cost_picture
+
+        if quantity not in self.study.references:
+            allowed = ", ".join(self.study.references)
+            raise InputError(f"quantity: is {quantity}; allowed is {allowed}")
+        with handed_over() as drawn:
+            cost_picture(self.study, quantity)
+        return drawn[0].axes
+
+    def _table(self) -> "RenderableType":
+        from comparisons.studies.cost.table import cost_summary
+
+        return cost_summary(self.study)
+
+
+@dataclass(frozen=True, repr=False)
+class Map(Printed):
+    """Where the half-plane holds; `content` is that of map.json, in `folder` if it was kept."""
+
+    content: dict
+    folder: Path | None
+
+    def plot(self) -> "list[Axes]":
+        """The map."""
+        from comparisons.report.figures.style import handed_over
+        from comparisons.studies.maps.picture import map_figure
+
+        with handed_over():
+            return map_figure(self.content).axes
+
+    def _table(self) -> "RenderableType":
+        from rich.console import Group
+
+        from comparisons.studies.maps.table import map_table
+
+        if self.folder is not None:
+            return map_table(self.content, self.folder)
+        *lines, _ = map_table(self.content, Path()).renderables  # the last one says where it is
+        return Group(*lines)

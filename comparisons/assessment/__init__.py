@@ -1,0 +1,1 @@
+"""From levels to figures with uncertainties and verdicts."""

@@ -1,0 +1,152 @@
+"""What the half-plane's figures become where sliding traction moves the surfaces.
+
+Traction that slides along unlike bodies also moves their surfaces up and down, by friction times
+Dundurs' beta (`analytic.operators.tangential`), which the published method and the finite elements
+leave out. The half-plane is solved both ways on its finest pressure elements, so that the
+difference is that of the mechanics alone.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analytic.contact.patches import CLEAR
+from analytic.grid import HatGrid
+from comparisons.assessment.comparison import figures, norms
+from comparisons.common.progress import Listener, Stages
+from comparisons.models.half_plane import half_plane_on
+from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.plan import no_coupling
+from comparisons.models.problem import Problem, ground
+
+SHIFT = "contact_shift"
+OFF_THE_GROUND = "moved by friction, the contact reaches the end of the body"
+
+
+@dataclass(frozen=True)
+class Change:
+    """A figure with the surfaces moved by friction, and what that changes.
+
+    value       [SI]; None for the norm of a difference
+    difference  relative to the figure without, None where that is zero and this is not; of a
+                shift, over the Hertz half-width
+    """
+
+    value: float | None
+    difference: float | None
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """The change of the half-plane at one friction coefficient.
+
+    changes     by quantity; contact_shift is that of the pressure's centroid along x
+    converged   whether the solution with and the one without met their contact conditions
+    iterations  of the solution that the model's own figures are compared with
+    seconds     that it took
+    why         no changes: the reason, else None
+    """
+
+    friction: float
+    changes: dict[str, Change]
+    converged: bool = True
+    iterations: dict[str, int] | None = None
+    seconds: float = 0.0
+    why: str | None = None
+
+    def as_dict(self) -> dict | None:
+        """For result.json; None without changes."""
+        if not self.changes:
+            return None
+        return {
+            **{
+                name: {"value": change.value, "difference": change.difference}
+                for name, change in self.changes.items()
+            },
+            "converged": self.converged,
+            "iterations": self.iterations,
+            "seconds": self.seconds,
+        }
+
+
+def couplings(
+    problem: Problem, run: ModelRun, window: Window | None, listener: Listener
+) -> tuple[Coupling, ...]:
+    """One for each friction coefficient of the scene, from the finished half-plane."""
+    found = []
+    for friction in problem.scene.friction:
+        why = no_coupling(problem, friction)
+        found.append(
+            _coupling(problem, run.finest, friction, window, listener)
+            if why is None
+            else Coupling(friction, {}, why=why)
+        )
+    return tuple(found)
+
+
+def _coupling(
+    problem: Problem, own: Level, friction: float, window: Window | None, listener: Listener
+) -> Coupling:
+    stages = Stages(lambda _: listener("half-plane: surfaces moved by friction"))
+    size = friction * problem.dundurs_beta
+    # of the level's own answer and of the other one, the one with the surfaces moved
+    other_size = 0.0 if problem.coupling else size
+    # friction moves the contact by at most about mu beta of its own half-length
+    more = int(np.ceil(0.5 * abs(size) * own.grid.count))
+    while True:
+        grid = _stretched(problem, own.grid, more)
+        other = half_plane_on(problem, grid, other_size, (friction,), window, stages)
+        pressure = other.solution.pressure
+        if not (pressure[:CLEAR].any() or pressure[-CLEAR:].any()):
+            break
+        more *= 2
+        if _stretched(problem, own.grid, more) == grid:
+            return Coupling(friction, {}, why=OFF_THE_GROUND)
+    own = _spread(own, grid)
+    moved, still = (own, other) if problem.coupling else (other, own)
+    return Coupling(
+        friction=friction,
+        changes=_changes(problem, moved, still, friction, window),
+        converged=moved.solution.converged and still.solution.converged,
+        iterations=other.solution.iterations,
+        seconds=sum(stages.seconds.values()),
+    )
+
+
+def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
+    """The grid with so many more elements at either end, as far as there is ground."""
+    start, stop = ground(problem.scene)
+    first, last = grid.first - more, grid.last + more
+    if np.isfinite(start):
+        widest = HatGrid.within(start, stop, grid.pitch)
+        first, last = max(first, widest.first), min(last, widest.last)
+    return HatGrid(grid.pitch, min(first, grid.first), max(last, grid.last))
+
+
+def _spread(level: Level, grid: HatGrid) -> Level:
+    """The level with its pressures on a longer grid of the same pitch."""
+    before, after = level.grid.first - grid.first, grid.last - level.grid.last
+    pressure = np.pad(level.solution.pressure, (before, after))
+    return replace(level, grid=grid, solution=replace(level.solution, pressure=pressure))
+
+
+def _changes(
+    problem: Problem, moved: Level, still: Level, friction: float, window: Window | None
+) -> dict[str, Change]:
+    one, other = figures(moved, problem, friction), figures(still, problem, friction)
+    found = {name: Change(one[name], _relative(one[name], other[name])) for name in one}
+    shift = _centroid(moved) - _centroid(still)
+    found[SHIFT] = Change(shift, shift / problem.hertz.half_width)
+    between = norms(moved, still, problem, friction, window)
+    return found | {name: Change(None, size) for name, size in between.items()}
+
+
+def _relative(value: float, before: float) -> float | None:
+    if value == before:
+        return 0.0
+    return value / before - 1.0 if before else None
+
+
+def _centroid(level: Level) -> float:
+    pressure = level.solution.pressure
+    return float(level.grid.x @ pressure / pressure.sum())

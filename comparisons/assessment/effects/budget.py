@@ -1,0 +1,197 @@
+"""The error budget of a finished comparison."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from comparisons.assessment.coupling import Coupling
+from comparisons.assessment.effects.contributions import Parts, bodies_for, parts_of
+from comparisons.assessment.effects.levels import Bodies, NotComputedError, processes_beside
+from comparisons.assessment.effects.model_error import OwnError, own_errors
+from comparisons.assessment.effects.sampling import sampling_changes
+from comparisons.assessment.effects.selection import NONLINEAR, Choice, choose
+from comparisons.assessment.verdict import Comparison, Standing
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import Listener
+from comparisons.models.level import ModelRun, Window
+from comparisons.models.level_cache import Checkpoint
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+
+LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
+SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
+GROWTH_OF_TIME = 3.5  # from one level to the next, at most
+
+
+@dataclass(frozen=True)
+class ErrorBudget:
+    """What separates the half-plane from the finite elements, and both from the surface.
+
+    choice     which effects were computed
+    levels     that the effects were taken to; 0 where the difference could not be split
+    unsplit    why it could not, else None
+    own        of each quantity at each friction coefficient
+    sampling   by friction and quantity: what half the samples of the trace change; empty without
+    seconds    that the effects took
+    """
+
+    choice: Choice
+    levels: int
+    unsplit: str | None
+    own: tuple[OwnError, ...]
+    sampling: dict[float, dict[str, float]]
+    seconds: float
+
+    def of(self, quantity: str, friction: float) -> OwnError:
+        """Of one quantity."""
+        return next(o for o in self.own if (o.quantity, o.friction) == (quantity, friction))
+
+    def standings(self, tolerance: Mapping[str, float]) -> list[Standing]:
+        """Where the half-plane stands in every quantity that has a tolerance."""
+        return [
+            Standing(
+                own.quantity,
+                own.friction,
+                own.value,
+                own.uncertainty,
+                self.choice.unshown(own.quantity),
+                tolerance[own.quantity],
+            )
+            for own in self.own
+            if own.quantity in tolerance
+        ]
+
+
+def error_budget(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    runs: dict[str, ModelRun],
+    rows: tuple[Comparison, ...],
+    couplings: tuple[Coupling, ...],
+    checkpoint: Checkpoint,
+    listener: Listener,
+) -> ErrorBudget:
+    """Choose the effects that may matter, solve them, and split the difference of the models.
+
+    An effect that cannot be solved is left out with the reason, and stands with its estimate.
+    """
+    peak = float(runs["half_plane"].finest.solution.pressure.max())
+    choice = choose(problem, peak, couplings)
+    if not plan.effects:
+        asked = choice.added | set(choice.impossible)
+        choice = choice.without(asked, "not asked for (budget.effects)")
+    unsplit = None
+    with processes_beside() as beside:
+        bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener, beside)
+        while True:
+            try:
+                levels, own = _refined(problem, window, runs, rows, choice, bodies)
+                break
+            except NotComputedError as error:
+                dropped = _blamed(choice, error)
+                if not dropped:  # what the scene itself has cannot be taken apart
+                    levels, own, unsplit = 0, _unsplit(rows), str(error)
+                    break
+                choice = choice.without(dropped, str(error))
+    sampling = {}
+    if problem.scene.profile is not None:
+        listener("error budget: sampling of the trace")
+        sampling = from_first(
+            lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
+        )
+    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, bodies.seconds)
+
+
+def _refined(
+    problem: Problem,
+    window: Window | None,
+    runs: dict[str, ModelRun],
+    rows: tuple[Comparison, ...],
+    choice: Choice,
+    bodies: Bodies,
+) -> tuple[int, list[OwnError]]:
+    """The half-plane's own errors, and the level that the effects were taken to for them.
+
+    Raises NotComputedError where an effect has no answer on the least levels.
+    """
+    history: dict[float, list[Parts]] = {mu: [] for mu in problem.scene.friction}
+    own: list[OwnError] = []
+    asked = problem.scene.budget.levels or MOST_LEVELS
+    most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
+    for number in range(1, most + 1):
+        bodies.prepare(bodies_for(problem, choice), number)
+        try:
+            new = {mu: parts_of(problem, bodies, choice, mu, number) for mu in history}
+        except NotComputedError:
+            if number <= LEAST_LEVELS:
+                raise
+            break
+        for friction, parts in new.items():
+            history[friction].append(parts)
+        own = [
+            error
+            for friction, parts in history.items()
+            for error in own_errors(
+                problem,
+                window,
+                runs,
+                [row for row in rows if row.friction == friction],
+                parts,
+                choice,
+            )
+        ]
+        if number >= LEAST_LEVELS and _settled(rows, own):
+            break
+        if number >= LEAST_LEVELS and _is_beyond(problem, runs, bodies, number):
+            break
+    return len(next(iter(history.values()))), own
+
+
+def _is_beyond(problem: Problem, runs: dict[str, ModelRun], bodies: Bodies, number: int) -> bool:
+    """Whether one more level of the effects would exceed the time, by the laws of cost: clocks
+    would give another machine other figures."""
+    spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
+    spent += sum(bodies.expected_of(each) for each in range(1, number + 1))
+    finer = GROWTH_OF_TIME * bodies.expected_of(number)
+    return spent + finer > problem.scene.budget.time
+
+
+def _unsplit(rows: tuple[Comparison, ...]) -> list[OwnError]:
+    """The models' differences as they are."""
+    return [
+        OwnError(
+            row.quantity,
+            row.friction,
+            {},
+            0.0,
+            row.difference,
+            math.inf if row.uncertainty is None else row.uncertainty,
+        )
+        for row in rows
+    ]
+
+
+def _settled(rows: tuple[Comparison, ...], own: list[OwnError]) -> bool:
+    """Whether the effects add little to the uncertainty of every judged figure."""
+    found = {(e.quantity, e.friction): e.uncertainty - e.stand_in for e in own}
+    return all(
+        found[row.quantity, row.friction]
+        <= (row.uncertainty or 0.0) + SHARE_OF_TOLERANCE * row.tolerance
+        for row in rows
+        if row.tolerance is not None
+    )
+
+
+def _blamed(choice: Choice, error: NotComputedError) -> frozenset[str]:
+    """The added effects without which a body that has no answer is not needed.
+
+    A nonlinear effect for its own body, a linear one for its own, all where they fail together.
+    """
+    effects = error.body.effects & choice.added
+    nonlinear = effects & set(NONLINEAR)
+    if nonlinear:
+        return nonlinear
+    if len(error.body.effects) == 1 and effects:
+        return effects
+    return choice.added

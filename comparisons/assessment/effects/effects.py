@@ -1,0 +1,167 @@
+"""The half-plane's assumptions, each as an effect that finite elements may have or lack.
+
+A scene is taken apart into the plain half-plane's scene and its effects, and put together again
+with any of them: that is how each one is measured by itself. Finite strain is the exception: at
+finite deformation the gap is at the displaced place, the boundary is the real one and the sliding
+traction moves it, so that its effect is measured beside a linear body that has all these.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+from comparisons.models.nearest_operator import is_layered
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One assumption that is dropped.
+
+    words       what there is then, for tables
+    contained   whether a scene's finite elements have it
+    applies     whether it could differ from the half-plane at all in a scene
+    give        puts what `whole` has of it into a plainer scene
+    """
+
+    words: str
+    contained: Callable[[ResolvedScene], bool]
+    applies: Callable[[Problem], bool]
+    give: Callable[[ResolvedScene, ResolvedScene], ResolvedScene]
+
+
+def _set(**settings: object) -> Callable[[ResolvedScene, ResolvedScene], ResolvedScene]:
+    def give(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
+        return replace(scene, finite_element=replace(scene.finite_element, **settings))
+
+    return give
+
+
+def _is(name: str, value: object) -> Callable[[ResolvedScene], bool]:
+    return lambda scene: getattr(scene.finite_element, name) == value
+
+
+def _bounded(scene: ResolvedScene) -> bool:
+    return scene.thickness is not None or scene.width is not None
+
+
+def _give_bounds(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
+    return replace(scene, thickness=whole.thickness, width=whole.width, base=whole.base)
+
+
+def _give_flow(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
+    settings = replace(scene.finite_element, plastic=True)
+    return replace(scene, finite_element=settings, yielding=whole.yielding)
+
+
+def _always(problem: Problem) -> bool:
+    return True
+
+
+EFFECTS: dict[str, Effect] = {
+    "finite body": Effect(
+        "the body's own thickness and width",
+        _bounded,
+        lambda problem: _bounded(problem.scene),
+        _give_bounds,
+    ),
+    "coating": Effect(
+        "the coating",
+        lambda scene: scene.coating is not None,
+        lambda problem: problem.scene.coating is not None,
+        lambda scene, whole: replace(scene, coating=whole.coating),
+    ),
+    "real boundary": Effect(
+        "the trace as boundary",
+        _is("geometry", "rough"),
+        lambda problem: problem.scene.profile is not None,
+        _set(geometry="rough"),
+    ),
+    "displaced gap": Effect(
+        "the gap at the displaced place, along the roller's normal",
+        _is("gap", "displaced"),
+        _always,
+        _set(gap="displaced"),
+    ),
+    "circle": Effect(
+        "the roller's circle", _is("roller_shape", "circle"), _always, _set(roller_shape="circle")
+    ),
+    "disc": Effect(
+        "the roller's finite body",
+        _is("roller_body", "disc"),
+        lambda problem: problem.scene.roller is not None,
+        _set(roller_body="disc"),
+    ),
+    "coupling": Effect(
+        "sliding traction that moves the surfaces",
+        lambda scene: scene.finite_element.coupled and not scene.coupled,
+        lambda problem: (
+            (problem.dundurs_beta != 0.0 or is_layered(problem.scene))
+            and any(problem.scene.friction)
+            and not problem.scene.coupled
+        ),
+        _set(coupled=True),
+    ),
+    "finite strain": Effect(
+        "strains and rotations that are not small",
+        _is("deformation", "finite"),
+        _always,
+        _set(deformation="finite"),
+    ),
+    "plastic flow": Effect(
+        "flow in place of the cap on the pressure",
+        _is("plastic", True),
+        lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
+        _give_flow,
+    ),
+}
+
+
+# What finite deformation has whatever the scene says.
+IN_FINITE_STRAIN = "displaced gap"
+
+
+def contained(scene: ResolvedScene) -> frozenset[str]:
+    """Names of the effects that the scene's own finite elements have."""
+    names = {name for name, effect in EFFECTS.items() if effect.contained(scene)}
+    return frozenset(names | ({IN_FINITE_STRAIN} if "finite strain" in names else set()))
+
+
+def is_taken_apart(scene: ResolvedScene) -> bool:
+    """Whether the scene's finite elements are the half-plane's and effects, and nothing else."""
+    own = scene
+    if scene.finite_element.deformation == "finite":
+        own = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
+    return with_effects(scene, contained(scene)) == own
+
+
+def plain(scene: ResolvedScene) -> ResolvedScene:
+    """The scene as the half-plane takes it."""
+    settings = replace(
+        scene.finite_element,
+        geometry="flat",
+        gap="reference",
+        roller_shape="parabola",
+        roller_body="half-plane",
+        coupled=scene.coupled,
+        deformation="linear",
+        plastic=False,
+    )
+    return replace(
+        scene,
+        thickness=None,
+        width=None,
+        base=None,
+        coating=None,
+        yielding=None,
+        finite_element=settings,
+    )
+
+
+def with_effects(scene: ResolvedScene, names: Iterable[str]) -> ResolvedScene:
+    """The scene with the named effects and no others."""
+    made = plain(scene)
+    for name in EFFECTS:
+        if name in names:
+            made = EFFECTS[name].give(made, scene)
+    return made

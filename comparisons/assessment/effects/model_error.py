@@ -1,0 +1,172 @@
+"""The half-plane's own error: what is left when numerics are accounted for, split into effects.
+
+All is relative to the whole, the finite elements with every effect, so that the same error is found
+whether they are added here or switched on in the scene. Figures: what the models differ by on their
+finest level, and what the scene's own finite elements still lack of the whole, on the level that
+the effects were taken to. Norms do not add: theirs are those of the half-plane against the whole,
+on that level; the far boundary counts as in the models' difference.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.assessment.comparison import (
+    PRESSURE_PER_RESIDUAL,
+    length_resolution,
+    pair_history,
+    reference_share,
+)
+from comparisons.assessment.effects.contributions import Parts
+from comparisons.assessment.effects.quantities_of_interest import Answer, answer_of, sizes
+from comparisons.assessment.effects.selection import Choice
+from comparisons.assessment.effects.variants import strain_doubt
+from comparisons.assessment.uncertainty import grid_convergence, two_grids
+from comparisons.assessment.verdict import Comparison
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.level import ModelRun, Window
+from comparisons.models.problem import Problem
+
+LENGTHS = ("contact_length", "contact_ratio")
+
+
+@dataclass(frozen=True)
+class Share:
+    """A relative size with its uncertainty, absolute in the same measure."""
+
+    value: float
+    uncertainty: float
+
+
+@dataclass(frozen=True)
+class OwnError:
+    """Of one quantity at one friction coefficient, relative to the whole.
+
+    effects      by name, what each changes in the finite elements
+    interaction  what the linear effects change together beyond their sum
+    value        (half-plane - whole) / whole, or the norm of that difference
+    uncertainty  of `value`
+    stand_in     the part of that which refinement cannot lower: how well the stand-in's strain
+                 tells that of two bodies
+    """
+
+    quantity: str
+    friction: float
+    effects: dict[str, Share]
+    interaction: float
+    value: float
+    uncertainty: float
+    stand_in: float = 0.0
+
+
+def own_errors(
+    problem: Problem,
+    window: Window | None,
+    runs: dict[str, ModelRun],
+    rows: list[Comparison],
+    history: list[Parts],
+    choice: Choice,
+) -> list[OwnError]:
+    """One for each row, all of one friction coefficient.
+
+    rows     the models' comparison at that friction
+    history  the effects there on the first levels, coarse to fine
+    """
+    friction, last = rows[0].friction, history[-1]
+    whole = [parts.own + parts.lacking for parts in history]
+    half_plane = [
+        answer_of(level, problem, friction) for level in runs["half_plane"].levels[: len(history)]
+    ]
+    residual = max(
+        level.solution.residuals.worst
+        for run in runs.values()
+        for level in (run.finest, run.levels[len(history) - 1])
+    )
+    grid = runs["finite_element"].levels[len(history) - 1]
+    edge = 2.0 * length_resolution(grid.grid.pitch, len(grid.patches)) / grid.contact_length
+
+    def share(name: str, changes: list[Answer]) -> Share:
+        if QUANTITIES[name].of_pair:
+            values = [
+                sizes(change, reference, problem, window)[name]
+                for change, reference in zip(changes, whole, strict=True)
+            ]
+        else:  # by one scale: a place may jump to the surface on one level alone
+            scale = _scale(whole[-1].figures[name], name, problem)
+            values = [change.figures[name] / scale for change in changes]
+        if not any(values):
+            return Share(0.0, 0.0)
+        doubt = _doubt(values, name, edge)
+        return Share(values[-1], doubt + PRESSURE_PER_RESIDUAL * residual)
+
+    lacking = [parts.lacking for parts in history]
+    own = [one - other for one, other in zip(half_plane, whole, strict=True)]
+    pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
+    found = []
+    for row in rows:
+        name = row.quantity
+        effects = {
+            effect: share(name, [parts.effects[effect] for parts in history])
+            for effect in last.effects
+        }
+        stand_in = 0.0
+        if "finite strain" in effects:
+            strain = effects["finite strain"]
+            stand_in = strain_doubt(problem) * abs(strain.value)
+            effects["finite strain"] = Share(strain.value, strain.uncertainty + stand_in)
+        numerical = np.inf if row.uncertainty is None else row.uncertainty
+        missing = share(name, lacking)
+        if not QUANTITIES[name].of_pair:
+            value, doubt = _of_figure(row, numerical, last.lacking.figures[name], missing, problem)
+        elif _is_any(last.lacking):
+            norm, there = share(name, own), pair.norms[len(history) - 1][name]
+            # norms of two levels may agree by chance: by parts, after the triangle's inequality
+            apart = numerical + abs(there - row.difference) + missing.uncertainty
+            value = norm.value
+            doubt = max(norm.uncertainty + pair.uncertainties[name].domain, apart)
+        else:
+            value, doubt = row.difference, numerical
+        found.append(
+            OwnError(
+                name,
+                friction,
+                effects,
+                sizes(last.interaction, whole[-1], problem, window)[name],
+                value,
+                doubt + stand_in,
+                stand_in,
+            )
+        )
+    return found
+
+
+def _of_figure(
+    row: Comparison, numerical: float, lacking: float, missing: Share, problem: Problem
+) -> tuple[float, float]:
+    """Error of a figure and its uncertainty, relative to the whole.
+
+    numerical  uncertainty of the models' difference, relative to the finite elements
+    lacking    what these lack of the whole [SI]; `missing` the same, relative to the whole
+    """
+    whole = row.finite_element + lacking
+    scale = _scale(whole, row.quantity, problem)
+    numerical *= _scale(row.finite_element, row.quantity, problem) / scale
+    doubt = numerical + reference_share(row.half_plane / scale) * missing.uncertainty
+    return (row.half_plane - whole) / scale, doubt
+
+
+def _scale(figure: float, name: str, problem: Problem) -> float:
+    """What differences are measured by [SI]: the figure, the Hertz contact's where it vanishes."""
+    return abs(figure) or QUANTITIES[name].scale(problem.hertz)
+
+
+def _doubt(values: list[float], name: str, edge: float) -> float:
+    """Discretisation uncertainty of a difference of bodies on two levels or more."""
+    resolution = edge if name in LENGTHS else 0.0
+    if len(values) < 3:
+        return two_grids(values, resolution)
+    return grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
+
+
+def _is_any(answer: Answer) -> bool:
+    return bool(np.any(answer.pressure)) or any(answer.figures.values())

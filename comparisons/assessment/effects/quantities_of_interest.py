@@ -1,0 +1,75 @@
+"""What a model answers on one level, as something that can be added and subtracted.
+
+The effects of assumptions are differences of answers on the same pressure elements and the same
+field points; figures, pressures and fields alike.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from comparisons.assessment.comparison import figures, pair_norms
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.level import Level, Window
+from comparisons.models.problem import Problem
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Of one model at one friction coefficient, or a difference of such.
+
+    figures    by compared quantity, SI
+    pressure   (n,) [Pa] at the nodes of the level's pressure elements
+    tau1       (m, k) [Pa] on the common window, None without [stress]
+    """
+
+    figures: dict[str, float]
+    pressure: np.ndarray
+    tau1: np.ndarray | None
+
+    def __add__(self, other: Answer) -> Answer:
+        return Answer(
+            {name: value + other.figures[name] for name, value in self.figures.items()},
+            self.pressure + other.pressure,
+            None if self.tau1 is None else self.tau1 + other.tau1,
+        )
+
+    def __mul__(self, factor: float) -> Answer:
+        return Answer(
+            {name: factor * value for name, value in self.figures.items()},
+            factor * self.pressure,
+            None if self.tau1 is None else factor * self.tau1,
+        )
+
+    def __sub__(self, other: Answer) -> Answer:
+        return self + other * -1.0
+
+
+def answer_of(level: Level, problem: Problem, friction: float) -> Answer:
+    """The answer of a solved level; `problem` is the one that it solves."""
+    stress = level.stress(friction)
+    return Answer(
+        figures(level, problem, friction),
+        level.solution.pressure,
+        None if stress is None else stress.field.tau1,
+    )
+
+
+def sizes(
+    difference: Answer, reference: Answer, problem: Problem, window: Window | None
+) -> dict[str, float]:
+    """A difference relative to a whole answer, by quantity in the order of QUANTITIES.
+
+    Figures keep their sign; norms are relative L2. What vanishes is measured by the Hertz contact.
+    """
+    found = {
+        name: value / (abs(reference.figures[name]) or QUANTITIES[name].scale(problem.hertz))
+        for name, value in difference.figures.items()
+    }
+    moved = reference + difference
+    found |= pair_norms(
+        (moved.pressure, reference.pressure), (moved.tau1, reference.tau1), problem, window
+    )
+    return {name: found[name] for name in QUANTITIES if name in found}

@@ -1,0 +1,101 @@
+"""Which effects a run computes: those that may move a judged figure by a share of its tolerance."""
+
+from dataclasses import dataclass, replace
+
+from comparisons.assessment.coupling import Coupling
+from comparisons.assessment.effects.effects import EFFECTS, contained
+from comparisons.assessment.effects.estimates import Sizes, estimates
+from comparisons.common.mpi import is_several
+from comparisons.models.problem import Problem
+
+SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
+# Names of effects whose bodies are not linear: they are measured beside the linear ones.
+NONLINEAR = ("finite strain", "plastic flow")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What becomes of every effect.
+
+    contained    the scene's own finite elements have it
+    added        computed beside, for the verdict
+    left_out     too small by its estimate to matter, each with it
+    impossible   would matter, but cannot be computed here: the reason
+    estimates    of all that apply, by effect and quantity
+    """
+
+    contained: frozenset[str]
+    added: frozenset[str]
+    left_out: dict[str, Sizes]
+    impossible: dict[str, str]
+    estimates: dict[str, Sizes]
+
+    @property
+    def whole(self) -> frozenset[str]:
+        """Effects that the verdict's finite elements have."""
+        return self.contained | self.added
+
+    def without(self, names: frozenset[str], why: str) -> "Choice":
+        """The same with some of the added effects given up for a reason."""
+        impossible = self.impossible | dict.fromkeys(names, why)
+        return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
+
+    def unshown(self, quantity: str) -> Sizes:
+        """Estimates on a quantity of the effects that no model has, by name."""
+        open_effects = set(self.left_out) | set(self.impossible)
+        return {
+            name: sizes[quantity]
+            for name, sizes in self.estimates.items()
+            if name in open_effects and quantity in sizes
+        }
+
+
+def choose(problem: Problem, peak: float, couplings: tuple[Coupling, ...]) -> Choice:
+    """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure."""
+    own, tolerance = contained(problem.scene), problem.scene.tolerance
+    applying = {name for name, effect in EFFECTS.items() if effect.applies(problem)}
+
+    def matters(sizes: Sizes) -> bool:
+        return any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
+
+    # strain is judged beside the linear effects, so these are settled first
+    first = estimates(problem, peak, own, couplings)
+    linear = own | {
+        name
+        for name, sizes in first.items()
+        if name in applying and name not in NONLINEAR and matters(sizes)
+    }
+    sized = {
+        name: sizes
+        for name, sizes in estimates(problem, peak, linear, couplings).items()
+        if name in applying
+    }
+    added, left_out, impossible = set(), {}, {}
+    for name, sizes in sized.items():
+        if name in own:
+            continue
+        why = why_not(name, problem)
+        if not matters(sizes):
+            left_out[name] = sizes
+        elif why is not None:
+            impossible[name] = why
+        else:
+            added.add(name)
+    return Choice(own, frozenset(added), left_out, impossible, sized)
+
+
+def why_not(name: str, problem: Problem) -> str | None:
+    """Why an effect cannot be computed in a scene, or None."""
+    scene = problem.scene
+    if name == "plastic flow":
+        return None if scene.yielding is not None else "the body has no yield stress"
+    if name == "finite strain":
+        for hindered, why in (
+            (scene.finite_element.plastic, "flow is of small deformation"),
+            (scene.hardness is not None, "a cap on the pressure is of small deformation"),
+            (scene.coating is not None, "the body is coated"),
+            (is_several(), "it is solved on one process"),
+        ):
+            if hindered:
+                return why
+    return None

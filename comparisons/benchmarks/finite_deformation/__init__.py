@@ -1,0 +1,1 @@
+"""What linear kinematics leaves out."""

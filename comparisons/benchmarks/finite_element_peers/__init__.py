@@ -1,0 +1,1 @@
+"""Contact on finite elements beside general finite-element codes."""

@@ -1,0 +1,1 @@
+"""The half-plane solver beside other codes."""

@@ -1,0 +1,1 @@
+"""How the half-plane solver's time and memory grow."""

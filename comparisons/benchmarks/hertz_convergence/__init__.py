@@ -1,0 +1,1 @@
+"""How the finite elements' error of Hertz's contact falls."""

@@ -1,0 +1,1 @@
+"""Time of subsurface stresses against direct summation."""

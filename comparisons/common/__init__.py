@@ -1,0 +1,1 @@
+"""What knows nothing of contact: errors, progress, processes, files, numbers, units, names."""

@@ -1,0 +1,119 @@
+"""Fresh processes that do one thing after the other, and that an interrupt ends at once.
+
+A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
+large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is left to wait for.
+"""
+
+import multiprocessing
+import signal
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from multiprocessing.connection import Connection
+from threading import Lock, Thread
+from typing import TypeVar
+
+from comparisons.studies.maps.executors import ONE_THREAD, begin, environment
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+Call = Callable[..., Result]  # call(work, *given): work(*given) there
+
+_starting = Lock()  # two that start at once would mistake each other's environment for their own
+
+
+class ProcessEnded(Exception):
+    """The process ended before it had answered."""
+
+
+@contextmanager
+def fresh_process() -> Iterator[Call]:
+    """Start one on one thread at the first call; the end of the block kills it.
+
+    What it is called with, and its answers, go through pickle. A call raises what the work raises,
+    and ProcessEnded.
+    """
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    alive, held = context.Pipe(duplex=False)
+    process = context.Process(target=_serve, args=(theirs, alive))
+
+    def call(work: Callable[..., Result], *given: object) -> Result:
+        if process.pid is None:
+            with _starting, environment(ONE_THREAD), _interrupts_later():
+                process.start()
+            theirs.close()  # or its end would not be heard
+        try:
+            ours.send((work, given))
+            good, answer = ours.recv()
+        except (EOFError, OSError) as error:
+            raise ProcessEnded(str(error)) from error
+        if good:
+            return answer
+        raise answer
+
+    with ours, theirs, alive, held:
+        try:
+            yield call
+        finally:
+            if process.pid is not None:
+                process.kill()  # within a long factorisation it hears of nothing else
+                process.join()
+
+
+def share_out(
+    items: Iterable[Item], here: Callable[[Item], None], there: Sequence[Callable[[Item], None]]
+) -> None:
+    """Have every item worked on: `here` in this thread, `there` each in one of its own, which
+    waits for a process.
+
+    What a process had in hand when it ended is worked on here. The first error ends the rest, and
+    is raised.
+    """
+    left, errors = deque(items), []
+
+    def serve(work: Callable[[Item], None]) -> None:
+        while left and not errors:
+            try:
+                item = left.popleft()
+            except IndexError:  # another one was quicker
+                return
+            try:
+                work(item)
+            except ProcessEnded:
+                left.append(item)
+                return
+            except Exception as error:
+                errors.append(error)
+
+    threads = [Thread(target=serve, args=(work,), daemon=True) for work in there]
+    for thread in threads:
+        thread.start()
+    serve(here)
+    for thread in threads:
+        thread.join()
+    serve(here)
+    if errors:
+        raise errors[0]
+
+
+def _serve(pipe: Connection, alive: Connection) -> None:
+    begin(alive)
+    while True:
+        work, given = pipe.recv()
+        try:
+            answer = True, work(*given)
+        except Exception as error:
+            answer = False, error
+        pipe.send(answer)
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """A process that starts must not hear a Ctrl-C before it leaves that to this one, which hears
+    it a moment later."""
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)

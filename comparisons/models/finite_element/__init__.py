@@ -1,0 +1,1 @@
+"""The finite-element model of a scene on one level of refinement."""

@@ -1,0 +1,159 @@
+"""The factored bodies of a scene: the rough one, and an elastic roller's own where it needs one."""
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, fields
+from typing import TypeVar
+
+import numpy as np
+
+from analytic.material import Material
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.mesh import (
+    Refinement,
+    block_spec,
+    roller_mesh,
+    roller_spec,
+    rough_mesh,
+)
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from fem.body.elasticity import Coating, ElasticBody, elastic_body
+from fem.body.support import Support
+from meshes.block import BlockMesh, BlockSpec
+from meshes.build import build_block
+
+Result = TypeVar("Result")
+
+UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
+KEPT = 2  # of the body and of the roller
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """What presses and is pressed.
+
+    rough         the rough body
+    roller        the roller's own body; None: rigid, or the rough body's block serves for both
+    roller_share  of the rough body's own compliance that an elastic roller without a body of its
+                  own adds: the ratio of their moduli, 0 for a rigid one
+    """
+
+    rough: ElasticBody
+    roller: ElasticBody | None
+    roller_share: float
+
+    @property
+    def all(self) -> tuple[ElasticBody, ...]:
+        return (self.rough,) if self.roller is None else (self.rough, self.roller)
+
+    @property
+    def factor_memory(self) -> int:
+        """Bytes that their factors hold."""
+        return sum(body.factor.bytes for body in self.all)
+
+
+class BodyStore:
+    """The latest meshes and factored bodies: what asks for the same again shares them.
+
+    Loads, friction coefficients and profiles in the gap change neither; what is asked for next is
+    mostly the same or never comes back, so that few are kept.
+    """
+
+    def __init__(self) -> None:
+        self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()
+        self._bodies: OrderedDict[Hashable, ElasticBody] = OrderedDict()
+
+    def mesh(self, spec: BlockSpec) -> BlockMesh:
+        """The flat mesh of a spec."""
+        return _kept(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
+
+    def body(
+        self, shape: Hashable, make: Callable[[], ElasticBody], *properties: Hashable
+    ) -> ElasticBody:
+        """The body of a shape and its properties, made and factored where it is new."""
+        return _kept(self._bodies, (shape, *properties), make)
+
+
+def bodies_of(
+    problem: Problem,
+    plan: Plan,
+    refinement: Refinement,
+    patches: np.ndarray,
+    stages: Stages,
+    store: BodyStore,
+) -> Bodies:
+    """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    spec = block_spec(problem, refinement, patches)
+    beyond = 0.5 if refinement.halved else np.inf
+    within = (
+        beyond * spec.half_width if scene.width is None else np.inf,
+        beyond * spec.depth if scene.thickness is None else np.inf,
+    )
+    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
+    support = Support(scene.base or "bonded", sides, within)
+    with stages.stage("mesh", "finite elements: mesh"):
+        flat = store.mesh(spec)
+        mesh = rough_mesh(problem, flat)
+    shape = _key(spec) if mesh is flat else None
+    coating = None
+    if scene.coating is not None:
+        coating = Coating(scene.coating.material, scene.coating.thickness)
+    rough = _body(mesh, shape, scene.body, support, settings.degree, coating, stages, store)
+    if scene.roller is None:
+        return Bodies(rough, None, 0.0)
+    if plan.shared_factor:
+        share = scene.body.youngs_modulus / scene.roller.youngs_modulus
+        return Bodies(rough, None, share)
+    wanted = roller_spec(problem, spec)
+    with stages.stage("mesh", "finite elements: mesh of the roller"):
+        flat = store.mesh(wanted)
+        mesh = roller_mesh(problem, flat)
+    shape = (_key(wanted), settings.roller_body, scene.roller_radius)
+    within = beyond * wanted.half_width, beyond * wanted.depth
+    support = Support("bonded", UNBOUNDED_SIDES, within)
+    if settings.roller_body == "disc":
+        support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
+    roller = _body(mesh, shape, scene.roller, support, settings.degree, None, stages, store)
+    return Bodies(rough, roller, 0.0)
+
+
+def _body(
+    mesh: BlockMesh,
+    shape: Hashable,
+    material: Material,
+    support: Support,
+    degree: int,
+    coating: Coating | None,
+    stages: Stages,
+    store: BodyStore,
+) -> ElasticBody:
+    def make() -> ElasticBody:
+        with stages.stage("assembly", "finite elements: assembly"):
+            body = elastic_body(mesh, material, support, degree=degree, coating=coating)
+        with stages.stage("factorisation", "finite elements: factorisation"):
+            _ = body.factor
+        return body
+
+    if shape is None:  # a boundary of its own
+        return make()
+    return store.body(shape, make, material, support, degree, coating)
+
+
+def _key(spec: BlockSpec) -> Hashable:
+    """The spec's fields as something that can be looked up."""
+    values = (getattr(spec, field.name) for field in fields(spec))
+    return tuple(value.tobytes() if isinstance(value, np.ndarray) else value for value in values)
+
+
+def _kept(kept: OrderedDict, key: Hashable, make: Callable[[], Result]) -> Result:
+    """The result of a key, made where it is not there; the oldest beyond KEPT is dropped."""
+    if key in kept:
+        kept.move_to_end(key)
+        return kept[key]
+    while len(kept) >= KEPT:  # before the next is made: memory
+        kept.popitem(last=False)
+    kept[key] = make()
+    return kept[key]

@@ -1,0 +1,141 @@
+"""Contact on finite elements: the mutual compliance of the bodies, and the solution on it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.operators.dense_tangential import DenseCoupledCompliance
+from analytic.operators.half_plane import DenseCompliance, ModelOperator
+from comparisons.models.finite_element.bodies import Bodies
+from comparisons.models.problem import Problem
+from fem.body.elasticity import ElasticBody
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.rigid_roller import Roller, circle, parabola
+
+MOST_DENSE = 1500  # pressure elements for which the whole compliance matrix may be formed
+
+Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One body's share of the mutual displacement.
+
+    factor    of the body's compliance, for one that stands for a body of another modulus too
+    friction  sliding traction over pressure, towards +x
+    """
+
+    compliance: FiniteElementCompliance
+    factor: float
+    friction: float
+
+
+class MutualCompliance:
+    """Weighted displacements of both surfaces (n,) [m^2] under pressures (n,) [Pa], and under the
+    sliding traction that they drag along where friction is `coupled`."""
+
+    def __init__(self, parts: tuple[Part, ...]) -> None:
+        self.parts = parts
+
+    @property
+    def rough(self) -> FiniteElementCompliance:
+        """That of the rough body."""
+        return self.parts[0].compliance
+
+    @property
+    def coupled(self) -> bool:
+        """Whether friction makes it unsymmetric."""
+        return any(part.friction for part in self.parts)
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        return sum(
+            part.factor * part.compliance.apply(pressure, part.friction) for part in self.parts
+        )
+
+    def apply_all(self, pressures: np.ndarray) -> np.ndarray:
+        """`apply` to the columns of `pressures` (n, m) at once, (n, m) [m^2]."""
+        return sum(p.factor * p.compliance.apply_all(pressures, p.friction) for p in self.parts)
+
+    def matrix(self) -> np.ndarray:
+        """The same as a matrix (n, n) [m^2/Pa]: one back-substitution a column."""
+        return sum(p.factor * p.compliance.matrix(p.friction) for p in self.parts)
+
+
+def mutual_compliance(problem: Problem, bodies: Bodies, grid: HatGrid) -> MutualCompliance:
+    """Both bodies under the same hats.
+
+    Along the roller's normal where the gap is taken at the displaced place: the displacement along
+    it is what closes the gap there, to first order.
+    """
+    scene, settings = problem.scene, problem.scene.finite_element
+    hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
+    friction = scene.friction[0] if settings.coupled else 0.0
+    down = up = None
+    if settings.gap == "displaced":
+        down, up = roller_normal(problem), roller_normal(problem, mirrored=True)
+
+    def compliance(body: ElasticBody, direction: Direction | None) -> FiniteElementCompliance:
+        far = None
+        if settings.far_field == "half-plane" and body.support.sides == "fixed":
+            far = FarField(body, hats[0], hats[-1])
+        return FiniteElementCompliance(body, hats, direction, far)
+
+    rough, share = compliance(bodies.rough, down), bodies.roller_share
+    if bodies.roller is not None:
+        roller = compliance(bodies.roller, up)
+        return MutualCompliance((Part(rough, 1.0, friction), Part(roller, 1.0, -friction)))
+    if share and settings.gap == "displaced":
+        roller = compliance(bodies.rough, up)
+        return MutualCompliance((Part(rough, 1.0, friction), Part(roller, share, -friction)))
+    # the roller's traction is the opposite one
+    return MutualCompliance((Part(rough, 1.0 + share, friction * (1.0 - share) / (1.0 + share)),))
+
+
+def roller_normal(problem: Problem, mirrored: bool = False) -> Direction:
+    """Force per length of x under unit pressure along the roller's normal, into the rough body.
+
+    `mirrored` is the reaction in the roller's own frame, z into the roller.
+    """
+    roller, sign = roller_of(problem), -1.0 if mirrored else 1.0
+
+    def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return sign * roller(x)[1], np.ones_like(x)
+
+    return direction
+
+
+def roller_of(problem: Problem) -> Roller:
+    """The shape of the finite elements' roller."""
+    scene = problem.scene
+    shape = circle if scene.finite_element.roller_shape == "circle" else parabola
+    return shape(scene.roller_radius)
+
+
+def solve_mutual(
+    operator: MutualCompliance,
+    model: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray,
+) -> ContactSolution:
+    """The contact of the finite elements; where the model leads nowhere, on their whole matrix."""
+    if operator.coupled:
+        solution = solve_with_coupled_model(operator, model, gap, weights, constraints, start)
+    else:
+        solution = solve_with_model(operator, model, gap, weights, constraints, start)
+    if solution.converged or len(gap) > MOST_DENSE:
+        return solution
+    matrix = operator.matrix()
+    if operator.coupled:
+        dense = DenseCoupledCompliance(matrix)
+        return solve_coupled(dense, gap, weights, constraints, solution.pressure)
+    dense = DenseCompliance(matrix)
+    return solve_contact(dense, gap, weights, constraints, solution.pressure)

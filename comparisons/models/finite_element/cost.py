@@ -1,0 +1,65 @@
+"""What a level of finite elements will take, before anything is meshed."""
+
+import numpy as np
+
+from comparisons.common.errors import SceneError
+from comparisons.common.mpi import from_first
+from comparisons.common.progress import machine_memory
+from comparisons.models.expected import Expected
+from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from fem.nonlinear.press_plastic import INCREMENTS
+from fem.solver.cost import estimate
+
+# Peak of the whole process, measured at 2.8 to 3.2 kB from 95 000 to 655 000 unknowns.
+BYTES_PER_UNKNOWN = 3200.0
+# Seconds an unknown of gmsh, assembly, back-substitutions and stresses, on one core.
+MESH_SECONDS, ASSEMBLY_SECONDS, REST_SECONDS = 5e-6, 1.6e-6, 3e-6
+START_SECONDS = 0.3  # of gmsh's own process
+# Of one process at the peak, and seconds an unknown, measured from 10 000 to 95 000 unknowns:
+# Newton's method at finite deformation; one increment of plastic flow, pressed and let go.
+NONLINEAR_BYTES = 7000.0
+FINITE_SECONDS, FLOW_SECONDS = 1.0e-4, 1.2e-4
+FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
+
+
+def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray) -> Expected:
+    """For contact predicted on `patches` (k, 2) [m]."""
+    unknowns = expected_unknowns(problem, plan, refinement, patches)
+    factorisation, _ = estimate(unknowns)
+    others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS
+    seconds, memory = START_SECONDS + factorisation + others * unknowns, BYTES_PER_UNKNOWN
+    settings = problem.scene.finite_element
+    if settings.deformation == "finite":
+        seconds, memory = seconds + FINITE_SECONDS * unknowns, NONLINEAR_BYTES
+    if settings.plastic:
+        steps = flow_increments(problem, refinement.pitch)
+        seconds, memory = seconds + FLOW_SECONDS * steps * unknowns, NONLINEAR_BYTES
+    return Expected(unknowns, memory * unknowns, seconds)
+
+
+def flow_increments(problem: Problem, pitch: float) -> int:
+    """Steps of the load in which a body flows; their number doubles from level to level, so that
+    what they leave out belongs to the uncertainty of the discretisation."""
+    return max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(pitch)))
+
+
+def refuse_too_large(problem: Problem, wanted: Expected, pitch: float) -> None:
+    """Raise SceneError where a level takes more memory than it may, or than there is."""
+    source, allowed = problem.scene.source, problem.scene.budget.memory
+    need = (
+        f"finite elements on pressures of {pitch:.3g} m, {wanted.unknowns:.2g} unknowns, need "
+        f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
+    )
+    if wanted.memory > allowed:
+        raise SceneError(
+            f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; allowed is a larger "
+            "budget, or coarser pressures (resolution.pitch)"
+        )
+    there = from_first(machine_memory)
+    if wanted.memory > there:
+        raise SceneError(
+            f"{source}: resolution.pitch: {need}, but this machine has {there:.2g} bytes; allowed "
+            "are coarser pressures (resolution.pitch), or a smaller finite_element.block"
+        )

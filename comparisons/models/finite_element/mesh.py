@@ -1,0 +1,148 @@
+"""The meshes of a scene's bodies: what to ask for, and how many displacements they will have."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from comparisons.common.errors import SceneError
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from meshes.block import BlockMesh, BlockSpec
+from meshes.disc import bent
+from meshes.estimate import estimate_unknowns
+from meshes.refined_ranges import refined_intervals
+from meshes.roughen import roughen
+
+EDGES_PER_HAT = 1  # element edges under each pressure element
+MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
+FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
+COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
+STEEPEST_GROWTH = 0.5
+THICKEST_COATING = 0.9  # of the body: what is left below must hold elements
+LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
+# Over this length at least real roughness fades beside the ground that pressure may reach: pressure
+# elements of the first level, four of the shortest waves; largest heights of the profile, which
+# keeps the fading's own slope below 0.4. Peak pressures do not change by 3e-6 from 10 to 160.
+FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
+DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """How fine a level is.
+
+    pitch    of the pressure elements [m]
+    halved   hold an unbounded body at half its width and depth, on the same mesh
+    """
+
+    pitch: float
+    halved: bool = False
+
+
+def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:
+    """Mesh of the rough body for contact predicted on `patches` (k, 2) [m]."""
+    scene, half_width = problem.scene, problem.hertz.half_width
+    edge = refinement.pitch / EDGES_PER_HAT
+    coarser = problem.coarser(refinement.pitch)
+    depth = problem.block
+    reach = 0.5 * depth
+    if scene.thickness is not None:
+        depth = scene.thickness
+        # whole edges: the rounding of a predicted contact must not make another mesh
+        reach = edge * np.ceil((np.abs(problem.extent).max() + LAYER_REACH * depth) / edge)
+    if scene.width is not None:
+        reach = 0.5 * scene.width
+    intervals = refined_intervals(
+        patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
+    )
+    if is_rough(problem):  # real wherever pressure may come to act
+        ground = np.array([problem.extent])
+        intervals = refined_intervals(ground, edge, margin=0.0, half_width=reach)
+    if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
+        raise SceneError(
+            f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "
+            f"{depth:.3g} m (finite_element.block); allowed is at most "
+            f"{THICKEST_COATING * depth:.3g} m"
+        )
+    growth = scene.finite_element.growth * COARSER_GROWTH**coarser
+    window = None
+    if scene.stress is not None:
+        size = FIELD_SIZE * half_width * 2.0**coarser
+        across = min(reach, max(scene.stress.half_range.metres(half_width), half_width))
+        down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
+        window = (-across, across, down, size)
+    return BlockSpec(
+        reach,
+        depth,
+        intervals,
+        edge,
+        min(growth, STEEPEST_GROWTH),
+        window,
+        interface=None if scene.coating is None else scene.coating.thickness,
+    )
+
+
+def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
+    """The body's mesh from the flat one: with the trace as its boundary where that is asked for."""
+    return roughen(flat, _boundary(problem)) if is_rough(problem) else flat
+
+
+def is_rough(problem: Problem) -> bool:
+    """Whether the trace is the body's boundary, and not in the gap alone."""
+    return problem.scene.finite_element.geometry == "rough" and problem.scene.profile is not None
+
+
+def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
+    """The mesh of an elastic roller, refined as the body's `spec` is: a block, or the flat of a
+    disc's sector."""
+    scene, depth = problem.scene, problem.block
+    half_width = 0.5 * depth
+    disc = scene.finite_element.roller_body == "disc"
+    if not disc and (spec.half_width, spec.depth, spec.interface) == (half_width, depth, None):
+        return spec  # one mesh serves both
+    if disc:
+        radius = scene.roller_radius
+        depth = min(depth, DISC_DEPTH * radius)
+        half_width = min(half_width, DISC_HALF_WIDTH * radius)
+    return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)
+
+
+def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
+    """The roller's mesh from the flat one: bent to its circle where it is a disc."""
+    if problem.scene.finite_element.roller_body == "half-plane":
+        return flat
+    return bent(flat, problem.scene.roller_radius)
+
+
+def expected_unknowns(
+    problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray
+) -> int:
+    """Displacements of a level, of all its bodies, before anything is meshed."""
+    spec = block_spec(problem, refinement, patches)
+    unknowns = estimate_unknowns(spec)
+    if problem.scene.roller is not None and not plan.shared_factor:
+        unknowns += estimate_unknowns(roller_spec(problem, spec))
+    # of a triangle's nodes two thirds are midpoints of edges; cubic elements have 9/4 as many
+    return round(unknowns * {1: 0.25, 2: 1.0, 3: 2.25}[problem.scene.finite_element.degree])
+
+
+def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
+    """Heights [m] of the real boundary anywhere on the block's top, the same on every level.
+
+    The profile wherever pressure may come to act; beyond it the roughness fades, so that elements
+    which grow there need not follow waves that they cannot resolve.
+    """
+    curve = problem.scene.profile.spline()
+    first, last = problem.scene.profile.x[[0, -1]]
+    start, stop = problem.extent
+    highest = np.abs(problem.scene.profile.height).max()
+    fade = max(FADE_HATS * problem.pitches[0], FADE_HEIGHTS * highest)
+
+    def height(x: np.ndarray) -> np.ndarray:
+        outside = np.maximum(0.0, np.maximum(start - x, x - stop)) / fade
+        share = np.clip(1.0 - outside, 0.0, 1.0)
+        smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+        return smooth * curve(np.clip(x, first, last))
+
+    return height

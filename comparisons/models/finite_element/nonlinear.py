@@ -1,0 +1,134 @@
+"""The rough body where it is not linear: at finite deformation, or flowing.
+
+Both start from the linear solution.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, assessed
+from analytic.grid import HatGrid
+from analytic.stress_state import von_mises
+from comparisons.models.finite_element.contact import MutualCompliance, roller_of
+from comparisons.models.finite_element.cost import flow_increments
+from comparisons.models.finite_element.stress import DeformedSurface, Pressed
+from comparisons.models.problem import Problem
+from fem.nonlinear.finite_deformation import press_finitely
+from fem.nonlinear.plastic_fields import plastic_fields
+from fem.nonlinear.press_plastic import press_plastically
+from fem.nonlinear.return_mapping import ElasticPlastic
+from fem.solver.mumps import FemError
+from fem.stress.stress import at_mesh_points
+
+# What is left of the contact conditions after the last increment of flow.
+FLOW_TOLERANCE = 1e-6
+ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
+
+
+def pressed_finitely(
+    problem: Problem,
+    operator: MutualCompliance,
+    grid: HatGrid,
+    linear: ContactSolution,
+    constraints: Constraints,
+) -> Pressed:
+    """The body at finite strains, met by the roller where its surface has come to.
+
+    Pressures are those on the deformed surface, where it has come to along x. Raises FemError
+    where it finds none, and where only at finite deformation contact reaches the grid's ends.
+    """
+    scene, rough = problem.scene, operator.rough
+    weights, x = grid.weights, grid.x
+    found = press_finitely(
+        rough.body,
+        rough.hats,
+        roller_of(problem),
+        linear.pressure,
+        load=constraints.load,
+        approach=constraints.approach,
+        friction=scene.friction[0],
+        hardness=constraints.hardness,
+    )
+    ends = [0, -1]  # on few elements the linear contact may reach them, too
+    if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
+        profile = problem.scene.profile
+        ended = profile is not None and (
+            x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
+        )
+        beyond = "the trace: a longer one would tell" if ended else "the pressure elements"
+        raise FemError(f"the contact at finite deformation reaches beyond {beyond}")
+    counts = {
+        "increments": len(found.solution.parts),
+        "newton_steps": found.solution.iterations,
+        **{f"linear_{name}": count for name, count in linear.iterations.items()},
+    }
+    moved = (found.gap + found.approach) * weights
+    solution = assessed(
+        moved, found.pressure, np.zeros_like(moved), weights, found.approach, constraints, counts
+    )
+    patches = contact_patches(x, solution.pressure, solution.gap)
+    solution = replace(solution, pressure=found.cauchy_pressure)
+    top = rough.body.top
+    down = rough.body.at_points(found.displacement)[top.point, 1]
+    depth = np.interp(x, top.x, down)
+    nodal, across = found.stress, found.stress_across
+    others = {"sy": across, "von_mises": von_mises(nodal.stress, across)}
+    pressed = Pressed(
+        rough.body, solution, depth * weights, lambda friction: nodal, patches, others
+    )
+    return DeformedSurface(grid, found.place, depth).carried(problem, pressed)
+
+
+def pressed_plastically(
+    problem: Problem,
+    operator: MutualCompliance,
+    grid: HatGrid,
+    linear: ContactSolution,
+    gap: np.ndarray,
+    constraints: Constraints,
+) -> Pressed:
+    """The body flowing where it must, under its load and when the roller is gone again.
+
+    gap  (count,) [m^2] initial, weighted by each hat
+    """
+    scene, rough, weights = problem.scene, operator.rough, grid.weights
+    friction = scene.friction[0]
+    roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
+    metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
+    body, (loaded, released) = press_plastically(
+        rough,
+        metal,
+        gap,
+        weights,
+        (constraints.load, 0.0),
+        linear.pressure,
+        friction,
+        roller,
+        flow_increments(problem, grid.pitch),
+    )
+    own = rough.weighted(loaded.displacement)
+    both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
+    counts = {
+        "linear_contacts": loaded.iterations,
+        **{f"linear_{name}": count for name, count in linear.iterations.items()},
+    }
+    solution = assessed(
+        both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
+    )
+    fields, left = plastic_fields(body, loaded), plastic_fields(body, released)
+    others = {
+        "sy": fields.sy,
+        "von_mises": fields.von_mises,
+        "equivalent_plastic_strain": fields.equivalent_strain,
+        "residual_sx": left.stress.sx,
+        "residual_sz": left.stress.sz,
+        "residual_sy": left.sy,
+        "residual_txz": left.stress.txz,
+        "residual_von_mises": left.von_mises,
+    }
+    stress = at_mesh_points(rough.body, fields.stress)
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    return Pressed(rough.body, solution, own, lambda friction: stress, patches, others)

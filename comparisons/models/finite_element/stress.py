@@ -1,0 +1,150 @@
+"""What a pressed body shows: its surface, its stresses on the window and at the mesh's points."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from analytic.stress_state import Extremum, PlaneStress
+from comparisons.common.mpi import from_first
+from comparisons.models.deformed import mean_height
+from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
+from comparisons.models.level import MeshField, StressResult, Window
+from comparisons.models.problem import Problem
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import straight_down
+from fem.nonlinear.hyperelastic import along_surface
+from fem.stress.maximum import maximum
+from fem.stress.stress import NodalStress, evaluate, nodal_stress
+
+
+@dataclass(frozen=True)
+class Pressed:
+    """The rough body in contact.
+
+    displacement  (count,) [m^2] of its surface into the body, weighted by each hat
+    stress        by friction coefficient
+    patches       (k, 2) [m] contact patches
+    others        further fields at the mesh's points (n,), by name with their unit
+    """
+
+    body: ElasticBody
+    solution: ContactSolution
+    displacement: np.ndarray
+    stress: Callable[[float], NodalStress]
+    patches: np.ndarray
+    others: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def pressed_linearly(
+    problem: Problem,
+    operator: MutualCompliance,
+    grid: HatGrid,
+    solution: ContactSolution,
+    gap: np.ndarray,
+) -> Pressed:
+    """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
+    one, weighted by each hat.
+
+    Where the gap is taken at the displaced place, so are the pressures.
+    """
+    rough, settings = operator.rough, problem.scene.finite_element
+    displaced = settings.gap == "displaced"
+    direction = roller_normal(problem) if displaced else straight_down
+    pressure, x = solution.pressure, grid.x
+
+    def stress(friction: float) -> NodalStress:
+        moved = rough.displacement(pressure, friction)
+        return from_first(
+            lambda: nodal_stress(rough.body, moved, rough.hats, pressure, friction, direction)
+        )
+
+    dragged = problem.scene.friction[0] if settings.coupled else 0.0
+    patches = contact_patches(x, pressure, solution.gap)
+    if not displaced:
+        if len(operator.parts) == 1 and not dragged:  # its share of what closed the gap
+            both = (solution.gap + solution.approach) * grid.weights - gap
+            own = both / operator.parts[0].factor
+        else:
+            own = rough.apply(pressure, dragged)
+        return Pressed(rough.body, solution, own, stress, patches)
+    moved = rough.displacement(pressure, dragged)
+    top = rough.body.top
+    along, down = rough.body.at_points(moved)[top.point].T
+    place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
+    stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
+    solution = replace(solution, pressure=pressure / stretch)
+    pressed = Pressed(rough.body, solution, depth * grid.weights, stress, patches)
+    return DeformedSurface(grid, place, depth).carried(problem, pressed)
+
+
+@dataclass(frozen=True)
+class DeformedSurface:
+    """Where the nodes of a grid have come to: `place` (count,) [m] along x, `depth` (count,) [m]
+    by which they have sunk."""
+
+    grid: HatGrid
+    place: np.ndarray
+    depth: np.ndarray
+
+    def carried(self, problem: Problem, pressed: Pressed) -> Pressed:
+        """What was found at the nodes, told at the grid's x again.
+
+        The residuals stay those of the equations that were solved, over the undeformed surface.
+        """
+        x, height = self.grid.x, mean_height(problem, self.grid)
+        pressure, gap, now = (
+            np.interp(x, self.place, value)
+            for value in (pressed.solution.pressure, pressed.solution.gap, height - self.depth)
+        )
+        return replace(
+            pressed,
+            solution=replace(pressed.solution, pressure=pressure, gap=gap),
+            displacement=(height - now) * self.grid.weights,
+            patches=np.interp(pressed.patches, x, self.place),
+        )
+
+
+def stresses_of(
+    pressed: Pressed, frictions: tuple[float, ...], window: Window
+) -> tuple[tuple[StressResult, ...], MeshField]:
+    """Extremes and fields on the window, one set a friction coefficient, and all on the mesh."""
+    body, results, on_mesh = pressed.body, [], {}
+    for friction in frictions:
+        nodal = pressed.stress(friction)
+        results.append(_on_window(body, nodal, friction, window, pressed.others.get("von_mises")))
+        stress, nodes = nodal.stress, nodal.nodes
+        on_mesh[friction] = PlaneStress(stress.sx, stress.sz, stress.txz)
+    mesh_field = MeshField(
+        body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
+    )
+    return tuple(results), mesh_field
+
+
+def _on_window(
+    body: ElasticBody,
+    nodal: NodalStress,
+    friction: float,
+    window: Window,
+    von_mises: np.ndarray | None,
+) -> StressResult:
+    """`von_mises` (n,) [Pa] at the mesh's points where it does not follow from the stresses."""
+    bounds = (-window.reach, window.reach, window.z[-1])
+    quantities = {
+        "tau1": lambda stress: stress.tau1,
+        "txz": lambda stress: np.abs(stress.txz),
+        "von_mises": lambda stress: stress.von_mises(stress.poissons_ratio),
+    }
+    extremes = {
+        name: maximum(body, nodal, quantity, bounds) for name, quantity in quantities.items()
+    }
+    if von_mises is not None:
+        x, z = body.points.T
+        inside = (np.abs(x) <= window.reach) & (z <= window.z[-1])
+        top = np.argmax(np.where(inside, von_mises, -np.inf))
+        extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
+    x, z = np.meshgrid(window.x, window.z)
+    return StressResult(friction, extremes, evaluate(body, nodal, x, z))

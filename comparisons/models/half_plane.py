@@ -1,0 +1,93 @@
+"""The half-plane model of a scene on one level of refinement."""
+
+from dataclasses import replace
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.patches import contact_patches
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.field import friction_field
+from analytic.stress.maxima import stress_maxima
+from comparisons.common.progress import Stages, peak_memory
+from comparisons.models.expected import Expected
+from comparisons.models.level import Level, StressResult, Window
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import search_window
+
+# Of a level with stresses, measured from 5 000 to 160 000 nodes.
+SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
+
+
+def expected_of(count: int) -> Expected:
+    """What a level of so many pressure elements will take."""
+    return Expected(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
+
+
+def half_plane_level(
+    problem: Problem, plan: Plan, pitch: float, window: Window | None, stages: Stages
+) -> Level:
+    """Solve one level: contact, and where asked for the stresses on the window."""
+    frictions, grid = problem.scene.friction, problem.grid(pitch)
+    return half_plane_on(problem, grid, problem.coupling, frictions, window, stages)
+
+
+def half_plane_on(
+    problem: Problem,
+    grid: HatGrid,
+    friction_dundurs: float,
+    frictions: tuple[float, ...],
+    window: Window | None,
+    stages: Stages,
+) -> Level:
+    """The half-plane on any pressure elements.
+
+    friction_dundurs  mu beta by which sliding traction moves the surfaces; 0 leaves it out
+    frictions         coefficients that stresses are computed for
+    """
+    with stages.stage("contact", "half-plane: contact"):
+        operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
+        average = grid.average(problem.gap, problem.knots)
+        solution = solve_coupled(operator, average, grid.weights, problem.constraints())
+        body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
+        level = Level(
+            grid=grid,
+            solution=solution,
+            displacement=body.apply(solution.pressure) / grid.weights,
+            patches=contact_patches(grid.x, solution.pressure, solution.gap),
+            seconds=stages.seconds,
+            unknowns=grid.count,
+            expected_seconds=expected_of(grid.count).seconds,
+        )
+    if window is None:
+        return replace(level, peak_memory=peak_memory())
+    with stages.stage("stresses", "half-plane: stresses"):
+        stresses = _stresses(problem, frictions, level, window)
+    return replace(level, stresses=stresses, peak_memory=peak_memory())
+
+
+def _stresses(
+    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window
+) -> tuple[StressResult, ...]:
+    """Fields on the window and extremes off the grid, one set for each friction coefficient."""
+    x, pressure = level.grid.x, level.solution.pressure
+    shown, searched = (
+        friction_field(
+            x,
+            pressure,
+            (points.x[0], points.x[-1]),
+            points.z,
+            subdivisions=points.subdivisions(level.grid.pitch),
+            stride=points.stride(level.grid.pitch),
+        )
+        for points in (window, search_window(problem, window))
+    )
+    results = []
+    for friction in frictions:
+        found = stress_maxima(
+            x, pressure, friction, searched.at(friction), problem.scene.body.poissons_ratio
+        )
+        extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
+        results.append(StressResult(friction, extremes, shown.at(friction).stress))
+    return tuple(results)

@@ -1,0 +1,142 @@
+"""One model's solution on one level of refinement, as data that both models fill in."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from analytic.stress_state import Extremum, PlaneStress
+from comparisons.models.finite_element.compliance_check import OperatorCheck
+from meshes.block import BlockMesh
+
+
+@dataclass(frozen=True)
+class Window:
+    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
+
+    reach   [m] extremes are searched at |x| <= reach, whatever the density of x
+
+    The spacing in x is the pitch of every level's pressure elements times or over a power of two.
+    """
+
+    x: np.ndarray
+    z: np.ndarray
+    reach: float
+
+    def stride(self, pitch: float) -> int:
+        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
+        return 2 ** max(0, self._octaves(pitch))
+
+    def subdivisions(self, pitch: float) -> int:
+        """Parts into which x divides a pitch [m], 1 where x is coarser."""
+        return 2 ** max(0, -self._octaves(pitch))
+
+    def _octaves(self, pitch: float) -> int:
+        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
+
+
+@dataclass(frozen=True)
+class StressResult:
+    """Stresses under one friction coefficient.
+
+    extremes  largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
+    field     (m, k) on the common window
+    """
+
+    friction: float
+    extremes: dict[str, Extremum]
+    field: PlaneStress
+
+
+@dataclass(frozen=True)
+class MeshField:
+    """A finite-element level's own mesh, with stresses at its points, one set a friction.
+
+    points          (n, 2) x and z [m] of the real body; twice where two materials meet
+    triangles       (m, 6) quadratic triangles in gmsh order
+    stresses        by friction coefficient, (n,) each
+    poissons_ratio  (n,) of the material at each point
+    others          further fields (n,) by name with their unit: what plastic flow leaves
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    stresses: dict[float, PlaneStress]
+    poissons_ratio: np.ndarray
+    others: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Level:
+    """One model on pressure elements of one pitch.
+
+    displacement  (n,) [m] of the rough body's surface, averaged over each hat; positive into the
+                  body, with the model's own datum
+    patches       (k, 2) [m] contact patches
+    stresses      one a friction coefficient; empty when no field is asked for
+    seconds       by stage
+    unknowns      of the linear systems behind the compliance
+    factor_memory bytes that their factors hold, 0 without any
+    peak_memory   largest memory of the process when the level was done [bytes]
+    expected_seconds, expected_memory   [bytes] by the laws that a level is refused or planned by;
+                  of memory 0 without finite elements
+    mesh          finite elements only: the BlockMesh solved on
+    mesh_field    finite elements only, with stresses
+    operator      finite elements only: their compliance before the contact, where it was checked
+    """
+
+    grid: HatGrid
+    solution: ContactSolution
+    displacement: np.ndarray
+    patches: np.ndarray
+    seconds: dict[str, float]
+    unknowns: int
+    factor_memory: int = 0
+    peak_memory: int = 0
+    expected_seconds: float = 0.0
+    expected_memory: float = 0.0
+    stresses: tuple[StressResult, ...] = ()
+    mesh: BlockMesh | None = None
+    mesh_field: MeshField | None = None
+    operator: OperatorCheck | None = None
+
+    @property
+    def contact_length(self) -> float:
+        """Sum of the patches [m]."""
+        return float(np.ptp(self.patches, axis=1).sum())
+
+    @property
+    def extent(self) -> float:
+        """Distance from the first to the last contact [m]."""
+        return float(self.patches[-1, 1] - self.patches[0, 0])
+
+    def stress(self, friction: float) -> StressResult | None:
+        """Stresses under one friction coefficient, None without [stress]."""
+        return next((s for s in self.stresses if s.friction == friction), None)
+
+
+@dataclass(frozen=True)
+class ModelRun:
+    """All levels of one model, coarse to fine.
+
+    name    half_plane | finite_element
+    halved  finite elements: the coarsest level again on a block of half the size, if checked
+    """
+
+    name: str
+    levels: tuple[Level, ...]
+    halved: Level | None = None
+
+    @property
+    def finest(self) -> Level:
+        return self.levels[-1]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """By stage, all levels together."""
+        total: dict[str, float] = {}
+        for level in (*self.levels, *([self.halved] if self.halved else [])):
+            for stage, seconds in level.seconds.items():
+                total[stage] = total.get(stage, 0.0) + seconds
+        return total

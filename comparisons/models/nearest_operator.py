@@ -1,0 +1,49 @@
+"""The analytic surface that is nearest to a scene's bodies: half-planes, layers and coatings.
+
+It predicts where finite elements will touch, and is the model of their outer iteration, whose
+answer is checked on the finite elements themselves.
+"""
+
+from analytic.grid import HatGrid
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.layers.tangential import TangentialLayer
+from analytic.material import combined_modulus, dundurs_constants
+from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
+from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
+from comparisons.scenes.scene import ResolvedScene
+
+
+def is_layered(scene: ResolvedScene) -> bool:
+    """Whether the body is more than a half-plane of one material."""
+    return scene.thickness is not None or scene.coating is not None
+
+
+def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
+    """Mutual compliance of roller and body on a grid of hats.
+
+    friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out
+    """
+    count, pitch = grid.count, grid.pitch
+    if not is_layered(scene):
+        modulus = combined_modulus(scene.roller, scene.body)
+        if not friction:
+            return HalfPlane(count, pitch, modulus)
+        beta = dundurs_constants(scene.body, scene.roller)[1]
+        return CoupledHalfPlane(count, pitch, modulus, friction * beta)
+    body = _layered_body(scene)
+    normal = LayeredSurface(count, pitch, body)
+    if scene.roller is not None:
+        roller = HalfPlane(count, pitch, scene.roller.plane_strain_modulus)
+        normal = SumOfConvolutions(normal, roller)
+    if not friction:
+        return normal
+    # what the roller's own traction adds is left to the outer iteration
+    return CoupledPair(normal, TangentialLayer(count, pitch, body), friction)
+
+
+def _layered_body(scene: ResolvedScene) -> LayeredBody:
+    """The coating on its body, or the body on its base."""
+    if scene.coating is not None:
+        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body)
+    return LayeredBody(scene.body, scene.thickness, scene.base or "bonded")

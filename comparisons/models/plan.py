@@ -1,0 +1,140 @@
+"""What a scene needs and what it does not: decided before anything runs, printed and recorded.
+
+A step that is left out never changes a figure that is asked for; `unpruned` gives the plan that
+leaves nothing out, for the test of that.
+"""
+
+from dataclasses import dataclass, replace
+
+from comparisons.models.assumptions import assumptions_of
+from comparisons.models.finite_element.compliance_difference import no_check
+from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
+
+MODELS = ("half_plane", "finite_element")
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A step that a run leaves out, and the reason."""
+
+    step: str
+    because: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Steps of a run.
+
+    models          of MODELS
+    running_in      the surface is run in before it is pressed
+    stress          compute subsurface fields
+    tangential      compute the part that friction adds to them
+    shared_factor   the roller's block is the body's with another modulus: one factorisation
+    coupling        what friction does to the contact by moving the surfaces, on the half-plane
+    effects         compute those that the finite elements lack, where their estimates ask for it
+    domain_check    repeat the coarsest finite-element level on a block of half the size
+    skipped         what is left out, each with its reason
+    assumptions     what the models of this run take for granted
+    """
+
+    models: tuple[str, ...]
+    running_in: bool
+    stress: bool
+    tangential: bool
+    shared_factor: bool
+    coupling: bool
+    effects: bool
+    domain_check: bool
+    skipped: tuple[Skipped, ...]
+    assumptions: tuple[str, ...]
+
+    @property
+    def compares(self) -> bool:
+        return set(self.models) == set(MODELS)
+
+
+def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
+    """The plan that computes what the scene asks for and nothing else."""
+    scene = problem.scene
+    finite_elements = "finite_element" in models
+    stress = scene.stress is not None
+    tangential = stress and any(scene.friction)
+    shared = finite_elements and _shares_factor(scene)
+    uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
+    coupling = "half_plane" in models and not all(uncoupled)
+    unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
+    domain_check = finite_elements and unbounded
+    effects = set(models) == set(MODELS) and scene.budget.effects and bool(scene.tolerance)
+    skipped = [
+        Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
+    ]
+
+    def skip(needless: bool, step: str, because: str) -> None:
+        if needless:
+            skipped.append(Skipped(step, because))
+
+    skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
+    skip(not stress, "subsurface stresses", "the scene has no [stress]")
+    skip(stress and not tangential, "stresses of the sliding traction", "there is no friction")
+    skip(scene.hardness is None, "hardness cap", "the body has no hardness")
+    if "half_plane" in models:
+        skip(not coupling, "coupling", uncoupled[-1])
+    if finite_elements:
+        skip(scene.roller is None, "mesh of the roller", "it is rigid")
+        skip(
+            shared,
+            "factorisation of the roller's block",
+            "it is the body's block with another modulus, or the same",
+        )
+        skip(
+            not effects,
+            "effects that the finite elements lack",
+            "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged",
+        )
+        skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
+        leans = no_check(scene)
+        skip(leans is not None, "check of the compliance before contact", leans)
+    if set(models) != set(MODELS):
+        skipped.append(Skipped("comparison", "it takes both models"))
+    return Plan(
+        models=models,
+        running_in=scene.running_in is not None,
+        stress=stress,
+        tangential=tangential,
+        shared_factor=shared,
+        coupling=coupling,
+        effects=effects,
+        domain_check=domain_check,
+        skipped=tuple(skipped),
+        assumptions=assumptions_of(problem),
+    )
+
+
+def no_coupling(problem: Problem, friction: float) -> str | None:
+    """Why friction does not move the contact by moving the surfaces, or None if it does."""
+    if friction == 0.0:
+        return "there is no friction"
+    if problem.dundurs_beta == 0.0:
+        return "the bodies have equal constants: Dundurs' beta is 0"
+    return None
+
+
+def unpruned(plan: Plan) -> Plan:
+    """The same run with every step that pruning leaves out."""
+    return replace(plan, tangential=plan.stress, shared_factor=False)
+
+
+def _shares_factor(scene: ResolvedScene) -> bool:
+    """Whether the roller's block is the body's, but for a factor on its modulus."""
+    settings = scene.finite_element
+    return (
+        scene.roller is not None
+        and scene.roller.poissons_ratio == scene.body.poissons_ratio
+        and scene.thickness is None
+        and scene.width is None
+        and scene.coating is None
+        and settings.geometry == "flat"
+        and settings.roller_body == "half-plane"
+        and not settings.plastic
+    )

@@ -1,0 +1,278 @@
+"""A resolved scene as the mechanical problem that both models solve.
+
+Symbols: R radius of relative curvature, E* combined modulus, P load per length, a and p0
+half-width and peak pressure of the smooth (Hertz) contact under the same load.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
+from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
+from analytic.grid import HatGrid, roller_gap
+from analytic.material import combined_modulus, dundurs_constants
+from analytic.operators.half_plane import ModelOperator
+from analytic.operators.tangential import CoupledHalfPlane
+from analytic.profile import surface
+from analytic.surface.roughness import shortest_wavelength
+from comparisons.common.errors import SceneError
+from comparisons.models.nearest_operator import is_layered, nearest_operator
+from comparisons.models.running_in import run_in_scene
+from comparisons.scenes.scene import ResolvedScene
+
+SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edge on a node
+HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
+MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
+FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
+SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
+FULL = 0.99  # of what a stretch carries at the hardness; its hats leave out a little at the ends
+FIRST_TOUCH_POINTS = 100_001
+FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
+NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
+LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
+# Ground beyond the outermost contact that stays in the grid, in half-widths. The edge of a contact
+# is found from the six elements beyond it, which are as wide as a smooth contact's are few.
+WIDEST_CIRCLE = 0.8  # of the radius that pressures may reach to
+LEAST_REACH = 8.0  # of the farthest pressure: width and depth of an unbounded block
+MARGIN, SMOOTH_MARGIN = 0.15, 0.5
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What both models solve.
+
+    scene      as resolved, its surface run in where it asks for that
+    modulus    E* of roller and body [Pa]
+    hertz      the smooth contact under the same load
+    gap        initial gap g0(x) [m] under a parabola, but for a constant
+    knots      (k,) [m] places where the gap's third derivative jumps, None if smooth
+    extent     (2,) [m] stretch of the surface that contact may reach
+    pitches    of the first levels, coarse to fine, each half of the one before [m]
+    """
+
+    scene: ResolvedScene
+    modulus: float
+    hertz: HertzContact
+    gap: Callable[[np.ndarray], np.ndarray]
+    knots: np.ndarray | None
+    extent: tuple[float, float]
+    pitches: tuple[float, ...]
+
+    @property
+    def reference_pitch(self) -> float:
+        """Pitch of the third level [m], which element sizes and depths refer to."""
+        return self.pitches[0] / 4.0
+
+    def coarser(self, pitch: float) -> int:
+        """Levels from a pitch to the third; negative for finer ones."""
+        return round(np.log2(pitch / self.reference_pitch))
+
+    @property
+    def block(self) -> float:
+        """Width and depth [m] of the block that stands for an unbounded body.
+
+        In half-widths of the smooth contact, or of a wider reach of pressures: a light load
+        on a rough surface touches far beyond its Hertz contact, and beside the roller's centre.
+        """
+        half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
+        farthest = max(abs(self.extent[0]), abs(self.extent[1]))
+        return max(self.scene.finite_element.block * half_width, LEAST_REACH * farthest)
+
+    @cached_property
+    def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
+        """Initial gap g0(x) [m] of the finite elements' roller, but for a constant."""
+        curve = None if self.scene.profile is None else surface(self.scene.profile)
+        shape = self.scene.finite_element.roller_shape
+        return roller_gap(self.scene.roller_radius, curve, shape)
+
+    @cached_property
+    def first_touch(self) -> float:
+        """Smallest initial gap g0 [m]: an approach counts from there."""
+        return float(self.gap(np.linspace(*self.extent, FIRST_TOUCH_POINTS)).min())
+
+    @property
+    def dundurs_beta(self) -> float:
+        return dundurs_constants(self.scene.body, self.scene.roller)[1]
+
+    @property
+    def coupling(self) -> float:
+        """Friction times Dundurs' beta, by which traction moves the half-plane's surfaces; 0 where
+        the scene leaves that out."""
+        return self.scene.friction[0] * self.dundurs_beta if self.scene.coupled else 0.0
+
+    def grid(self, pitch: float) -> HatGrid:
+        """The pressure elements of a level."""
+        return HatGrid.within(*self.extent, pitch)
+
+    def constraints(self, load: float | None = None) -> Constraints:
+        """Load and hardness of the scene; `load` [N/m] in place of the scene's own."""
+        hardness = np.inf if self.scene.hardness is None else self.scene.hardness
+        return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
+
+
+def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
+    """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
+
+    The surface is run in first, where the scene asks for it and it was not done yet.
+
+    Raises SceneError where the contact would reach beyond the trace, the load exceeds what the
+    surface can carry at its hardness, or the pressure elements are too coarse or too many.
+    """
+    scene = run_in_scene(scene)
+    modulus = combined_modulus(scene.roller, scene.body)
+    hertz = _smooth_contact(scene, modulus, load)
+    curve = None if scene.profile is None else surface(scene.profile)
+    problem = Problem(
+        scene=scene,
+        modulus=modulus,
+        hertz=hertz,
+        gap=roller_gap(scene.roller_radius, curve),
+        knots=None if scene.profile is None else scene.profile.x,
+        extent=(-1.5 * hertz.half_width, 1.5 * hertz.half_width),
+        pitches=(),
+    )
+    plain = scene.profile is None and scene.width is None and scene.hardness is None
+    plain = plain and scene.coating is None
+    if not plain or problem.coupling:
+        problem = replace(problem, extent=_reach(problem))
+    problem = replace(problem, pitches=_pitches(problem))
+    _check_count(problem)
+    _check_circle(problem)
+    return problem
+
+
+def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) -> HertzContact:
+    if scene.load.kind == "hertz_peak_pressure":
+        return hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
+    if scene.load.kind == "load_per_length":
+        load = scene.load.value
+    return hertz_from_load(load, scene.roller_radius, modulus)
+
+
+def ground(scene: ResolvedScene) -> tuple[float, float]:
+    """Ends [m] of the trace or the body, whichever come first; infinite without either."""
+    start, stop = -np.inf, np.inf
+    if scene.profile is not None:
+        start, stop = scene.profile.x[[0, -1]]
+    if scene.width is not None:
+        start, stop = max(start, -0.5 * scene.width), min(stop, 0.5 * scene.width)
+    return start, stop
+
+
+def _reach(problem: Problem) -> tuple[float, float]:
+    """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
+    scene, half_width = problem.scene, problem.hertz.half_width
+    start, stop = ground(scene)
+    relief = 0.0 if scene.profile is None else float(np.ptp(scene.profile.height))
+    if not start < 0.0 < stop:
+        raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
+    # ground this far out is lower than the roller even if the highest peak stood there
+    reach = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
+    while True:
+        low, high = max(start, -reach), min(stop, reach)
+        touching = (low, high)
+        most = np.inf if scene.hardness is None else scene.hardness * (high - low)
+        if problem.hertz.load_per_length < FULL * most:
+            touching, slack = scout(problem, low, high)
+            if touching[0] > low + slack and touching[1] < high - slack:
+                break
+        if low == start or high == stop:
+            raise SceneError(_too_wide(scene, touching, (low, high)))
+        reach *= 2.0
+    # a contact far smaller than the stretch it was looked for on is looked at again, closer
+    while high - low > NARROW * (touching[1] - touching[0] + slack):
+        around = max(touching[1] - touching[0], slack)
+        low, high = max(low, touching[0] - around), min(high, touching[1] + around)
+        touching, slack = scout(problem, low, high)
+    margin = MARGIN if scene.profile is not None else SMOOTH_MARGIN
+    margin = margin * half_width + 2.0 * slack
+    return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
+
+
+def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
+    body = "trace" if scene.profile is not None else "body"
+    capped = "" if scene.hardness is None else " at this hardness (body.hardness)"
+    return (
+        f"{scene.source}: load: the contact{capped} reaches the end of the {body} "
+        f"({touching[0]:.4g} m to {touching[1]:.4g} m of {ends[0]:.4g} m to {ends[1]:.4g} m); "
+        "allowed is a load, a radius and a position that keep it inside"
+    )
+
+
+def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
+    """First and last contact [m] of either model between `low` and `high`, by SCOUT_HATS
+    pressures; and how near to the ends [m] that is too near."""
+    grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
+    half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+    start, stop = touched(problem, grid, half_plane)
+    if is_layered(problem.scene):
+        other = touched(problem, grid, nearest_operator(problem.scene, grid))
+        start, stop = min(start, other[0]), max(stop, other[1])
+    return (start, stop), 2.0 * grid.pitch
+
+
+def touched(problem: Problem, grid: HatGrid, operator: ModelOperator) -> tuple[float, float]:
+    """First and last contact [m] on an operator."""
+    average = grid.average(problem.gap, problem.knots)
+    solve = solve_coupled if isinstance(operator, CoupledHalfPlane) else solve_contact
+    solution = solve(operator, average, grid.weights, problem.constraints())
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    return float(patches[0, 0]), float(patches[-1, 1])
+
+
+def _pitches(problem: Problem) -> tuple[float, ...]:
+    """Pitches of the first levels: fine enough for the shortest wave, or for the smooth edge."""
+    scene = problem.scene
+    levels = scene.resolution.levels
+    if scene.resolution.pitch is not None:
+        return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
+    finest = problem.hertz.half_width / SMOOTH_ELEMENTS
+    if is_layered(scene):
+        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SCOUT_HATS)
+        start, stop = touched(problem, grid, nearest_operator(scene, grid))
+        finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
+    if scene.profile is not None:
+        finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
+    # a light load on a crest touches far less ground than its Hertz contact of the roller
+    span = problem.extent[1] - problem.extent[0]
+    finest = max(min(finest, span / (2.0 * SMOOTH_ELEMENTS)), span / MOST_HATS)
+    # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
+    finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
+    return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
+
+
+def _check_circle(problem: Problem) -> None:
+    """Refuse a circle that the grid of pressures reaches around."""
+    scene, farthest = problem.scene, float(np.abs(problem.extent).max())
+    circle = scene.finite_element.roller_shape == "circle"
+    if circle and farthest > WIDEST_CIRCLE * scene.roller_radius:
+        raise SceneError(
+            f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may '
+            f"reach to {farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m;"
+            " allowed is a lighter load or a larger radius"
+        )
+
+
+def _check_count(problem: Problem) -> None:
+    """Refuse pressure elements that are too few to show a contact, or too many to hold."""
+    scene = problem.scene
+    low, high = problem.extent
+    coarsest, finest = problem.pitches[0], problem.pitches[-1]
+    if high - low < FEWEST_ELEMENTS * coarsest:
+        raise SceneError(
+            f"{scene.source}: resolution.pitch: is {coarsest:g} m; allowed is at most "
+            f"{(high - low) / FEWEST_ELEMENTS:.3g} m for a contact of {high - low:.3g} m"
+        )
+    if high - low > MOST_ELEMENTS * finest:
+        allowed = (high - low) / MOST_ELEMENTS * 2.0 ** (len(problem.pitches) - 1)
+        raise SceneError(
+            f"{scene.source}: resolution.pitch: {coarsest:g} m needs {(high - low) / finest:.3g} "
+            f"pressure elements at the finest of {len(problem.pitches)} levels; allowed is at "
+            f"least {allowed:.3g} m, {MOST_ELEMENTS:g} elements"
+        )

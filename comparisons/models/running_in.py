@@ -1,0 +1,131 @@
+"""A scene's surface after running-in, and the account of it."""
+
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactError
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.material import combined_modulus
+from analytic.profile import Profile
+from analytic.running_in import run_in
+from analytic.surface.roughness import roughness, shortest_wavelength
+from comparisons.common.errors import SceneError
+from comparisons.common.numbers import given, with_unit
+from comparisons.scenes.scene import ResolvedScene
+
+# Of the shortest wave: 1.5 % of the volume moved on ground surfaces. Twice as many would leave
+# 0.4 %, and edges of plateaus so sharp that both models take one level more to resolve them.
+HATS_PER_WAVE = 20.0
+MOST_HATS = 60_000  # on the Hertz contact; a pass on so many takes about a tenth of a second
+COARSE = 1.5  # times the pitch wanted: less than that is the rounding to a power of two
+SMOOTH_HATS = 80  # and at least so many on its half-width
+
+
+def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
+    """The scene with its surface run in; the scene itself where there is nothing to do.
+
+    Raises SceneError if the trace cannot carry the load at the hardness.
+    """
+    settings = scene.running_in
+    if settings is None or scene.worn is not None:
+        return scene
+    modulus = combined_modulus(scene.roller, scene.body)
+    load = _load(scene, modulus)
+    try:
+        worn = run_in(
+            scene.profile,
+            scene.roller_radius,
+            modulus,
+            Constraints(load=load, hardness=settings.hardness),
+            np.array(settings.positions) - scene.position,
+            pitch=_pitch(scene, hertz_from_load(load, scene.roller_radius, modulus).half_width),
+            sweeps=settings.sweeps,
+        )
+    except ContactError as error:
+        raise SceneError(
+            f"{scene.source}: running_in.hardness: {error}; allowed is more"
+        ) from error
+    info = replace(scene.profile_info, roughness=roughness(worn.profile))
+    return replace(scene, profile=worn.profile, profile_info=info, worn=worn)
+
+
+def _load(scene: ResolvedScene, modulus: float) -> float:
+    """[N/m]: running-in's own, or the scene's."""
+    if scene.running_in.load is not None:
+        return scene.running_in.load
+    if scene.load.kind == "load_per_length":
+        return scene.load.value
+    hertz = hertz_from_peak_pressure(scene.load.value, scene.roller_radius, modulus)
+    return hertz.load_per_length
+
+
+def _pitch(scene: ResolvedScene, half_width: float) -> float:
+    """[m], the sample spacing over a power of two, so that hats nest in samples, or times one where
+    the contact has too many."""
+    spacing = scene.profile.spacing
+    wanted = min(_wanted(scene.profile), half_width / SMOOTH_HATS)
+    wanted = max(wanted, 2.0 * half_width / MOST_HATS)
+    return spacing * 2.0 ** round(np.log2(wanted / spacing))
+
+
+def _wanted(profile: Profile) -> float:
+    """The pitch [m] that resolves the surface."""
+    return min(shortest_wavelength(profile) / HATS_PER_WAVE, profile.spacing)
+
+
+def running_in_account(scene: ResolvedScene) -> dict | None:
+    """For result.json: what running-in did, None where there was none; lengths in SI."""
+    worn = scene.worn
+    if worn is None:
+        return None
+    return {
+        "hardness": worn.constraints.hardness,
+        "load_per_length": worn.constraints.load,
+        "pitch": worn.pitch,
+        "passes": len(worn.passes),
+        "sweeps": worn.sweeps,
+        "shaken_down": worn.status == "shaken down",
+        "converged": worn.converged,
+        "volume_moved": worn.volume,
+        "volume_by_pass": [one.volume for one in worn.passes],
+        "largest_lowering": worn.largest_lowering,
+        "at_ends_of_trace": ended(scene),
+        "roughness_before": asdict(roughness(worn.before)),
+        "roughness_after": asdict(scene.profile_info.roughness),
+    }
+
+
+def running_in_assumptions(scene: ResolvedScene) -> list[str]:
+    """What running-in takes for granted, and where it fell short."""
+    worn, settings = scene.worn, scene.running_in
+    listed = [
+        f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
+        "friction; what flows is lost, nothing rises beside it and nothing hardens"
+    ]
+    if worn is not None and worn.pitch > COARSE * _wanted(worn.before):
+        apart = with_unit(worn.pitch, "m", 3)
+        shortest = with_unit(shortest_wavelength(worn.before), "m", 3)
+        listed.append(
+            f"running-in: its pressures stood {apart} apart, too coarse for the shortest waves of "
+            f"the surface ({shortest}): asperities between them have not flowed enough"
+        )
+    if worn is not None and worn.status != "shaken down":
+        listed.append(
+            f"running-in: the surface has not shaken down in {worn.sweeps} sweeps over "
+            f"{len(settings.positions)} positions"
+        )
+    if worn is not None and ended(scene):
+        places = ", ".join(given(place, "m") for place in ended(scene))
+        listed.append(
+            f"running-in: from {places} the roller touches the end of the trace, beyond which "
+            "nothing carries it"
+        )
+    return listed
+
+
+def ended(scene: ResolvedScene) -> list[float]:
+    """Positions [m] on the trace from which the roller touched an end of it."""
+    places = dict.fromkeys(one.position for one in scene.worn.passes if one.at_end)
+    return [place + scene.position for place in places]

@@ -1,0 +1,69 @@
+"""The points of the stress fields: where models and levels are compared, and searched."""
+
+import numpy as np
+
+from analytic.stress.field import graded_depths
+from comparisons.common.errors import SceneError
+from comparisons.models.level import Window
+from comparisons.models.problem import Problem
+
+FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
+FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
+SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
+
+
+def window_of(problem: Problem) -> Window:
+    """The points of the scene's [stress], graded towards the surface.
+
+    The spacing in x is the pitch of the coarsest level times or over a power of two, next to the
+    one asked for, so that the grid belongs to every level's own and no field is interpolated.
+    Raises SceneError for a window that reaches beyond the body's mesh or shows nothing.
+    """
+    scene, wanted = problem.scene, problem.scene.stress
+    half_width = problem.hertz.half_width
+    half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))
+    block = problem.block
+    for name, given, body, unbounded in (
+        ("half_range", half_range, scene.width and 0.5 * scene.width, 0.25 * block),
+        ("depth", depth, scene.thickness, 0.5 * block),
+    ):
+        if body is None and given > unbounded:
+            raise SceneError(
+                f"{scene.source}: stress.{name}: is {given:.3g} m; allowed is at most half of what "
+                f"the unbounded body is meshed to (finite_element.block), {unbounded:.3g} m"
+            )
+    half_range = min(half_range, 0.5 * (scene.width or np.inf))
+    depth = min(depth, scene.thickness or np.inf)
+    columns, rows = wanted.points
+    coarsest, finest = problem.pitches[0], problem.reference_pitch
+    spacing = max(2.0 * half_range / (columns - 1), FINEST_SPACING * finest)
+    spacing = coarsest * 2.0 ** min(
+        round(np.log2(spacing / coarsest)), int(np.floor(np.log2(half_range / coarsest)))
+    )
+    if spacing < 0.5 * FINEST_SPACING * finest:
+        raise SceneError(
+            f"{scene.source}: stress.half_range: is {half_range:.3g} m; allowed is at least "
+            f"{FINEST_SPACING * finest:.3g} m, a part of a pressure element"
+        )
+    last = int(np.floor(half_range / spacing * (1.0 + 1e-12)))
+    x = np.arange(-last, last + 1) * spacing
+    first = min(FIRST_DEPTH * finest, depth / (rows - 1))
+    step = min(coarsest, spacing)
+    reach = step * np.floor(half_range / step * (1.0 + 1e-12))
+    return Window(x, graded_depths(depth, rows, first), reach)
+
+
+def search_window(problem: Problem, window: Window) -> Window:
+    """Points from which the extremes inside a window are climbed, whatever its own density.
+
+    As dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from
+    a fraction of that by a fixed ratio.
+    """
+    spacing = min(problem.pitches[0], window.reach)
+    last = round(window.reach / spacing)
+    depth = window.z[-1]
+    first = min(FIRST_DEPTH * problem.pitches[0], 0.5 * depth)
+    growth = np.log1p(depth / first * (SEARCH_RATIO - 1.0)) / np.log(SEARCH_RATIO)
+    rows = max(3, int(np.ceil(growth)) + 1)
+    x = np.arange(-last, last + 1) * spacing
+    return Window(x, graded_depths(depth, rows, min(first, depth / rows)), window.reach)

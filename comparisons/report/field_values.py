@@ -1,0 +1,99 @@
+"""The fields as numbers in the page, for a reader who points at a picture or cuts a section.
+
+Whole numbers of two bytes on a part of the window's points, the values those of the points
+themselves: a model as it is, and the difference of both on a scale of its own, which keeps its
+digits. The other model's field is the one less the other.
+"""
+
+import base64
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import plain
+from comparisons.common.words import LABELS
+from comparisons.report.figures.fields import COMPONENTS, Component
+from comparisons.results.outcome import Outcome
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+MOST_ROWS, MOST_COLUMNS = 48, 480  # of points in the page
+WHOLE = 32767  # the largest of two bytes
+NOTHING = -32768  # where a field has no value
+DIGITS = 6  # of a place
+
+
+@dataclass(frozen=True)
+class Look:
+    """What the page needs: choices of the reader, and the numbers as JSON.
+
+    components   symbol and words
+    frictions    coefficients in words
+    """
+
+    components: tuple[tuple[str, str], ...]
+    frictions: tuple[str, ...]
+    fields: "Markup"
+
+
+def look_of(outcome: Outcome) -> Look | None:
+    """None without fields."""
+    if outcome.window is None:
+        return None
+    from markupsafe import Markup
+
+    half_width, window = outcome.problem.hertz.half_width, outcome.window
+    rows, columns = _spread(len(window.z), MOST_ROWS), _spread(len(window.x), MOST_COLUMNS)
+    frictions = outcome.problem.scene.friction
+    largest = list(outcome.runs.values())[-1].finest.stress(frictions[-1]).extremes["tau1"]
+    content = {
+        "models": [LABELS[name] for name in outcome.runs],
+        "x": _places(window.x[columns] / half_width),
+        "z": _places(window.z[rows] / half_width),
+        "start": {"x": largest.x / half_width, "z": largest.z / half_width},
+        "components": [
+            {
+                "symbol": component.symbol,
+                "fields": [_field(outcome, component, mu, rows, columns) for mu in frictions],
+            }
+            for component in COMPONENTS
+        ],
+    }
+    return Look(
+        components=tuple((component.symbol, component.words) for component in COMPONENTS),
+        frictions=tuple(plain(friction) for friction in frictions),
+        fields=Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),
+    )
+
+
+def _spread(count: int, most: int) -> np.ndarray:
+    """Indices of all points, or of every other, third, … one; the last of all is among them."""
+    step = -(-(count - 1) // (most - 1))
+    return np.arange((count - 1) % step, count, step) if step > 1 else np.arange(count)
+
+
+def _places(values: np.ndarray) -> list[float]:
+    return [float(f"{value:.{DIGITS}g}") for value in values]
+
+
+def _field(
+    outcome: Outcome, component: Component, friction: float, rows: np.ndarray, columns: np.ndarray
+) -> dict:
+    p0 = outcome.problem.hertz.peak_pressure
+    first, *others = (
+        component.of(run.finest.stress(friction).field)[np.ix_(rows, columns)] / p0
+        for run in outcome.runs.values()
+    )
+    packed = [_packed(values) for values in (first, *(first - other for other in others))]
+    return {"scale": [scale for scale, _ in packed], "data": [text for _, text in packed]}
+
+
+def _packed(values: np.ndarray) -> tuple[float, str]:
+    """A scale, and the whole multiples of it that a field (m, k) is, row after row."""
+    top = float(np.nanmax(np.abs(values), initial=0.0))
+    scale = top / WHOLE or 1.0
+    whole = np.where(np.isnan(values), NOTHING, np.rint(np.nan_to_num(values) / scale))
+    return scale, base64.b64encode(whole.astype("<i2").tobytes()).decode("ascii")

@@ -1,0 +1,61 @@
+"""Seconds by stage of every model, on a scale on which milliseconds and minutes are both seen."""
+
+import numpy as np
+
+from comparisons.common.numbers import with_unit
+from comparisons.common.words import LABELS
+from comparisons.report.figures.style import COLUMN, LINES, Picture, data_uri, figure
+from comparisons.results.outcome import Outcome
+
+HATCHES = {"half_plane": "", "finite_element": "////"}
+SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
+
+
+def cost_picture(outcome: Outcome) -> Picture:
+    """One bar a stage and model, all levels together; on top the sums."""
+    rows: list[tuple[str, str, float]] = []
+    for name, run in outcome.runs.items():
+        rows.append((name, f"{LABELS[name]}, in all", sum(run.seconds.values())))
+        rows += [(name, stage, seconds) for stage, seconds in run.seconds.items()]
+    height = 0.24 * len(rows) + 0.7
+    drawn = figure(COLUMN, height)
+    axes = drawn.add_axes((0.29, 0.5 / height, 0.59, 1.0 - 0.62 / height))
+    place = -np.arange(len(rows), dtype=float)
+    shown = np.maximum([seconds for _, _, seconds in rows], SHORTEST)
+    first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
+    for y, width, (name, label, seconds) in zip(place, shown, rows, strict=True):
+        total = label.endswith("in all")
+        axes.barh(
+            y,
+            width - first,
+            left=first,
+            height=0.72,
+            facecolor=LINES[name]["color"] if total else "white",
+            edgecolor=LINES[name]["color"],
+            hatch=HATCHES[name],
+            linewidth=0.9,
+        )
+        axes.annotate(
+            with_unit(seconds, "s", 3), (width, y), (4, 0), textcoords="offset points", va="center"
+        )
+    axes.set_xscale("log")
+    last = 10.0 ** np.ceil(np.log10(shown.max()))
+    axes.set_xlim(first, last)
+    ticks = 10.0 ** np.arange(np.log10(first).round(), np.log10(last).round() + 1.0)
+    axes.set_xticks(ticks, [with_unit(tick, "s", 1) for tick in ticks])
+    axes.minorticks_off()
+    axes.set_ylim(place[-1] - 0.6, 0.6)
+    axes.set_yticks(place, [label for _, label, _ in rows])
+    axes.tick_params(axis="y", length=0.0)
+    axes.set_xlabel("time, logarithmic")
+    axes.grid(False, axis="y")
+    totals = "; ".join(
+        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
+        for name, run in outcome.runs.items()
+    )
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Run time by stage. In all: {totals}.",
+        caption="Run time by stage, all levels together; the scale is logarithmic. "
+        f"In all: {totals}.",
+    )

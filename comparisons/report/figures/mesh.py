@@ -1,0 +1,136 @@
+"""The finite-element mesh: the whole block, the ground under the contact, the highest peak.
+
+Elements smaller than the picture can show are drawn as what they would look like: a dark patch.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import integer, scale_of, with_unit
+from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
+from comparisons.results.outcome import Outcome
+from meshes.quality import real_points
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+CELL = 0.028  # inches: edges shorter than that make the cell that they lie in dark
+COLOUR = 0.12, 0.31, 0.47
+CONTACT = 1.3  # half-widths to either side
+PEAK_EDGES = 24  # edges at the surface to either side of the highest peak
+
+
+def mesh_pictures(outcome: Outcome) -> list[Picture]:
+    """Nothing without finite elements."""
+    run = outcome.runs.get("finite_element")
+    if run is None or run.finest.mesh is None:
+        return []
+    level, hertz = run.finest, outcome.problem.hertz
+    mesh = level.mesh
+    points, corners = real_points(mesh), mesh.triangles[:, :3]
+    half, depth, edge = mesh.spec.half_width, mesh.spec.depth, mesh.spec.surface_size
+    peak = float(level.grid.x[level.solution.pressure.argmax()])
+    reach = min(CONTACT * hertz.half_width, half)
+    fine = PEAK_EDGES * edge
+    views = {
+        "the whole block": (-half, half, depth),
+        "the ground under the contact": (-reach, reach, min(reach, depth)),
+        "the ground under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
+    }
+    count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
+    captions = (
+        f"Mesh of the whole block: {count}.",
+        f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long.",
+        "Under the highest pressure.",
+    )
+    return [
+        Picture(
+            source=data_uri(_drawn(points, corners, view)),
+            alternative=f"Finite-element mesh of {words}: {count}.",
+            caption=caption,
+        )
+        for (words, view), caption in zip(views.items(), captions, strict=True)
+    ]
+
+
+def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, float]) -> "Figure":
+    low, high, depth = view
+    unit = scale_of([low, high, depth], "m")
+    width = COLUMN - 0.8
+    height = float(np.clip(width * depth / (high - low), 0.8, 4.2))
+    total = height + 0.6
+    drawn = figure(COLUMN, total)
+    axes = drawn.add_axes((0.68 / COLUMN, 0.46 / total, width / COLUMN, height / total))
+    points = points / unit.factor
+    top = points[:, 1].min()
+    bounds = low / unit.factor, high / unit.factor, depth / unit.factor
+    cell = CELL * (bounds[1] - bounds[0]) / width
+    _edges(axes, points, corners, bounds, cell)
+    near_top = min(0.0, max(top, -0.2 * bounds[2]))
+    axes.set(
+        xlim=bounds[:2],
+        ylim=(bounds[2], near_top - 0.03 * bounds[2]),
+        xlabel=f"x [{unit.name}]",
+        ylabel=f"z [{unit.name}]",
+    )
+    axes.grid(False)
+    return drawn
+
+
+def _edges(
+    axes: "Axes",
+    points: np.ndarray,
+    corners: np.ndarray,
+    bounds: tuple[float, float, float],
+    cell: float,
+) -> None:
+    """Edges of the triangles in the view, each once; those shorter than `cell` as dark cells."""
+    low, high, depth = bounds
+    x, z = points[corners, 0], points[corners, 1]
+    inside = (x.max(axis=1) >= low) & (x.min(axis=1) <= high) & (z.min(axis=1) <= depth)
+    pairs = np.sort(np.stack([corners[inside], np.roll(corners[inside], -1, axis=1)], axis=-1))
+    edges = np.unique(pairs[..., 0] * len(points) + pairs[..., 1])
+    pairs = np.column_stack(np.divmod(edges, len(points)))
+    ends = points[pairs]
+    visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
+    # one curve with breaks: a twentieth of the size of as many curves as edges
+    broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
+    axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
+    _dark_cells(axes, ends[~visible].mean(axis=1), bounds, cell)
+
+
+def _strokes(edges: np.ndarray, pause: int) -> list[int]:
+    """Points in the order of a pen that draws every edge (n, 2) once; `pause`: it is lifted."""
+    beside: dict[int, dict[int, None]] = {}
+    for one, other in edges.tolist():
+        beside.setdefault(one, {})[other] = None
+        beside.setdefault(other, {})[one] = None
+    order: list[int] = []
+    for start in beside:
+        while beside[start]:
+            at = start
+            while beside[at]:
+                order.append(at)
+                onward = next(iter(beside[at]))
+                del beside[at][onward], beside[onward][at]
+                at = onward
+            order += [at, pause]
+    return order
+
+
+def _dark_cells(
+    axes: "Axes", points: np.ndarray, bounds: tuple[float, float, float], cell: float
+) -> None:
+    low, high, depth = bounds
+    if not len(points):
+        return
+    top = points[:, 1].min()
+    shape = int(np.ceil((depth - top) / cell)), int(np.ceil((high - low) / cell))
+    at = np.floor((points - (low, top)) / cell).astype(int)[:, ::-1]
+    at = at[np.all((at >= 0) & (at < shape), axis=1)]
+    dark = np.zeros((*shape, 4))
+    dark[tuple(at.T)] = *COLOUR, 1.0
+    extent = (low, low + shape[1] * cell, top + shape[0] * cell, top)
+    axes.imshow(dark, extent=extent, interpolation="none", aspect="auto", zorder=1.5)

@@ -1,0 +1,230 @@
+"""The problem drawn from the scene itself: bodies to scale, and the contact's ground close up."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import given, plain, scale_of, with_unit
+from comparisons.report.figures.style import (
+    BODY,
+    COLUMN,
+    OUTLINE,
+    ROLLER,
+    Picture,
+    data_uri,
+    figure,
+)
+from comparisons.report.tables.problem import coating_text, elastic_text, load_text, yielding_text
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import ResolvedScene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+VIEW = 1.15  # radii to either side in the drawing to scale
+LAYERS_IN_VIEW = 5.0  # of a thin body instead
+CLOSE_UP = 1.15, 2.0  # half-widths to either side in the close-up, at least and at most
+RISE = 6.0  # of the roller over the close-up, in reliefs of the ground
+ARROW = {"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "shrinkA": 0.0, "shrinkB": 0.0}
+FORCE = "#B3001B"
+LINE = 0.11  # of the view: height of a line of words
+POINTS = 800
+
+
+def problem_picture(outcome: Outcome) -> Picture:
+    """Roller, body, load and sliding; above to scale, below with the heights stretched."""
+    scene = outcome.problem.scene
+    drawn = figure(COLUMN, 5.9)
+    to_scale = drawn.add_axes((0.125, 0.475, 0.85, 0.495))
+    _to_scale(to_scale, outcome)
+    close_up = drawn.add_axes((0.125, 0.085, 0.85, 0.265))
+    stretch = _close_up(close_up, outcome)
+    ground = "the rough body" if scene.profile is not None else "the smooth body"
+    friction = _friction(scene)
+    return Picture(
+        source=data_uri(drawn),
+        alternative=(
+            f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {ground} by "
+            f"{load_text(outcome.problem)}"
+            f"{', sliding with friction ' + friction if friction else ''}; "
+            f"{'; '.join([_body_in_words(scene), *_more_of_body(scene)])}."
+        ),
+        caption=(
+            "The problem. Above: to scale. Below: roller and ground where they first touch, "
+            f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
+            "is the width 2a of the Hertz contact under the same load."
+        ),
+    )
+
+
+def _to_scale(axes: "Axes", outcome: Outcome) -> None:
+    from matplotlib.patches import Circle
+
+    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+    radius = scene.roller_radius
+    view = VIEW * radius
+    if scene.thickness is not None:
+        view = min(view, max(LAYERS_IN_VIEW * scene.thickness, 4.0 * hertz.half_width))
+    unit = scale_of([view], "m")
+    view /= unit.factor
+    half = view if scene.width is None else min(view, 0.5 * scene.width / unit.factor)
+    depth = np.inf if scene.thickness is None else scene.thickness / unit.factor
+    below = min(depth, 0.42 * view)
+    height = 0.73 * view  # the picture's, above the body
+    axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **ROLLER))
+    axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, fill=False, **_edge()))
+    across = np.linspace(-half, half, 200)
+    torn = depth > below  # the drawing ends before the body does
+    bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
+    axes.fill_between(across, bottom - below, 0.0, **BODY)
+    axes.plot([-half, half], [0.0, 0.0], **OUTLINE)
+    for side in (-half, half):
+        if scene.width is not None and half < view:
+            axes.plot([side, side], [-below, 0.0], **OUTLINE)
+    if not torn:
+        _base(axes, half, below, scene.base == "frictionless")
+    _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
+    note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
+    load = f"P = {load_text(outcome.problem)}"
+    axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
+    axes.text(-0.03 * view, 0.42 * view, _roller_in_words(scene), ha="right", **note)
+    # words stand in the body where it is large, else under it
+    roomy = torn and half == view
+    said = _material_of_body(scene)
+    tall = LINE * view * (1 + said.count("\n"))
+    words = -0.5 * below if roomy else -1.2 * below - 0.03 * view - 0.5 * tall
+    axes.text(-0.97 * view, words, said, **note)
+    if any(scene.friction):
+        traction = f"q = µ p,  µ = {_friction(scene)}"
+        start, end = (0.71, 0.97) if roomy else (0.08, 0.34)
+        _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
+        above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
+        axes.text(0.97 * view, above, traction, color=FORCE, ha="right", **note)
+    axes.set(
+        xlim=(-view, view),
+        ylim=(-1.14 * below if roomy else words - 0.5 * tall - 0.01 * view, height),
+        xlabel=f"x [{unit.name}]",
+        ylabel=f"height [{unit.name}]",
+        aspect="equal",
+    )
+    axes.grid(False)
+
+
+def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
+    """The rigid base under a body of finite thickness: hatched; on rollers where it may slide."""
+    thick = 0.1 * below
+    gap = 0.06 * below if frictionless else 0.0
+    if frictionless:
+        count = 24
+        axes.plot(
+            np.linspace(-half, half, count + 1)[1:-1],
+            np.full(count - 1, -below - 0.5 * gap),
+            linestyle="",
+            marker="o",
+            markersize=2.2,
+            color=OUTLINE["color"],
+        )
+    axes.fill_between(
+        [-half, half],
+        -below - gap - thick,
+        -below - gap,
+        facecolor="none",
+        hatch="/////",
+        **_edge(),
+    )
+
+
+def _close_up(axes: "Axes", outcome: Outcome) -> float:
+    """Surfaces at first touch; returns how much more heights are stretched than lengths."""
+    problem = outcome.problem
+    scene, half_width = problem.scene, problem.hertz.half_width
+    relief = 0.0 if scene.profile is None else np.ptp(scene.profile.height)
+    reach = np.sqrt(2.0 * scene.roller_radius * RISE * relief) if relief else np.inf
+    reach = np.clip(reach / half_width, *CLOSE_UP) * half_width
+    low, high = -reach, reach
+    if scene.profile is not None:
+        low, high = max(low, scene.profile.x[0]), min(high, scene.profile.x[-1])
+    if scene.width is not None:
+        low, high = max(low, -0.5 * scene.width), min(high, 0.5 * scene.width)
+    x = np.linspace(low, high, POINTS)
+    ground = np.zeros_like(x) if scene.profile is None else scene.profile.spline()(x)
+    parabola = x**2 / (2.0 * scene.roller_radius)
+    roller = parabola + np.max(ground - parabola)
+    along, up = scale_of([high], "m"), scale_of([np.max(roller), np.ptp(ground)], "m")
+    bottom = ground.min() - 0.35 * (roller.max() - ground.min())
+    top = roller.max()
+    position = x / along.factor
+    axes.fill_between(position, roller / up.factor, top / up.factor, **ROLLER)
+    axes.plot(position, roller / up.factor, **OUTLINE)
+    axes.fill_between(position, bottom / up.factor, ground / up.factor, **BODY)
+    axes.plot(position, ground / up.factor, **{**OUTLINE, "linewidth": 0.7})
+    at = 0.5 * (bottom + ground.min()) / up.factor
+    reach = half_width / along.factor
+    axes.plot([-reach, reach], [at, at], color="black", marker="|", markersize=8, linewidth=1.2)
+    axes.text(
+        0.0,
+        at,
+        f"2a = {with_unit(2.0 * half_width, 'm')}",
+        ha="center",
+        va="center",
+        bbox={"facecolor": BODY["facecolor"], "edgecolor": "none", "pad": 1.5},
+    )
+    axes.set(
+        xlim=(position[0], position[-1]),
+        ylim=(bottom / up.factor, top / up.factor),
+        xlabel=f"x [{along.name}]",
+        ylabel=f"height [{up.name}]",
+    )
+    axes.grid(False)
+    box = axes.get_position()
+    wide, tall = axes.figure.get_size_inches() * (box.width, box.height)
+    return (tall / (top - bottom)) / (wide / (high - low))
+
+
+def _edge() -> dict:
+    return {"edgecolor": OUTLINE["color"], "linewidth": OUTLINE["linewidth"]}
+
+
+def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) -> None:
+    axes.annotate("", tip, tail, arrowprops={**ARROW, "color": FORCE, "linewidth": 1.8})
+
+
+def _friction(scene: ResolvedScene) -> str:
+    return ", ".join(plain(mu) for mu in scene.friction) if any(scene.friction) else ""
+
+
+def _roller_in_words(scene: ResolvedScene) -> str:
+    radius = f"roller\nR = {given(scene.roller_radius, 'm')}"
+    if scene.roller is None:
+        return f"{radius}\nrigid"
+    return f"{radius}\n{elastic_text(scene.roller)}"
+
+
+def _material_of_body(scene: ResolvedScene) -> str:
+    rough = "rough body" if scene.profile is not None else "body"
+    lines = [f"{rough}, {elastic_text(scene.body)}", _body_in_words(scene), *_more_of_body(scene)]
+    return "\n".join(lines)
+
+
+def _more_of_body(scene: ResolvedScene) -> list[str]:
+    """What the finite elements' body has besides."""
+    found = []
+    if scene.coating is not None:
+        found.append(f"coating {coating_text(scene.coating)}")
+    if scene.yielding is not None:
+        found.append(f"yields {yielding_text(scene.yielding)}")
+    return found
+
+
+def _body_in_words(scene: ResolvedScene) -> str:
+    if scene.thickness is None and scene.width is None:
+        return "unbounded (half-plane)"
+    parts = []
+    if scene.thickness is not None:
+        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.base]
+        parts.append(f"{given(scene.thickness, 'm')} thick, {base} a rigid base")
+    else:
+        parts.append("unbounded in depth")
+    if scene.width is not None:
+        parts.append(f"{given(scene.width, 'm')} wide")
+    return ", ".join(parts)

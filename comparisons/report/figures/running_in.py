@@ -1,0 +1,76 @@
+"""The surface before and after running-in, where the models press it."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import given, scale_of, significant, with_unit
+from comparisons.models.running_in import ended
+from comparisons.report.figures.style import COLUMN, LINES, OUTLINE, WIDE, Picture, data_uri, figure
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import ResolvedScene
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+POINTS = 4000  # along x; the picture is not finer
+BEFORE = {**LINES["finite_element"], "linewidth": 0.9}
+AFTER = {**OUTLINE, "color": LINES["half_plane"]["color"]}
+
+
+def running_in_picture(outcome: Outcome) -> Picture | None:
+    """Both surfaces over the stretch that the contact may reach; None without running-in."""
+    scene = outcome.problem.scene
+    if scene.worn is None:
+        return None
+    said = running_in_in_words(scene)
+    return Picture(
+        source=data_uri(_drawn(outcome, WIDE)),
+        narrow=data_uri(_drawn(outcome, COLUMN)),
+        wide=True,
+        alternative=f"The surface before and after running-in. {said}",
+        caption=f"The surface before and after running-in, heights stretched. {said}",
+    )
+
+
+def running_in_in_words(scene: ResolvedScene) -> str:
+    """What running-in did, in one sentence, and in more where it fell short."""
+    worn, places = scene.worn, len(scene.running_in.positions)
+    took = (
+        f"{len(worn.passes)} passes ({worn.sweeps} sweep{'s' * (worn.sweeps > 1)} over "
+        f"{places} place{'s' * (places > 1)})"
+    )
+    unfinished = "" if worn.status == "shaken down" else "; it has not shaken down"
+    sentence = (
+        f"In {took} at {given(scene.running_in.hardness, 'Pa')} plastic flow took "
+        f"{area(worn.volume)} off it, up to {with_unit(worn.largest_lowering, 'm', 3)} deep"
+        f"{unfinished}."
+    )
+    if ended(scene):
+        ends = ", ".join(given(place, "m") for place in ended(scene))
+        sentence += f" From {ends} the roller touched an end of the trace, where support ends."
+    return sentence
+
+
+def area(volume: float) -> str:
+    """Volume per unit length [m^2] as square micrometres."""
+    return f"{significant(volume / 1e-12, 3)} µm²"
+
+
+def _drawn(outcome: Outcome, width: float) -> "Figure":
+    problem, worn = outcome.problem, outcome.problem.scene.worn
+    x = np.linspace(*problem.extent, POINTS)
+    before, after = worn.before.spline()(x), worn.profile.spline()(x)
+    along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
+    drawn = figure(width, 3.2)
+    left = 0.8 / width
+    axes = drawn.add_axes((left, 0.16, 0.98 - left, 0.73))
+    axes.plot(x / along.factor, before / up.factor, label="before running-in", **BEFORE)
+    axes.plot(x / along.factor, after / up.factor, label="after", **AFTER)
+    axes.set(
+        xlim=(x[0] / along.factor, x[-1] / along.factor),
+        xlabel=f"x [{along.name}]",
+        ylabel=f"height [{up.name}]",
+    )
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2)
+    return drawn

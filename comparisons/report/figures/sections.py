@@ -1,0 +1,120 @@
+"""Principal shear over depth on two verticals, after Bailey and Sayles (1991), figure 11."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.exact.hertz import hertz_stress
+from comparisons.common.numbers import decimal, plain, significant
+from comparisons.common.words import LABELS
+from comparisons.report.figures.pressures import reference_level
+from comparisons.report.figures.style import (
+    COLUMN,
+    LINES,
+    REFERENCE,
+    Picture,
+    data_uri,
+    figure,
+)
+from comparisons.results.outcome import Outcome
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+NEAR = 0.1  # half-widths: depth of the enlarged part of a rough section
+
+
+def section_pictures(outcome: Outcome) -> list[Picture]:
+    """Through the highest pressure and through the edge of the smooth contact; none without field.
+
+    The verticals are the columns of the common window that lie nearest.
+    """
+    if outcome.window is None:
+        return []
+    level, hertz = reference_level(outcome), outcome.problem.hertz
+    peak = float(level.grid.x[level.solution.pressure.argmax()])
+    rough = outcome.problem.scene.profile is not None
+    wanted = {
+        "the highest pressure": peak,
+        "the edge of the smooth contact, x = +a": hertz.half_width,
+    }
+    x = outcome.window.x
+    spacing = x[1] - x[0]
+    return [
+        _picture(outcome, int(np.argmin(np.abs(x - place))), words, rough)
+        for words, place in wanted.items()
+        if x[0] - spacing <= place <= x[-1] + spacing
+    ]
+
+
+def _picture(outcome: Outcome, column: int, words: str, rough: bool) -> Picture:
+    frictions = outcome.problem.scene.friction
+    hertz = outcome.problem.hertz
+    row, foot, top = 2.15, 0.46, 0.06
+    total = foot + top + row * len(frictions)
+    drawn = figure(COLUMN, total)
+    depths = [outcome.window.z[-1] / hertz.half_width]
+    if rough and depths[0] > 2.0 * NEAR:
+        depths.append(NEAR)
+    for place, friction in enumerate(frictions):
+        low = (total - top - row * (place + 1)) / total
+        tall = (row - 0.3) / total
+        panels = []
+        for side, depth in enumerate(depths):
+            share = 0.87 / len(depths)
+            panel = drawn.add_axes((0.11 + side * share, low, share - 0.05, tall))
+            _section(panel, outcome, column, friction, depth)
+            panel.tick_params(labelbottom=place == len(frictions) - 1)
+            panels.append(panel)
+        for panel in panels:
+            panel.set_ylim(0.0, max(p.dataLim.y1 for p in panels) * 1.08)
+        for panel in panels[1:]:
+            panel.tick_params(labelleft=False)
+        panels[0].set_ylabel("τ₁/p₀")
+        panels[0].set_title(f"friction {plain(friction)}")
+    drawn.legend(
+        *drawn.axes[0].get_legend_handles_labels(),
+        loc="upper right",
+        bbox_to_anchor=(0.985, 1.0),
+        ncols=3,
+        borderaxespad=0.1,
+        columnspacing=1.2,
+    )
+    for panel in drawn.axes[-len(depths) :]:
+        panel.set_xlabel("z/a")
+    at = decimal(outcome.window.x[column] / hertz.half_width)
+    largest = "; ".join(
+        f"friction {plain(mu)}: "
+        + ", ".join(
+            f"{LABELS[name]} {significant(np.nanmax(_tau1(outcome, name, mu, column)), 3)} p₀"
+            for name in outcome.runs
+        )
+        for mu in frictions
+    )
+    near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Principal shear over depth through {words}. Largest: {largest}.",
+        caption=(
+            f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
+            f"section of the smooth contact at the same place.{near} Largest: {largest}."
+        ),
+    )
+
+
+def _tau1(outcome: Outcome, name: str, friction: float, column: int) -> np.ndarray:
+    field = outcome.runs[name].finest.stress(friction).field
+    return field.tau1[:, column] / outcome.problem.hertz.peak_pressure
+
+
+def _section(axes: "Axes", outcome: Outcome, column: int, friction: float, depth: float) -> None:
+    hertz = outcome.problem.hertz
+    x, z = outcome.window.x[column], outcome.window.z
+    shown = z <= 1.000001 * depth * hertz.half_width
+    for name in outcome.runs:
+        values = _tau1(outcome, name, friction, column)[shown]
+        axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **LINES[name])
+    exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
+    axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **REFERENCE)
+    axes.set_xlim(0.0, depth)
+    axes.locator_params(axis="x", nbins=6)

@@ -1,0 +1,131 @@
+"""Pictures of a run for notebooks: those of the report, as matplotlib's axes, and VTK's view."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from comparisons.common.errors import InputError
+from comparisons.results.outcome import Outcome
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pyvista import Plotter
+
+
+@dataclass(frozen=True)
+class Plots:
+    """Draws what a run has found; each method returns the axes, in the order of the picture.
+
+    The figure is `axes[0].figure`; it is one of pyplot's, so that a notebook shows it by itself.
+    Raises InputError where the run does not have what is to be drawn.
+    """
+
+    outcome: Outcome
+
+    def problem(self) -> "list[Axes]":
+        """The bodies to scale, and the contact close up."""
+        from comparisons.report.figures.problem import problem_picture
+
+        return self._axes(problem_picture)
+
+    def pressure(self) -> "list[Axes]":
+        """Pressures of the models over Hertz's, their difference, the surfaces below."""
+        from comparisons.report.figures.pressures import pressure_picture
+
+        return self._axes(pressure_picture)
+
+    def close_up(self) -> "list[Axes]":
+        """The same around the highest peak, with the nodes of the pressures."""
+        from comparisons.report.figures.pressures import close_up_picture
+
+        return self._axes(close_up_picture)
+
+    def surfaces(self) -> "list[Axes]":
+        """Both bodies' surfaces before and under load."""
+        from comparisons.report.figures.surfaces import surface_picture
+
+        return self._axes(surface_picture)
+
+    def field(self, component: str = "tau1", friction: float | None = None) -> "list[Axes]":
+        """A stress component below the contact by each model, and the difference.
+
+        component  tau1 or txz
+        friction   coefficient; the scene's first by default
+        """
+        from comparisons.report.figures.fields import COMPONENTS, field_pictures
+
+        names = [each.name for each in COMPONENTS]
+        if component not in names:
+            raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
+        frictions = list(self.outcome.problem.scene.friction)
+        place = _place(frictions, friction)
+        # drawn component by component, in each all friction coefficients
+        return self._axes(field_pictures, names.index(component) * len(frictions) + place)
+
+    def sections(self, place: int = 0) -> "list[Axes]":
+        """tau1 over depth: 0 under the highest pressure, 1 under the edge of the contact."""
+        from comparisons.report.figures.sections import section_pictures
+
+        return self._axes(section_pictures, place)
+
+    def mesh(self, place: int = 1) -> "list[Axes]":
+        """The finite elements' mesh: 0 all, 1 under the contact, 2 under the highest pressure."""
+        from comparisons.report.figures.mesh import mesh_pictures
+
+        return self._axes(mesh_pictures, place)
+
+    def budget(self) -> "list[Axes]":
+        """What the differences consist of, beside their tolerances."""
+        from comparisons.report.figures.budget import budget_picture
+
+        return self._axes(budget_picture)
+
+    def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
+        """A field of a model on its own points in VTK, x to the right, z down; `.show()` shows it.
+
+        array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises
+        """
+        if model not in self.outcome.runs:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(self.outcome.runs)}")
+        if self.outcome.window is None:
+            raise InputError("the scene has no field; allowed is a scene with [stress]")
+        import pyvista
+
+        from comparisons.results.field_files import field_of, vtk_grid
+
+        field = field_of(self.outcome, self.outcome.runs[model])
+        if array not in field.arrays:
+            raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")
+        grid = pyvista.wrap(vtk_grid(field))
+        plotter = pyvista.Plotter()
+        title = f"{array} [{field.units[array]}]"
+        plotter.add_mesh(grid, scalars=array, cmap="cividis", scalar_bar_args={"title": title})
+        x, _, z = grid.center
+        plotter.camera_position = [(x, grid.length, z), (x, 0.0, z), (0.0, 0.0, -1.0)]
+        plotter.camera.parallel_projection = True
+        plotter.reset_camera()
+        return plotter
+
+    def _axes(self, draw: Callable[[Outcome], object], place: int = 0) -> "list[Axes]":
+        """Axes of one of the figures that `draw` makes; the others are closed."""
+        from matplotlib import pyplot
+
+        from comparisons.report.figures.style import handed_over
+
+        with handed_over() as drawn:
+            draw(self.outcome)
+        for number, each in enumerate(drawn):
+            if number != place:
+                pyplot.close(each)
+        if not 0 <= place < len(drawn):
+            raise InputError("the run has no such picture; allowed is one that its report has")
+        return drawn[place].axes
+
+
+def _place(frictions: list[float], friction: float | None) -> int:
+    if friction is None:
+        return 0
+    if friction not in frictions:
+        allowed = ", ".join(f"{each:g}" for each in frictions)
+        raise InputError(f"friction: is {friction:g}; allowed is {allowed}")
+    return frictions.index(friction)

@@ -1,0 +1,115 @@
+"""Reports of finished runs drawn again, from their folders alone, and a page that sums them up."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from comparisons.common.errors import InputError
+from comparisons.common.files import check_writable, write_whole
+from comparisons.common.progress import Listener
+from comparisons.report.page import render
+from comparisons.report.pdf import NoPdfError, print_report
+from comparisons.report.saved import read_outcome
+from comparisons.report.summary import SummaryRow, summary_page, summary_row
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was drawn.
+
+    pdf, no_pdf  where it was printed to, or why it was not; neither where that was not asked for
+    row          the run on a summary
+    """
+
+    page: Path
+    row: SummaryRow
+    pdf: Path | None = None
+    no_pdf: str | None = None
+
+
+def draw_again(
+    folders: Sequence[Path], summary: Path | None, pdf: bool, listener: Listener
+) -> list[Report]:
+    """Write report.html of each folder anew, and the summary if a place for it is given.
+
+    All folders are read before anything is written. Raises InputError for one that holds no run,
+    or whose place cannot be written.
+    """
+    for folder in folders:
+        listener(f"{folder}: reading")
+        read_outcome(folder, with_mesh=False)
+        check_writable(folder)
+    if summary is not None:
+        check_writable(summary.parent)
+        if summary.is_dir():
+            raise InputError(f"--summary: {summary} is a folder; allowed is a file")
+    reports = []
+    for folder in folders:
+        listener(f"{folder}: drawing the report")
+        content, row = _drawn(folder)  # one at a time in memory
+        page = folder / "report.html"
+        write_whole(page, content)
+        report = Report(page, row)
+        if pdf:
+            listener(f"{folder}: printing the report")
+            report = _printed(report)
+        reports.append(report)
+    if summary is not None:
+        summary.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(summary, summary_page([report.row for report in reports], summary.parent))
+    return reports
+
+
+def _drawn(folder: Path) -> tuple[str, SummaryRow]:
+    """The page of a run and its row; InputError where its files do not make them up."""
+    outcome = read_outcome(folder)
+    try:
+        return render(outcome), summary_row(outcome)
+    except (AttributeError, LookupError, TypeError, ValueError) as error:
+        raise InputError(
+            f"{folder}: its result.json, record.json and report.npz make up no report "
+            f"({error!r}); allowed is what one run wrote"
+        ) from error
+
+
+def _printed(report: Report) -> Report:
+    try:
+        return replace(report, pdf=print_report(report.page.parent))
+    except NoPdfError as error:
+        return replace(report, no_pdf=str(error))
+
+
+def reports_content(reports: Sequence[Report], summary: Path | None) -> dict:
+    """What was made, for JSON."""
+    return {
+        "schema": 1,
+        "summary": None if summary is None else str(summary),
+        "runs": [
+            {
+                "scene": report.row.title,
+                "verdict": report.row.kind,
+                "sentence": report.row.sentence,
+                "report": str(report.page),
+                "pdf": None if report.pdf is None else str(report.pdf),
+                "figures": {name: cell.value for name, cell in report.row.cells.items()},
+            }
+            for report in reports
+        ],
+    }
+
+
+def reports_table(reports: Sequence[Report], summary: Path | None) -> "RenderableType":
+    """What was made, for people to read."""
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table("scene", "verdict", "report", box=None, pad_edge=False)
+    for report in reports:
+        made = [str(path) for path in (report.page, report.pdf) if path is not None]
+        table.add_row(Text(report.row.title), Text(report.row.kind), Text("\n".join(made)))
+    return table if summary is None else Group(table, "", Text(f"summary  {summary}"))

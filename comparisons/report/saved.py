@@ -1,0 +1,166 @@
+"""report.npz: what the report shows and no other file of a run holds, so that it can be drawn anew.
+
+Two stress components on the common window and the figures of all levels, exact. The mesh comes
+from mesh.msh, figures and record from their own files; nothing is solved or meshed.
+"""
+
+import json
+import typing
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from analytic.grid import roller_gap
+from analytic.profile import surface
+from comparisons.common.cache import DAMAGED, decoded, encoded
+from comparisons.common.errors import InputError
+from comparisons.models.level import Level, ModelRun
+from comparisons.models.problem import Problem
+from comparisons.results.outcome import Outcome
+from comparisons.results.recorded_run import check_schema, read_table
+from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
+from comparisons.scenes.scene import ResolvedScene
+
+FILE = "report.npz"
+SCHEMA = 1
+_REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
+MESH = Path("finite_element") / "mesh.msh"
+# Of an outcome: in files of its own, or not shown.
+ELSEWHERE = ("problem", "result", "record", "directory")
+# Of a problem: made anew from the scene.
+REMADE = ("gap", "knots")
+
+
+@dataclass(frozen=True)
+class ShownField:
+    """The components (m, k) [Pa] of a PlaneStress that pictures show."""
+
+    tau1: np.ndarray
+    txz: np.ndarray
+
+
+def keep_shown(path: Path, outcome: Outcome) -> None:
+    """Write report.npz."""
+    arrays: dict[str, np.ndarray] = {}
+    shown = _shown(outcome)
+    parts = {f.name: getattr(shown, f.name) for f in fields(Outcome) if f.name not in ELSEWHERE}
+    problem = {f.name: getattr(shown.problem, f.name) for f in fields(Problem)}
+    parts["problem"] = {name: part for name, part in problem.items() if name not in REMADE}
+    outline = json.dumps({"schema": SCHEMA, "outcome": encoded(parts, arrays)})
+    np.savez_compressed(path, outline=np.array(outline), **arrays)
+
+
+def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
+    """The outcome in a run's folder, as far as its report shows it.
+
+    with_mesh  without it the report cannot be drawn, but reading takes a tenth of the time
+    Raises InputError, one line, where the folder does not hold one.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
+    result, record = (read_table(folder / name) for name in ("result.json", "record.json"))
+    check_schema(folder / "result.json", result, RESULT_SCHEMA)
+    parts = _read(folder / FILE)
+    try:
+        kept = parts.pop("problem")
+        scene = kept["scene"]
+        curve = None if scene.profile is None else surface(scene.profile)
+        problem = Problem(
+            **kept,
+            gap=roller_gap(scene.roller_radius, curve),
+            knots=None if scene.profile is None else scene.profile.x,
+        )
+        outcome = Outcome(**parts, problem=problem, result=result, record=record, directory=folder)
+    except (AttributeError, KeyError, TypeError) as error:
+        raise InputError(f"{folder / FILE}: {error}; {_REMEDY}") from None
+    return _with_mesh(outcome, folder / MESH) if with_mesh else outcome
+
+
+def _read(path: Path) -> dict:
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            outline = json.loads(str(arrays["outline"]))
+            if outline["schema"] == SCHEMA:
+                return decoded(outline["outcome"], arrays, kinds())
+    except FileNotFoundError:
+        raise InputError(f"{path.parent}: holds no {path.name}; {_REMEDY}") from None
+    except DAMAGED as error:
+        raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
+    raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {_REMEDY}")
+
+
+@cache
+def kinds() -> dict[str, type]:
+    """Every dataclass that an outcome may be made of, by name: those that its types mention."""
+    found: dict[str, type] = {ShownField.__name__: ShownField}
+    open_types = [Outcome]
+    while open_types:
+        kind = open_types.pop()
+        if is_dataclass(kind) and kind.__name__ not in found:
+            found[kind.__name__] = kind
+            for hint in typing.get_type_hints(kind).values():
+                open_types += _mentioned(hint)
+    return found
+
+
+def _mentioned(hint: object) -> Iterator[type]:
+    """The classes in a type hint."""
+    if isinstance(hint, type):
+        yield hint
+    for part in typing.get_args(hint):
+        yield from _mentioned(part)
+
+
+def _shown(outcome: Outcome) -> Outcome:
+    """The outcome without what no picture and no table shows."""
+    runs = {
+        name: ModelRun(
+            name,
+            (*map(_without_fields, run.levels[:-1]), _with_shown_fields(run.finest)),
+            None if run.halved is None else _without_fields(run.halved),
+        )
+        for name, run in outcome.runs.items()
+    }
+    problem = replace(outcome.problem, scene=_without_trace(outcome.problem.scene))
+    return replace(outcome, problem=problem, runs=runs)
+
+
+def _without_trace(scene: ResolvedScene) -> ResolvedScene:
+    """The trace as read stands in record.json; the file that it came from is not everybody's."""
+    if scene.profile_info is None:
+        return scene
+    return replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
+
+
+def _without_fields(level: Level) -> Level:
+    stresses = tuple(replace(stress, field=None) for stress in level.stresses)
+    return replace(level, stresses=stresses, mesh=None, mesh_field=None)
+
+
+def _with_shown_fields(level: Level) -> Level:
+    stresses = tuple(
+        replace(stress, field=ShownField(stress.field.tau1, stress.field.txz))
+        for stress in level.stresses
+    )
+    return replace(level, stresses=stresses, mesh=None, mesh_field=None)
+
+
+def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
+    """The outcome with the finite elements' mesh in its place."""
+    run = outcome.runs.get("finite_element")
+    if run is None:
+        return outcome
+    from meshes.store import read_msh
+
+    try:
+        mesh = read_msh(path)
+    except FileNotFoundError:
+        raise InputError(f"{path}: is missing; {_REMEDY}") from None
+    except Exception as error:  # of a file that was cut short meshio may say anything
+        raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
+    finest = replace(run.finest, mesh=mesh)
+    run = replace(run, levels=(*run.levels[:-1], finest))
+    return replace(outcome, runs={**outcome.runs, run.name: run})

@@ -1,0 +1,242 @@
+"""Why the figures may be trusted: refinement, contact conditions, cost, and the run's record."""
+
+import re
+import shlex
+from dataclasses import dataclass
+
+from analytic.contact.problem import KKT_TOLERANCE
+from comparisons.assessment.comparison import (
+    Uncertainty,
+    figures,
+    uncertainties,
+)
+from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.common.numbers import (
+    integer,
+    percent,
+    plain,
+    scale_of,
+    significant,
+    with_unit,
+)
+from comparisons.common.quantities import QUANTITIES
+from comparisons.common.words import LABELS, MODELS, label
+from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
+from comparisons.results.outcome import Outcome
+
+RESIDUALS = {
+    "load_balance": "load balance",
+    "complementarity": "pressure where there is a gap",
+    "penetration": "overlap",
+    "negative_pressure": "tension",
+    "excess_pressure": "pressure above the hardness",
+}
+
+
+@dataclass(frozen=True)
+class Table:
+    """Text cells by row; the first column names the row."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def convergence_tables(outcome: Outcome) -> list[Table]:
+    """Every figure over the levels: one table a model, one for the norms of the difference."""
+    tables = [_of_model(outcome, run) for run in outcome.runs.values()]
+    if outcome.plan.compares:
+        tables.append(_of_pair(outcome))
+    return tables
+
+
+def _of_model(outcome: Outcome, run: ModelRun) -> Table:
+    problem, halved = outcome.problem, run.halved
+    columns = len(run.levels) + (halved is not None)
+    pitch = scale_of([run.levels[0].grid.pitch], "m")
+    levels = [*run.levels, *([halved] if halved else [])]
+    rows = [
+        ("pitch of the pressure elements", *(pitch.text(v.grid.pitch) for v in levels)),
+        ("unknowns", *(integer(v.unknowns) for v in levels)),
+        ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
+    ]
+    rows = [row + ("",) * (1 + columns + 4 + (halved is not None) - len(row)) for row in rows]
+    seen = set()
+    for friction in problem.scene.friction:
+        doubts = uncertainties(run, problem, friction)
+        values = [figures(level, problem, friction) for level in levels]
+        for name in values[0]:
+            quantity = QUANTITIES[name]
+            if name == "contact_ratio" or (name in seen and not quantity.needs_stress):
+                continue  # the ratio is the length over a constant
+            seen.add(name)
+            scale = scale_of([v[name] for v in values], quantity.unit)
+            where = _where(problem, name, friction)
+            rows.append(
+                (
+                    label(name) + where,
+                    *(scale.text(v[name], 5) for v in values),
+                    *_doubts(doubts[name], domain=halved is not None),
+                )
+            )
+    looked = halved is not None
+    head = _head(len(run.levels), block=looked, domain=looked)
+    return Table(LABELS[run.name].capitalize(), head, tuple(rows))
+
+
+def _of_pair(outcome: Outcome) -> Table:
+    problem, run = outcome.problem, outcome.runs["finite_element"]
+    rows, seen = [], set()
+    for pair in outcome.pairs:
+        for name in pair.norms[0]:
+            quantity = QUANTITIES[name]
+            if name in seen and not quantity.needs_stress:
+                continue
+            seen.add(name)
+            where = _where(problem, name, pair.friction)
+            rows.append(
+                (
+                    label(name) + where,
+                    *(percent(norms[name], digits=3) for norms in pair.norms),
+                    *_doubts(pair.uncertainties[name], domain=run.halved is not None),
+                )
+            )
+    head = _head(len(run.levels), block=False, domain=run.halved is not None)
+    return Table("Difference of both models", head, tuple(rows))
+
+
+def _where(problem: Problem, name: str, friction: float) -> str:
+    """Which friction coefficient a figure belongs to, where there are several."""
+    several = len(problem.scene.friction) > 1 and QUANTITIES[name].needs_stress
+    return f", friction {plain(friction)}" if several else ""
+
+
+def _head(levels: int, block: bool, domain: bool) -> tuple[str, ...]:
+    """`block`: a level with the block halved; `domain`: what it says stands among the doubts."""
+    numbered = tuple(f"level {k + 1}" for k in range(levels))
+    halved = ("level 1, block halved",) if block else ()
+    far = ("domain",) if domain else ()
+    return ("", *numbered, *halved, "order", "discretisation", "iteration", *far, "total")
+
+
+def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
+    """Observed order and the parts of an uncertainty; `domain`: whether that part was looked at."""
+    known = doubt.convergence
+    order = significant(known.order, 2) if known.order is not None else ""
+    if known.behaviour != "monotone":
+        order = f"{order} {known.behaviour}".strip()
+    return (
+        order,
+        percent(doubt.discretisation),
+        percent(doubt.iteration),
+        *([percent(doubt.domain)] if domain else []),
+        percent(doubt.total),
+    )
+
+
+def effects_table(outcome: Outcome) -> Table | None:
+    """What became of each effect that the half-plane lacks; None with one model."""
+    if outcome.budget is None:
+        return None
+    judged, rows = set(outcome.problem.scene.tolerance), []
+    for name, effect in outcome.result["budget"]["effects"].items():
+        estimate = effect["estimate"]
+        if effect["status"] == "none":
+            continue
+        largest = ""
+        if estimate is not None:
+            sizes = [estimate[q] for q in judged & set(estimate)] or list(estimate.values())
+            largest = percent(max(sizes))
+        rows.append((name, EFFECTS[name].words, effect["status"], largest, effect["because"]))
+    head = ("effect", "what the half-plane lacks", "status", "estimate, at most", "because")
+    return Table("", head, tuple(rows)) if rows else None
+
+
+def check_table(outcome: Outcome) -> Table:
+    """The contact conditions on the finest level, evaluated once more after the solution."""
+    rows = []
+    for name, words in RESIDUALS.items():
+        values = [getattr(run.finest.solution.residuals, name) for run in outcome.runs.values()]
+        rows.append((words, *(significant(value, 2) for value in values)))
+    rows.append(
+        (
+            f"all below {significant(KKT_TOLERANCE, 1)} on every level",
+            *(
+                "yes" if all(level.solution.converged for level in run.levels) else "no"
+                for run in outcome.runs.values()
+            ),
+        )
+    )
+    return Table("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
+
+
+def cost_table(outcome: Outcome) -> Table:
+    """Iterations, unknowns and memory on the finest level, and the time of all levels."""
+    rows: dict[str, list[str]] = {}
+    for name, run in outcome.runs.items():
+        level = run.finest
+        cells = {
+            "time": with_unit(sum(level.seconds.values()), "s", 3),
+            "unknowns": integer(level.unknowns),
+            "pressure elements": integer(level.grid.count),
+        }
+        for kind, count in level.solution.iterations.items():
+            cells[f"contact solver: {kind.replace('_', ' ')}"] = integer(count)
+        memory = outcome.result["models"][name][0]["cost"]["peak_memory"]
+        cells["peak memory of the process"] = with_unit(memory, "byte", 3)
+        for words, text in cells.items():
+            rows.setdefault(words, []).append((name, text))
+    rows["all levels together: time"] = [
+        (name, with_unit(sum(run.seconds.values()), "s", 3)) for name, run in outcome.runs.items()
+    ]
+    names = list(outcome.runs)
+    return Table(
+        "",
+        ("on the finest level", *(LABELS[name] for name in names)),
+        tuple((words, *(dict(cells).get(n, "") for n in names)) for words, cells in rows.items()),
+    )
+
+
+def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
+    """Versions, machine and hashes of the run."""
+    record = outcome.record
+    versions = ", ".join(f"{k} {v}" for k, v in record["versions"].items() if v is not None)
+    machine = ", ".join(
+        f"{name} {value}" for name, value in record["machine"].items() if value is not None
+    )
+    rows = [("versions", versions), ("machine", machine)]
+    if record.get("seed") is not None:
+        rows.append(("seed", str(record["seed"])))
+    if record.get("profile"):
+        rows.append(("SHA-256 of the profile", record["profile"]["sha256"]))
+    hashes = record.get("hashes") or {}
+    rows += [(f"SHA-256 of {_hashed(name)}", value) for name, value in hashes.items()]
+    return rows
+
+
+def _hashed(name: str) -> str:
+    """What a hash of the record is of: a model's pressures, or another array."""
+    for model, words in MODELS.items():
+        if name.startswith(f"{model}_"):
+            return f"the {words} model's {name.removeprefix(f'{model}_').replace('_', ' ')}"
+    return name.replace("_", " ")
+
+
+def refinement_text(outcome: Outcome) -> str:
+    """Why refinement ended, with quantities in words."""
+    text = outcome.result["refinement"]
+    for name in sorted(QUANTITIES, key=len, reverse=True):
+        text = re.sub(rf"\b{name}\b", label(name), text)
+    return text
+
+
+def commands(outcome: Outcome) -> list[tuple[str, str]]:
+    """What to type to get this again."""
+    scene, plan = outcome.problem.scene, outcome.plan
+    models = "" if plan.compares else f" --models {','.join(plan.models).replace('_', '-')}"
+    return [
+        ("repeats this run, in the folder of this page", "crosscheck rerun ."),
+        ("draws this page again, in the same folder", "crosscheck report ."),
+        ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
+    ]

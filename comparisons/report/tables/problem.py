@@ -1,0 +1,179 @@
+"""The problem in figures: what a reader needs to set it up again by hand."""
+
+from analytic.material import Material
+from comparisons.common.numbers import decimal, given, plain, significant, with_unit
+from comparisons.models.problem import Problem
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import Coated, ProfileInfo, ResolvedScene, Yielding
+
+Rows = list[tuple[str, str]]
+
+GROUPS = {
+    "a_over_thickness": "half-width over thickness, a/t",
+    "a_over_radius": "half-width over radius, a/R",
+    "a_over_width": "half-width over width, a/w",
+    "rms_slope": "rms slope",
+    "max_slope": "largest slope",
+    "friction_dundurs": "friction times Dundurs' β, µβ",
+    "peak_pressure_over_hardness": "peak pressure over hardness, p/H",
+}
+LOADS = {
+    "load_per_length": ("load per length", "N/m"),
+    "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
+    "approach": ("approach", "m"),
+}
+
+
+def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
+    """Headings, each with its rows of a name and a value."""
+    scene = outcome.problem.scene
+    info = scene.profile_info
+    return [
+        ("Geometry", _geometry(scene)),
+        *([] if info is None else [(_standard_heading(scene), _standard(info))]),
+        ("Materials", _materials(outcome)),
+        ("Load", _load(outcome)),
+        ("Dimensionless groups", _groups(outcome)),
+    ]
+
+
+def _geometry(scene: ResolvedScene) -> Rows:
+    rows = [("radius of relative curvature R", given(scene.roller_radius, "m"))]
+    if scene.thickness is None:
+        rows.append(("body, thickness", "unbounded"))
+    else:
+        base = {"bonded": "bonded to", "frictionless": "free to slide on"}[scene.base]
+        rows.append(("body, thickness t", f"{given(scene.thickness, 'm')}, {base} a rigid base"))
+    rows.append(("body, width w", "unbounded" if scene.width is None else given(scene.width, "m")))
+    if scene.profile_info is None:
+        return [*rows, ("surface", "smooth")]
+    return (
+        rows
+        + _profile(scene.profile_info)
+        + [("place of the roller on the trace", given(scene.position, "m"))]
+    )
+
+
+def _profile(info: ProfileInfo) -> Rows:
+    figures = info.roughness
+    rows = [
+        ("profile", info.source),
+        (
+            "samples, length, spacing",
+            f"{info.samples}, {with_unit(info.length, 'm')}, {with_unit(info.spacing, 'm')}",
+        ),
+        ("form", str(info.form)),
+        ("filter", filter_text(info)),
+        ("Ra, Rq as pressed", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
+        ("highest peak to deepest valley", with_unit(figures.rt, "m")),
+        ("skewness, kurtosis", f"{decimal(figures.rsk, 2)}, {decimal(figures.rku, 2)}"),
+    ]
+    if info.place:
+        rows.insert(1, ("line of the map", info.place))
+    if info.bridged or info.trimmed:
+        lost = f"{info.bridged} bridged, {info.trimmed} at the ends left out"
+        rows.append(("lost samples", lost))
+    return rows
+
+
+def filter_text(info: ProfileInfo) -> str:
+    """Which waves were taken off the trace before it was pressed."""
+    longer = info.cutoff and f"waves longer than {in_mm(info.cutoff)} removed"
+    shorter = info.short_cutoff and f"waves shorter than {given(info.short_cutoff, 'm')} removed"
+    return ", ".join(filter(None, (longer, shorter))) or "none"
+
+
+def in_mm(cutoff: float) -> str:
+    """A cut-off [m] as drawings give it."""
+    return f"{plain(1e3 * cutoff)} mm"
+
+
+def _standard_heading(scene: ResolvedScene) -> str:
+    worn = "" if scene.worn is None else " before running-in"
+    return f"Roughness{worn} (ISO 21920-2)"
+
+
+def _standard(info: ProfileInfo) -> Rows:
+    """The standard's parameters of the trace, pressed as it is or not."""
+    found = info.standard
+    if found is None:
+        return [("parameters", f"none: {info.standard_why}")]
+    short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
+    rows = [
+        ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
+        ("section lengths", str(found.sections)),
+    ]
+    for name, first, second in (
+        ("Ra, Rq", found.ra, found.rq),
+        ("Rz, Rt", found.rz, found.rt),
+    ):
+        rows.append((name, f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"))
+    rows.append(("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"))
+    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
+    return [*rows, ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}")]
+
+
+def _materials(outcome: Outcome) -> Rows:
+    problem = outcome.problem
+    scene = problem.scene
+    rows = [
+        ("roller", "rigid" if scene.roller is None else elastic_text(scene.roller)),
+        ("body", elastic_text(scene.body)),
+        *([] if scene.coating is None else [("coating", coating_text(scene.coating))]),
+        ("combined modulus E*", with_unit(problem.modulus, "Pa")),
+        ("Dundurs' β", significant(problem.dundurs_beta, 3)),
+    ]
+    if scene.hardness is not None:
+        rows.append(("hardness of the body", given(scene.hardness, "Pa")))
+    if scene.yielding is not None:
+        rows.append(("body yields", yielding_text(scene.yielding)))
+    return rows
+
+
+def elastic_text(material: Material) -> str:
+    """A material in one phrase."""
+    return f"E = {given(material.youngs_modulus, 'Pa')}, ν = {plain(material.poissons_ratio)}"
+
+
+def coating_text(coating: Coated) -> str:
+    """A coating in one phrase."""
+    return f"{given(coating.thickness, 'm')} thick, {elastic_text(coating.material)}"
+
+
+def yielding_text(yielding: Yielding) -> str:
+    """How a body flows, in one phrase."""
+    harder = f", hardening by {given(yielding.hardening, 'Pa')}" if yielding.hardening else ""
+    return f"at {given(yielding.stress, 'Pa')}{harder}"
+
+
+def _load(outcome: Outcome) -> Rows:
+    scene, hertz = outcome.problem.scene, outcome.problem.hertz
+    label, unit = LOADS[scene.load.kind]
+    rows = [(f"{label} (given)", given(scene.load.value, unit))]
+    if scene.load.kind != "load_per_length":
+        rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
+    return [
+        *rows,
+        ("friction coefficient µ", ", ".join(plain(mu) for mu in scene.friction)),
+        ("Hertz half-width a", with_unit(hertz.half_width, "m")),
+        ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
+        (
+            "largest τ₁ without friction, smooth",
+            f"{with_unit(hertz.tau1_max, 'Pa')} at depth {with_unit(hertz.tau1_max_depth, 'm')}",
+        ),
+    ]
+
+
+def load_text(problem: Problem) -> str:
+    """Load per length, in the digits of the scene where the scene gives it."""
+    write = given if problem.scene.load.kind == "load_per_length" else with_unit
+    return write(problem.hertz.load_per_length, "N/m")
+
+
+def _groups(outcome: Outcome) -> Rows:
+    groups = outcome.result["groups"]
+    return [
+        (GROUPS.get(name, name.replace("_", " ")), significant(value, 3))
+        for name, value in groups.items()
+        if value is not None
+    ]

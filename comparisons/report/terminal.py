@@ -1,0 +1,195 @@
+"""The short table of a run for the terminal: figures, verdict, where the files are, time."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import with_unit
+from comparisons.common.words import LABELS
+from comparisons.report.figures.running_in import area
+from comparisons.report.headline import headline
+from comparisons.report.tables.budget import budget_rows, left_out_line
+from comparisons.report.tables.comparison import comparison_rows, figure_rows
+from comparisons.report.tables.coupling import coupling_line
+from comparisons.report.tables.problem import in_mm
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import ProfileInfo
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+    from rich.text import Text
+
+# Short enough for 80 columns; the report says them in full.
+SHORT = {
+    "peak_pressure": "peak pressure",
+    "contact_length": "contact length",
+    "contact_ratio": "contact ratio",
+    "pressure_l2": "pressure, L2",
+    "tau1_max": "tau1 max",
+    "tau1_max_depth": "tau1 max depth",
+    "txz_max_abs": "|txz| max",
+    "tau1_field_near": "tau1 near, L2",
+    "tau1_field_deep": "tau1 deep, L2",
+}
+STYLES = {
+    "agree": "cyan",
+    "differ": "bold red",
+    "indistinct": "yellow",
+    "holds": "bold cyan",
+    "fails": "bold red",
+    "not converged": "bold red",
+}
+LISTED = 2  # effects in the terminal; the report has them all
+ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
+# Any terminal shows these.
+PLAIN = str.maketrans(
+    {
+        "µ": "u",
+        "²": "2",
+        "−": "-",
+        "–": "-",
+        "₀": "0",
+        "₁": "1",
+        "×": "x",
+        "τ": "tau",
+        "ν": "nu",
+        "β": "beta",
+    }
+)
+
+
+def summary(outcome: Outcome) -> "RenderableType":
+    """Table, verdict, files and times; readable at 80 columns and without colour."""
+    from rich.console import Group
+    from rich.text import Text
+
+    said = headline(outcome)
+    verdict = Text()
+    verdict.append(said.kind.upper(), style=STYLES.get(said.kind, "bold"))
+    verdict.append(f"  {said.sentence.translate(PLAIN)}")
+    title = Text(outcome.problem.scene.title, style="bold")
+    if not outcome.comparisons:
+        return Group(title, "", _figures(outcome), "", verdict, "", _facts(outcome))
+    tables = [_comparison(outcome), ""]
+    if outcome.problem.scene.tolerance:
+        tables += [_own_errors(outcome), ""]
+    return Group(title, "", *tables, verdict, "", _facts(outcome))
+
+
+def _comparison(outcome: Outcome) -> "Table":
+    table = _table("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%")
+    table.add_column("verdict", overflow="fold")
+    for row in comparison_rows(outcome):
+        cells = (
+            f"{SHORT[row.quantity]}\n{row.note}".strip(),
+            row.friction,
+            row.half_plane,
+            row.finite_element,
+            row.difference,
+            row.uncertainty,
+            row.tolerance,
+        )
+        table.add_row(*map(_cell, cells), _cell(row.verdict, STYLES.get(row.verdict, "")))
+    return table
+
+
+def _own_errors(outcome: Outcome) -> "Table":
+    """Of the half-plane in what is judged, and what it is made of."""
+    table = _table("mu", "own\nerror %", "uncert.\n%", "tol.\n%")
+    table.columns[0].header = "half-plane alone"
+    table.add_column("most of it, %", overflow="fold")
+    for row in budget_rows(outcome, judged=True):
+        cells = (SHORT[row.quantity], row.friction, row.own, row.uncertainty, row.tolerance)
+        largest = "\n".join(row.parts[:LISTED]).replace(" %", "")
+        table.add_row(*map(_cell, cells), _cell(largest))
+    return table
+
+
+def _figures(outcome: Outcome) -> "Table":
+    table = _table("mu", "value", "of Hertz", "uncert.\n%")
+    for row in figure_rows(outcome):
+        cells = (SHORT[row.quantity], row.friction, row.value, row.in_hertz, row.uncertainty)
+        table.add_row(*map(_cell, cells))
+    return table
+
+
+def _table(*columns: str) -> "Table":
+    """An empty table of a quantity and columns of numbers."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
+    # where a terminal is too narrow, cells break: cut short they would be other numbers
+    table.add_column("quantity", overflow="fold")
+    for column in columns:
+        table.add_column(column, justify="right", overflow="fold")
+    return table
+
+
+def _cell(text: str, style: str = "") -> "Text":
+    from rich.text import Text
+
+    return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
+
+
+def surface_text(info: ProfileInfo, worn: bool = False) -> str:
+    """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
+    text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
+    if info.standard is not None:
+        ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
+        text += f", {'before running-in ' if worn else ''}{ra} at the cut-off {cutoff}"
+    return text
+
+
+def run_in_text(outcome: Outcome) -> str:
+    """How the surface was run in, whether it shook down, and whether that held."""
+    worn = outcome.problem.scene.worn
+    return (
+        f"{area(worn.volume)} moved in {len(worn.passes)} passes, "
+        f"{'' if worn.status == 'shaken down' else 'not '}shaken down"
+        f"{'' if worn.converged else ', not converged'}"
+        f"{above_hardness(outcome)}"
+    )
+
+
+def above_hardness(outcome: Outcome) -> str:
+    """Whether features finer than running-in resolved are pressed harder than it allowed."""
+    hardness = outcome.problem.scene.worn.constraints.hardness
+    peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
+    if peak <= ABOVE * hardness:
+        return ""
+    return f"; pressed then, up to {peak / hardness:.2f} times its hardness"
+
+
+def _facts(outcome: Outcome) -> "Table":
+    from rich.table import Table
+    from rich.text import Text
+
+    times = ", ".join(
+        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3).translate(PLAIN)}"
+        for name, run in outcome.runs.items()
+    )
+    if outcome.budget is not None and outcome.budget.seconds:
+        seconds = with_unit(outcome.budget.seconds, "s", 3)
+        times += f", error budget {seconds} of all cores together".translate(PLAIN)
+    facts = Table.grid(padding=(0, 2))
+    facts.add_column(no_wrap=True)
+    facts.add_column(overflow="fold")
+    scene = outcome.problem.scene
+    if scene.profile_info is not None:
+        surface = surface_text(scene.profile_info, worn=scene.worn is not None)
+        facts.add_row("surface", Text(surface.translate(PLAIN)))
+    if scene.worn is not None:
+        facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
+    if outcome.budget is not None:
+        facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN).replace(" %", "%")))
+    moved = coupling_line(outcome)
+    if moved is not None:
+        facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))
+    facts.add_row("time", times)
+    if outcome.directory is None:
+        return facts
+    facts.add_row("report", Text(str(outcome.directory / "report.html")))
+    facts.add_row("figures", Text(str(outcome.directory / "result.json")))
+    return facts

@@ -1,0 +1,206 @@
+"""The stress field of a model as a file that other programs open.
+
+vtu      ParaView, PyVista, meshio
+vtkhdf   ParaView and PyVista; HDF5, read in pieces: for large fields
+msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
+
+Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
+they are field data of bytes, since meshio takes no text there: bytes(data["scene"]).decode(). In
+a vtkhdf they are texts. In a msh they stand in a section $Comments.
+"""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from analytic.stress_state import PlaneStress
+from comparisons.models.level import ModelRun
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import ResolvedScene
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
+
+AUTOMATIC = "auto"
+LARGE = 2_000_000  # points from which a field goes to vtkhdf unless the caller says otherwise
+STRESSES = ("sx", "sz", "sy", "txz", "tau1", "von_mises")
+# Numbers that VTK and gmsh have for a kind of cell that meshio knows by name.
+CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
+
+
+@dataclass(frozen=True)
+class FieldFile:
+    """Arrays at points that cells connect.
+
+    points  (n, 3) [m] x, 0, z
+    kind    of cell, as meshio calls it
+    cells   (m, k) indices of points
+    arrays  (n,) by name, in `units`
+    units   of the arrays by name, and of "points"
+    title, scene  of the run; the scene as JSON
+    """
+
+    points: np.ndarray
+    kind: str
+    cells: np.ndarray
+    arrays: dict[str, np.ndarray]
+    units: dict[str, str]
+    title: str
+    scene: str
+
+    @property
+    def notes(self) -> dict[str, str]:
+        """What the file says of itself, as texts."""
+        return {"title": self.title, "units": json.dumps(self.units), "scene": self.scene}
+
+
+def scene_text(scene: ResolvedScene) -> str:
+    """A scene as one line of JSON, SI units."""
+    return json.dumps(scene.as_dict(), ensure_ascii=False, allow_nan=False)
+
+
+def field_of(outcome: Outcome, run: ModelRun) -> FieldFile:
+    """Stresses at the model's own points, which lie in the plane y = 0.
+
+    Arrays sx, sz, sy, txz, tau1, von_mises [Pa] for the first friction coefficient; further
+    coefficients add arrays with the coefficient in the name. Where the body yields there are
+    also what flow leaves behind when the roller is gone.
+    """
+    level = run.finest
+    nu = outcome.problem.scene.body.poissons_ratio
+    if level.mesh_field is not None:
+        plane, stresses = level.mesh_field.points, level.mesh_field.stresses
+        cells, nu = level.mesh_field.triangles, level.mesh_field.poissons_ratio
+        kind = "triangle6"
+    else:
+        x, z = np.meshgrid(outcome.window.x, outcome.window.z)
+        plane = np.column_stack([x.ravel(), z.ravel()])
+        stresses = {
+            s.friction: PlaneStress(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
+            for s in level.stresses
+        }
+        rows, columns = x.shape
+        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+        cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
+        kind = "quad"
+    arrays = _arrays(stresses, nu)
+    units = {"points": "m"} | dict.fromkeys(arrays, "Pa")
+    if level.mesh_field is not None:
+        arrays |= level.mesh_field.others
+        units |= {name: "1" if "strain" in name else "Pa" for name in level.mesh_field.others}
+    return FieldFile(
+        points=np.column_stack([plane[:, 0], np.zeros(len(plane)), plane[:, 1]]),
+        kind=kind,
+        cells=cells,
+        arrays=arrays,
+        units=units,
+        title=outcome.problem.scene.title,
+        scene=scene_text(outcome.problem.scene),
+    )
+
+
+def _arrays(stresses: Mapping[float, PlaneStress], nu: float | np.ndarray) -> dict:
+    found = {}
+    for index, (friction, stress) in enumerate(stresses.items()):
+        suffix = "" if index == 0 else f" (friction {friction:g})"
+        values = (
+            stress.sx,
+            stress.sz,
+            stress.sy(nu),
+            stress.txz,
+            stress.tau1,
+            stress.von_mises(nu),
+        )
+        found |= {name + suffix: v for name, v in zip(STRESSES, values, strict=True)}
+    return found
+
+
+def write_field(folder: Path, field: FieldFile, choice: str = AUTOMATIC) -> Path:
+    """Write stress.<choice> into a folder; by its size where the choice is automatic."""
+    if choice == AUTOMATIC:
+        choice = "vtu" if len(field.points) < LARGE else "vtkhdf"
+    path = folder / f"stress.{choice}"
+    FORMATS[choice](path, field)
+    return path
+
+
+def _write_vtu(path: Path, field: FieldFile) -> None:
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    grid = vtk_grid(field)
+    for name, text in field.notes.items():
+        codes = numpy_to_vtk(np.frombuffer(text.encode(), dtype=np.uint8), deep=True)
+        codes.SetName(name)
+        grid.GetFieldData().AddArray(codes)
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetDataModeToBinary()  # meshio reads it sooner than appended data
+    _write(writer, path, grid)
+
+
+def _write_vtkhdf(path: Path, field: FieldFile) -> None:
+    from vtkmodules.vtkCommonCore import vtkStringArray
+    from vtkmodules.vtkIOHDF import vtkHDFWriter
+
+    grid = vtk_grid(field, lambda name: name.replace(".", "_"))  # HDF5 has no such names
+    for name, text in field.notes.items():
+        array = vtkStringArray()
+        array.SetName(name)
+        array.InsertNextValue(text)
+        grid.GetFieldData().AddArray(array)
+    _write(vtkHDFWriter(), path, grid)
+
+
+def _write(writer: object, path: Path, grid: "vtkUnstructuredGrid") -> None:
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    if not writer.Write():
+        raise OSError(None, "VTK cannot write it", str(path))
+
+
+def vtk_grid(field: FieldFile, called: Callable[[str], str] = str) -> "vtkUnstructuredGrid":
+    """VTK's form of points, cells and arrays, which `called` names."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkDataArray, vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
+
+    number, corners = CELL_TYPES[field.kind]
+    points, cells, grid = vtkPoints(), vtkCellArray(), vtkUnstructuredGrid()
+    points.SetData(numpy_to_vtk(field.points, deep=True))
+    starts = np.arange(0, field.cells.size + 1, corners, dtype=np.int64)
+    cells.SetData(
+        numpy_to_vtkIdTypeArray(starts, deep=True),
+        numpy_to_vtkIdTypeArray(field.cells.astype(np.int64).ravel(), deep=True),
+    )
+    grid.SetPoints(points)
+    grid.SetCells(number, cells)
+    for name, values in field.arrays.items():
+        array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+        array.SetName(called(name))
+        array.GetInformation().Set(vtkDataArray.UNITS_LABEL(), field.units[name])
+        grid.GetPointData().AddArray(array)
+    return grid
+
+
+def _write_msh(path: Path, field: FieldFile) -> None:
+    import meshio
+
+    from meshes.store import append_comment
+
+    tags = [np.ones(len(field.cells), dtype=int)]
+    content = meshio.Mesh(
+        field.points,
+        [(field.kind, field.cells)],
+        point_data=field.arrays,
+        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
+        field_data={"body": np.array([1, 2])},
+    )
+    meshio.write(path, content, file_format="gmsh22", binary=True)
+    append_comment(path, field.notes)
+
+
+FORMATS = {"vtu": _write_vtu, "vtkhdf": _write_vtkhdf, "msh": _write_msh}

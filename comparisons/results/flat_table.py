@@ -1,0 +1,207 @@
+"""Many runs as one tidy table: a row for each run, friction coefficient and quantity.
+
+Columns
+  run, scene, title      folder, name, title
+  friction, quantity     what the row is of
+  unit                   of the next two, SI; empty for ratios
+  half_plane, finite_element   the figure by each model, empty where it is of a pair
+  difference, uncertainty, tolerance   relative, as result.json has them
+  verdict                of the row; half_space: of the run
+  own_error, own_error_uncertainty     of the half-plane, relative
+  effect_…               what of own_error is due to each assumption, relative, with the signs
+                         of the report; empty where not computed
+  a_over_radius, …       the run's dimensionless groups
+
+What is unknown is empty in a CSV and null in a Parquet file.
+"""
+
+import csv
+import io
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.common.errors import InputError
+from comparisons.common.files import write_whole
+from comparisons.common.quantities import QUANTITIES
+from comparisons.results.recorded_run import read_table
+from comparisons.results.result_json import SCHEMA
+
+FILE = "result.json"
+GROUPS = (
+    "a_over_thickness",
+    "a_over_radius",
+    "a_over_width",
+    "rms_slope",
+    "max_slope",
+    "friction_dundurs",
+    "peak_pressure_over_hardness",
+)
+EFFECT_COLUMNS = {name: f"effect_{name.replace(' ', '_')}" for name in EFFECTS}
+TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "half_space")
+COLUMNS = (
+    "run",
+    "scene",
+    "title",
+    "friction",
+    "quantity",
+    "unit",
+    "half_plane",
+    "finite_element",
+    "difference",
+    "uncertainty",
+    "tolerance",
+    "verdict",
+    "half_space",
+    "own_error",
+    "own_error_uncertainty",
+    *EFFECT_COLUMNS.values(),
+    *GROUPS,
+)
+
+Row = dict[str, str | float | None]
+
+
+def tidy_rows(folders: Iterable[Path]) -> list[Row]:
+    """The rows of every run in or below the folders, each with all COLUMNS.
+
+    Raises InputError, one line, for a folder without runs and for a result that cannot be read.
+    """
+    return [row for path in _results(folders) for row in _rows_in(path)]
+
+
+def as_csv(rows: Iterable[Row]) -> str:
+    """The table as comma-separated values, with a header."""
+    text = io.StringIO()
+    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def check_ending(path: Path) -> None:
+    """Raise InputError, one line, unless a table can be written to a file of this name."""
+    if path.suffix not in (".csv", ".parquet"):
+        raise InputError(f"{path}: ends with {path.suffix or 'nothing'}; allowed is .csv, .parquet")
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder; allowed is a file")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
+    if path.suffix == ".parquet":
+        try:
+            import pyarrow.parquet  # noqa: F401
+        except ImportError as error:
+            raise InputError(
+                f"{path}: Parquet takes pyarrow, which is not installed ({error}); allowed is "
+                ".csv, or python -m pip install pyarrow"
+            ) from error
+
+
+def write_table(path: Path, rows: list[Row]) -> None:
+    """Write the table as CSV or Parquet, whichever the file's ending says; whole or not at all."""
+    check_ending(path)
+    if path.suffix == ".csv":
+        write_whole(path, as_csv(rows))
+        return
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    schema = pa.schema([(n, pa.string() if n in TEXTS else pa.float64()) for n in COLUMNS])
+    content = io.BytesIO()
+    parquet.write_table(pa.Table.from_pylist(rows, schema=schema), content)
+    write_whole(path, content.getvalue())
+
+
+def _results(folders: Iterable[Path]) -> list[Path]:
+    """Every result in or below the folders, once, in the order of their paths."""
+    found: dict[Path, Path] = {}
+    for folder in folders:
+        if not folder.is_dir():
+            raise InputError(f"{folder}: is no folder; allowed is one that runs have left")
+        every = sorted(folder.rglob(FILE))  # what is hidden is being written
+        below = [p for p in every if not any(map(_is_hidden, p.relative_to(folder).parts))]
+        if not below:
+            raise InputError(f"{folder}: holds no run; allowed is a folder with {FILE} below it")
+        for path in below:
+            found.setdefault(path.resolve(), path)
+    return list(found.values())
+
+
+def _is_hidden(name: str) -> bool:
+    return name.startswith(".")
+
+
+def rows_of(result: Mapping, run: str) -> list[Row]:
+    """The rows of one run's result, each with all COLUMNS."""
+    common = {
+        "run": run,
+        "scene": result["scene"]["name"],
+        "title": result["scene"]["title"],
+        "half_space": result["half_space"]["verdict"],
+        **result["groups"],
+    }
+    rows = _compared(result) if result.get("comparison") else _of_one_model(result)
+    return [{name: (common | row).get(name) for name in COLUMNS} for row in rows]
+
+
+def _rows_in(path: Path) -> list[Row]:
+    result = read_table(path)
+    try:
+        if result["schema"] != SCHEMA:
+            raise InputError(f"{path}: schema: is {result['schema']}; allowed is {SCHEMA}")
+        rows = rows_of(result, str(path.parent))
+    except (KeyError, TypeError, AttributeError, IndexError) as error:
+        raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
+    for row in rows:
+        for name in COLUMNS:
+            kinds = str if name in TEXTS else int | float
+            if row[name] is not None and not isinstance(row[name], kinds):
+                raise InputError(
+                    f"{path}: {row['quantity']}: {name}: is {row[name]!r}; allowed is what a run "
+                    "wrote"
+                )
+    return rows
+
+
+def _compared(result: Mapping) -> Iterable[Row]:
+    budget = (result.get("budget") or {}).get("quantities", {})
+    for quantity, rows in result["comparison"].items():
+        parts = {row["friction"]: row for row in budget.get(quantity, ())}
+        for row in rows:
+            own = parts.get(row["friction"], {})
+            error = own.get("own_error") or {}
+            # an effect that raises the finite elements' figure makes the half-plane's too low
+            sign = 1.0 if QUANTITIES[quantity].of_pair else -1.0
+            effects = own.get("effects") or {}
+            yield {
+                **row,
+                "quantity": quantity,
+                "unit": QUANTITIES[quantity].unit,
+                "own_error": error.get("value"),
+                "own_error_uncertainty": error.get("uncertainty"),
+                **{EFFECT_COLUMNS[name]: sign * share["value"] for name, share in effects.items()},
+            }
+
+
+def _of_one_model(result: Mapping) -> Iterable[Row]:
+    """A run of a single model: its figures, and their own uncertainty."""
+    for model, entries in result["models"].items():
+        for entry in entries:
+            for quantity, figure in QUANTITIES.items():
+                value = None if figure.of_pair else _figure(entry, quantity)
+                if value is None:
+                    continue
+                yield {
+                    "friction": entry["friction"],
+                    "quantity": quantity,
+                    "unit": figure.unit,
+                    model: value,
+                    "uncertainty": entry["uncertainty"].get(quantity, {}).get("total"),
+                }
+
+
+def _figure(entry: Mapping, quantity: str) -> float | None:
+    stress = entry["stress"] or {}
+    if quantity == "tau1_max_depth":
+        return stress["tau1_max_at"][1] if stress else None
+    return entry["contact"].get(quantity, stress.get(quantity))

@@ -1,0 +1,103 @@
+"""What of a scene can hardly be meant: signs of a unit that was left out or mistaken.
+
+A scene with `radius = 8` for 8 mm, `youngs_modulus = 207` for 207 GPa or a trace in the wrong unit
+is solved like any other, and its figures look like any others. Nothing here is forbidden: these
+are doubts, which the user is told of.
+"""
+
+from collections.abc import Iterator
+
+from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
+from analytic.material import Material, combined_modulus
+from comparisons.common.numbers import given, significant, with_unit
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import ProfileInfo, ResolvedScene
+
+LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
+SOFTEST, STIFFEST = 1e3, 1.5e12  # [Pa] Young's modulus: gels, diamond
+LONGEST_TRACE = 0.25  # [m] that stylus instruments drive
+# Slopes (rms) of measured surfaces: polished ones have more than the first, sawn ones less than
+# the second.
+SMOOTHEST, STEEPEST = 1e-4, 1.0
+LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
+FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
+
+
+def doubts_about(scene: ResolvedScene) -> list[str]:
+    """One sentence each, before anything is solved."""
+    return [
+        *_of_radius(scene.roller_radius),
+        *_of_material("body", scene.body),
+        *_of_material("roller", scene.roller),
+        *_of_load(scene),
+        *doubts_about_surface(scene.profile_info),
+    ]
+
+
+def doubts_about_surface(info: ProfileInfo | None) -> list[str]:
+    """The same of a measured trace alone."""
+    return [] if info is None or info.trace is None or info.path is None else [*_of_trace(info)]
+
+
+def doubts_about_result(outcome: Outcome) -> list[str]:
+    """What only the solution shows."""
+    run = next(iter(outcome.runs.values()))
+    scene, solution = outcome.problem.scene, run.finest.solution
+    peak, modulus = float(solution.pressure.max()), outcome.problem.modulus
+    found = []
+    if peak > modulus:
+        found.append(
+            f"the peak pressure of {with_unit(peak, 'Pa')} exceeds the combined modulus of "
+            f"{with_unit(modulus, 'Pa')}, which no material bears: check load and profile units"
+        )
+    info, length = scene.profile_info, run.finest.contact_length
+    if info is not None and length < FEWEST_SAMPLES * info.spacing:
+        found.append(
+            f"the whole contact, {with_unit(length, 'm')}, is shorter than {FEWEST_SAMPLES} "
+            f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
+            "the curve between them"
+        )
+    return found
+
+
+def _of_radius(radius: float) -> Iterator[str]:
+    if radius > LARGEST_RADIUS:
+        yield f"roller.radius is {given(radius, 'm')}: a number without unit is in m"
+
+
+def _of_material(section: str, material: Material | None) -> Iterator[str]:
+    if material is None:
+        return
+    modulus = material.youngs_modulus
+    if not SOFTEST <= modulus <= STIFFEST:
+        yield f"{section}.youngs_modulus is {given(modulus, 'Pa')}: a number without unit is in Pa"
+
+
+def _of_load(scene: ResolvedScene) -> Iterator[str]:
+    if scene.load.kind == "approach":
+        return
+    hertz = hertz_from_load if scene.load.kind == "load_per_length" else hertz_from_peak_pressure
+    modulus = combined_modulus(scene.body, scene.roller)
+    smooth = hertz(scene.load.value, scene.roller_radius, modulus)
+    ratio = smooth.half_width / scene.roller_radius
+    if LIGHTEST <= ratio <= HEAVIEST:
+        return
+    yield (
+        f"load: smooth bodies would have {with_unit(smooth.peak_pressure, 'Pa')} and a half-width "
+        f"of {with_unit(smooth.half_width, 'm')}, {significant(ratio, 2)} of the radius: check "
+        "load, radius and moduli (1 N/um is 1e6 N/m)"
+    )
+
+
+def _of_trace(info: ProfileInfo) -> Iterator[str]:
+    slope = info.roughness.rms_slope
+    if info.length > LONGEST_TRACE:
+        yield f"profile: the trace is {with_unit(info.length, 'm')} long: check x_unit or spacing"
+    if slope == 0.0:
+        yield "profile: every height is the same once the form is off: check the file"
+    elif not SMOOTHEST <= slope <= STEEPEST:
+        height = with_unit(info.roughness.rq, "m")
+        yield (
+            f"profile: the rms slope is {significant(slope, 2)} at an Rq of {height}: check x_unit "
+            "and z_unit"
+        )

@@ -1,0 +1,206 @@
+"""The content of result.json, by the names that other people's scripts rely on."""
+
+from comparisons.assessment.comparison import uncertainties
+from comparisons.assessment.coupling import Coupling
+from comparisons.assessment.effects.budget import ErrorBudget
+from comparisons.assessment.effects.content import budget_content
+from comparisons.assessment.verdict import Comparison, half_space_verdict
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.level import Level, ModelRun, StressResult
+from comparisons.models.plan import Plan, no_coupling
+from comparisons.models.problem import Problem
+from comparisons.models.running_in import running_in_account
+
+SCHEMA = 1
+
+
+def result_of(
+    problem: Problem,
+    plan: Plan,
+    runs: dict[str, ModelRun],
+    comparisons: tuple[Comparison, ...],
+    refinement: str,
+    couplings: tuple[Coupling, ...] = (),
+    budget: ErrorBudget | None = None,
+) -> dict:
+    """All figures of a run: SI units, None for what is unknown.
+
+    refinement  why it stopped
+    couplings   of the half-plane, one a friction coefficient
+    budget      of the comparison, None for one model
+    """
+    hertz = problem.hertz
+    groups = _groups(problem, runs)
+    standings = [] if budget is None else budget.standings(problem.scene.tolerance)
+    verdict, why = half_space_verdict(standings)
+    by_quantity = {name: [] for name in QUANTITIES}
+    for row in comparisons:
+        by_quantity[row.quantity].append(
+            {
+                "friction": row.friction,
+                "half_plane": row.half_plane,
+                "finite_element": row.finite_element,
+                "difference": row.difference,
+                "uncertainty": row.uncertainty,
+                "tolerance": row.tolerance,
+                "verdict": row.verdict,
+            }
+        )
+    return {
+        "schema": SCHEMA,
+        "scene": problem.scene.as_dict(),
+        "profile": problem.scene.profile_info and problem.scene.profile_info.surface(),
+        "running_in": running_in_account(problem.scene),
+        "groups": groups,
+        "hertz": {
+            "half_width": hertz.half_width,
+            "peak_pressure": hertz.peak_pressure,
+            "reduced_modulus": hertz.combined_modulus,
+            "tau1_max": hertz.tau1_max,
+            "tau1_max_depth": hertz.tau1_max_depth,
+        },
+        "models": {
+            name: [_model(problem, run, mu, couplings) for mu in problem.scene.friction]
+            for name, run in runs.items()
+        },
+        "comparison": {name: rows for name, rows in by_quantity.items() if rows},
+        "budget": None if budget is None else budget_content(problem, runs, comparisons, budget),
+        "half_space": {"verdict": verdict, "why": why},
+        "refinement": refinement,
+        "assumptions": list(plan.assumptions),
+        "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
+    }
+
+
+def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | None]:
+    scene, half_width = problem.scene, problem.hertz.half_width
+    roughness = None if scene.profile_info is None else scene.profile_info.roughness
+    peak = max(float(run.finest.solution.pressure.max()) for run in runs.values())
+    return {
+        "a_over_thickness": None if scene.thickness is None else half_width / scene.thickness,
+        "a_over_radius": half_width / scene.roller_radius,
+        "a_over_width": None if scene.width is None else half_width / scene.width,
+        "rms_slope": None if roughness is None else roughness.rms_slope,
+        "max_slope": None if roughness is None else roughness.max_slope,
+        "friction_dundurs": max(scene.friction) * problem.dundurs_beta,
+        "peak_pressure_over_hardness": None if scene.hardness is None else peak / scene.hardness,
+    }
+
+
+def _model(
+    problem: Problem, run: ModelRun, friction: float, couplings: tuple[Coupling, ...]
+) -> dict:
+    level = run.finest
+    residuals = level.solution.residuals
+    return {
+        "friction": friction,
+        "contact": _contact(problem, run.name, level),
+        "stress": _stress(level.stress(friction)),
+        "uncertainty": {
+            name: {
+                "iteration": u.iteration,
+                "discretisation": u.discretisation if len(run.levels) > 2 else None,
+                "domain": u.domain,
+                "total": u.total if len(run.levels) > 2 else None,
+            }
+            for name, u in uncertainties(run, problem, friction).items()
+        },
+        "checks": {
+            "load_balance": residuals.load_balance,
+            "complementarity": residuals.complementarity,
+            "penetration": residuals.penetration,
+            "negative_pressure": residuals.negative_pressure,
+            "excess_pressure": residuals.excess_pressure,
+            "converged": level.solution.converged,
+        },
+        "cost": {
+            "seconds": run.seconds,
+            "iterations": level.solution.iterations,
+            "unknowns": level.unknowns,
+            "peak_memory": _peak_memory(problem, run),
+            "levels": [_cost_of(level) for level in run.levels],
+        },
+        **(_coupling(problem, friction, couplings) if run.name == "half_plane" else {}),
+        **(_operator(run) if run.name == "finite_element" else {}),
+    }
+
+
+def _operator(run: ModelRun) -> dict:
+    """The compliance before contact: of the finest level, and the verdicts of all."""
+    found = run.finest.operator
+    if found is None:
+        return {"operator": None}
+    checks = [level.operator for level in run.levels]
+    return {"operator": found.as_dict() | {"levels": [c and c.verdict for c in checks]}}
+
+
+def _cost_of(level: Level) -> dict:
+    """One level: what it took, and what the laws said before it was meshed."""
+    found = {
+        "pitch": level.grid.pitch,
+        "unknowns": level.unknowns,
+        "seconds": sum(level.seconds.values()),
+    }
+    if level.mesh is None:
+        return found
+    return found | {
+        "expected_seconds": level.expected_seconds,
+        "expected_memory": level.expected_memory,
+    }
+
+
+def _coupling(problem: Problem, friction: float, couplings: tuple[Coupling, ...]) -> dict:
+    """What friction changes by moving the surfaces, or why there is nothing of that."""
+    found = next((c for c in couplings if c.friction == friction), None)
+    if found is None:
+        return {"coupling": None, "coupling_why": no_coupling(problem, friction)}
+    return {"coupling": found.as_dict(), "coupling_why": found.why}
+
+
+def _contact(problem: Problem, model: str, level: Level) -> dict:
+    solution = level.solution
+    approach, why = _approach(problem, model, level)
+    return {
+        "load_per_length": solution.load,
+        "approach": approach,
+        "approach_why": why,
+        "peak_pressure": float(solution.pressure.max()),
+        "peak_position": float(level.grid.x[solution.pressure.argmax()]),
+        "contact_length": level.contact_length,
+        "contact_ratio": level.contact_length / (2.0 * problem.hertz.half_width),
+        "contact_ratio_extent": level.contact_length / level.extent,
+        "patches": level.patches.tolist(),
+    }
+
+
+def _approach(problem: Problem, model: str, level: Level) -> tuple[float | None, str | None]:
+    """Approach from first touch [m], where both bodies have a datum; else why not."""
+    if model == "half_plane":
+        return None, "the displacement of a half-plane is known but for a constant"
+    if problem.scene.thickness is None:
+        return None, "the body is unbounded: the value would grow with the size of its mesh"
+    if problem.scene.roller is not None:
+        return None, "the elastic roller is unbounded: its share has no datum"
+    return level.solution.approach - problem.first_touch, None
+
+
+def _stress(stress: StressResult | None) -> dict | None:
+    if stress is None:
+        return None
+    names = {"tau1": "tau1_max", "txz": "txz_max_abs", "von_mises": "von_mises_max"}
+    found = {}
+    for key, name in names.items():
+        extreme = stress.extremes[key]
+        found[name] = abs(extreme.value)
+        found[f"{name}_at"] = [extreme.x, extreme.z]
+    return found
+
+
+def _peak_memory(problem: Problem, run: ModelRun) -> int:
+    """Largest memory of the process [bytes] by the time the model was done.
+
+    The half-plane's planned levels come first, so that theirs is its own; further levels share
+    the process with the finite elements.
+    """
+    last = len(problem.pitches) if run.name == "half_plane" else len(run.levels)
+    return run.levels[min(last, len(run.levels)) - 1].peak_memory

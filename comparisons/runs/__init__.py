@@ -1,0 +1,1 @@
+"""One scene from start to end, and the same again."""

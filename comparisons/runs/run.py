@@ -1,0 +1,154 @@
+"""One scene from start to end: plan, both models level by level, comparison, files."""
+
+from pathlib import Path
+
+from analytic.contact.problem import ContactError
+from comparisons.assessment.comparison import compared, pair_histories
+from comparisons.assessment.coupling import couplings
+from comparisons.assessment.effects.budget import error_budget
+from comparisons.assessment.refinement import refined
+from comparisons.common.errors import InputError, SceneError, SolverError
+from comparisons.common.mpi import is_several
+from comparisons.common.progress import Listener, Stages, silent, within
+from comparisons.models.level_cache import Checkpoint
+from comparisons.models.plan import Plan, make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.running_in import run_in_scene
+from comparisons.models.window import window_of
+from comparisons.results.field_files import AUTOMATIC
+from comparisons.results.outcome import Outcome
+from comparisons.results.record import digest, record_of
+from comparisons.results.result_json import result_of
+from comparisons.runs.write import write_files
+from comparisons.scenes.scene import ResolvedScene
+from fem.solver.mumps import FemError
+from meshes.errors import MeshError
+
+# What lies behind of a run's time when its levels and when all is solved, without effects to
+# compute and with some: for what is told alone.
+ALONE, WITH_EFFECTS = (0.85, 0.85), (0.3, 0.97)
+GOES_ON = "finished levels are kept, the same command goes on from there"
+
+
+def run(
+    scene: ResolvedScene,
+    out: Path | None,
+    models: tuple[str, ...],
+    listener: Listener = silent,
+    fields: str = AUTOMATIC,
+) -> Outcome:
+    """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
+
+    models    of half_plane, finite_element
+    listener  is told each stage as it begins
+    fields    format of the stress fields, as `write_files` takes it
+    Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
+    SolverError where the finite elements find no solution; nothing is written then.
+    """
+    stages = Stages(listener)
+    _check_processes(scene, models)
+    try:
+        if scene.running_in is not None:
+            with stages.stage("running-in", "running the surface in"):
+                scene = run_in_scene(scene)
+        with stages.stage("set-up", "finding the reach of the contact"):
+            problem = _problem(scene, models, listener)
+        return solve(problem, make_plan(problem, models), out, listener, fields)
+    except (ContactError, MeshError) as error:
+        raise SceneError(f"{scene.source}: {error}") from error
+    except FemError as error:
+        remedy = "a lighter load"
+        if scene.finite_element.plastic:
+            remedy += ", a higher body.yield_stress or body.hardening_modulus"
+        raise SolverError(
+            f"{scene.source}: the finite elements found no solution: {error}; what may help is "
+            f"{remedy}, or finer pressures (resolution.pitch)"
+        ) from error
+
+
+def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
+    """Refuse on several processes what is solved on one."""
+    settings = scene.finite_element
+    if "finite_element" not in models or not is_several():
+        return
+    for name, nonlinear in (
+        ("deformation", settings.deformation == "finite"),
+        ("plastic", settings.plastic),
+    ):
+        if nonlinear:
+            raise SceneError(
+                f"{scene.source}: finite_element.{name}: is solved on one process; allowed "
+                "without mpirun"
+            )
+
+
+def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) -> Problem:
+    if scene.load.kind != "approach":
+        return problem_of(scene)
+    if "finite_element" not in models:
+        raise SceneError(
+            f"{scene.source}: load.approach: takes finite elements to find its load; "
+            "allowed with the half-plane alone is per_length or hertz_peak_pressure"
+        )
+    from comparisons.models.finite_element.load_at_approach import problem_of_approach
+
+    return problem_of_approach(scene, listener)
+
+
+def solve(
+    problem: Problem,
+    plan: Plan,
+    out: Path | None,
+    listener: Listener = silent,
+    fields: str = AUTOMATIC,
+) -> Outcome:
+    """Carry out a plan; `run` with a plan of one's own."""
+    window = window_of(problem) if plan.stress else None
+    checkpoint = Checkpoint(out, problem.scene, plan)
+    levels, solved = WITH_EFFECTS if plan.compares and plan.effects else ALONE
+    try:
+        runs, stop = refined(problem, plan, window, checkpoint, within(listener, 0.0, levels))
+        moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
+        rows = compared(problem, runs, window) if plan.compares else ()
+        budget = None
+        if plan.compares:
+            part = within(listener, levels, solved)
+            budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, part)
+    except KeyboardInterrupt:
+        raise _interrupted(out) from None
+    except (ContactError, FemError, InputError, MeshError):
+        checkpoint.discard()
+        raise
+    result = result_of(problem, plan, runs, rows, stop, moved, budget)
+    hashes = {
+        f"{name}_pressure": digest(level_run.finest.solution.pressure)
+        for name, level_run in runs.items()
+    }
+    worn = problem.scene.worn
+    if worn is not None:
+        hashes["run_in_profile"] = digest(worn.profile.x, worn.profile.height)
+    outcome = Outcome(
+        problem=problem,
+        plan=plan,
+        window=window,
+        runs=runs,
+        comparisons=rows,
+        result=result,
+        record=record_of(problem.scene, runs, hashes),
+        directory=out,
+        couplings=moved,
+        budget=budget,
+        pairs=pair_histories(problem, runs, window) if plan.compares else (),
+    )
+    try:
+        if out is not None:
+            write_files(outcome, within(listener, solved, 1.0), fields)
+    except KeyboardInterrupt:
+        raise _interrupted(out) from None
+    checkpoint.discard()
+    return outcome
+
+
+def _interrupted(out: Path | None) -> KeyboardInterrupt:
+    """With how to go on, if anything is kept."""
+    return KeyboardInterrupt(*([] if out is None else [GOES_ON]))

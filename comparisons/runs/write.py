@@ -1,0 +1,90 @@
+"""The files of a finished run: curves, fields, mesh, result, record, report."""
+
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.common.files import published
+from comparisons.common.mpi import is_first
+from comparisons.common.progress import Listener, Step
+from comparisons.models.deformed import deformed_height
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
+from comparisons.results.outcome import Outcome
+from comparisons.results.record import as_json
+from comparisons.scenes.scene import ResolvedScene
+from meshes.block import BlockMesh
+
+
+def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -> None:
+    """Write everything into the run's folder; whole files, all at the end, by one process.
+
+    fields   format of the stress fields: one of comparisons.results.field_files.FORMATS, or by
+             their size
+    """
+    if not is_first():
+        return
+    listener(Step("writing results", 0.0))
+    with published(outcome.directory) as folder:
+        for name, run in outcome.runs.items():
+            (folder / name).mkdir()
+            write_contact(folder / name / "contact.csv", outcome.problem, run.finest)
+            if outcome.window is not None:
+                write_field(folder / name, field_of(outcome, run), fields)
+            if run.finest.mesh is not None:
+                write_mesh(folder / name / "mesh.msh", outcome, run.finest.mesh)
+        if outcome.problem.scene.worn is not None:
+            write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
+        (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
+        (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
+        listener("drawing the report")
+        from comparisons.report.page import render
+        from comparisons.report.saved import FILE, keep_shown
+
+        keep_shown(folder / FILE, outcome)
+        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
+
+
+def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
+    """mesh.msh: what was solved on, and the scene that it was made for."""
+    from meshes.store import append_comment, write_msh
+
+    write_msh(mesh, path)
+    scene = outcome.problem.scene
+    append_comment(path, {"title": scene.title, "units": "m", "scene": scene_text(scene)})
+
+
+def write_contact(path: Path, problem: Problem, level: Level) -> None:
+    """contact.csv: position, pressure, gap and deformed height at every pressure element."""
+    columns = np.column_stack(
+        [
+            level.grid.x,
+            level.solution.pressure,
+            level.solution.gap,
+            deformed_height(problem, level),
+        ]
+    )
+    np.savetxt(
+        path,
+        columns,
+        delimiter=",",
+        fmt="%.12g",
+        header="x [m],pressure [Pa],gap [m],deformed height [m]",
+        comments="",
+    )
+
+
+def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
+    """run_in_profile.csv: the trace as it was given along x, its height before and after."""
+    worn = scene.worn
+    after = worn.profile.height
+    columns = np.column_stack([worn.profile.x + scene.position, after + worn.lowering, after])
+    np.savetxt(
+        path,
+        columns,
+        delimiter=",",
+        fmt="%.12g",
+        header="x [m],height before running-in [m],height [m]",
+        comments="",
+    )

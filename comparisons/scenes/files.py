@@ -1,0 +1,76 @@
+"""Where a scene's file is, and what it says as TOML; the scenes that come with the project."""
+
+import difflib
+import os
+import tomllib
+from pathlib import Path
+
+from comparisons.common.errors import SceneError
+
+SCENES = Path(__file__).parent / "library"
+LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
+
+
+def scene_names() -> list[str]:
+    """The scenes that come with the project."""
+    return sorted(path.stem for path in SCENES.glob("*.toml"))
+
+
+def scene_titles() -> dict[str, str]:
+    """Name and title of every scene that comes with the project."""
+    return {name: read_toml(SCENES / f"{name}.toml")["title"] for name in scene_names()}
+
+
+def find_scene(name_or_path: str | os.PathLike) -> Path:
+    """The file of a scene, named by its path or by the name of one that comes with the project.
+
+    A name wins over a file that is called the same; "./name" means the file. Raises SceneError
+    if there is neither, with the nearest name and the names there are.
+    """
+    given = os.fspath(name_or_path)
+    if not given:
+        raise SceneError("the scene has no name; allowed is a scene's file or name")
+    names = scene_names()
+    if given in names:
+        return SCENES / f"{given}.toml"
+    if os.path.lexists(given):
+        return Path(given)
+    if given.endswith(".toml") or os.path.dirname(given):
+        raise SceneError(
+            f"{given}: there is no such file; allowed is a scene file or a scene's name"
+        )
+    near = difflib.get_close_matches(given, names, n=1, cutoff=0.0)
+    raise SceneError(
+        f"{given}: is neither a file nor a scene; the nearest scene is {near[0]}, "
+        f"all are {', '.join(names)}"
+    )
+
+
+def read_toml(path: Path) -> dict:
+    """The tables of a TOML file. Raises SceneError if it cannot be read as TOML or is empty."""
+    try:
+        if path.is_dir():
+            raise SceneError(f"{path}: is a directory; allowed is a TOML file")
+        if not path.is_file():
+            raise SceneError(f"{path}: is not a regular file; allowed is a TOML file")
+        size = path.stat().st_size
+        if size > LARGEST_FILE:
+            raise SceneError(f"{path}: has {size} bytes; allowed are {LARGEST_FILE} for a scene")
+        tables = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except OSError as error:
+        raise SceneError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise SceneError(
+            f"{path}: is not text (byte {error.start} is not UTF-8); allowed is a TOML file"
+        ) from error
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(f"{path}: is not TOML: {error}") from error
+    except (RecursionError, ValueError) as error:
+        if isinstance(error, SceneError):
+            raise
+        raise SceneError(f"{path}: is beyond what TOML may hold: {error}") from error
+    if not tables:
+        raise SceneError(
+            f"{path}: is empty; allowed are sections, at least [roller], [body], [load]"
+        )
+    return tables

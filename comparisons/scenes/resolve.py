@@ -1,0 +1,136 @@
+"""From a scene file to a resolved scene: checked, in SI, with its profile read or made."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from analytic.material import Material
+from comparisons.scenes.files import find_scene, read_toml
+from comparisons.scenes.profile import KeptTrace, profile_of, sinusoid_length
+from comparisons.scenes.scene import (
+    Budget,
+    Coated,
+    Load,
+    Resolution,
+    ResolvedScene,
+    StressWindow,
+    Yielding,
+)
+from comparisons.scenes.schema.finite_element import settings_of
+from comparisons.scenes.schema.messages import scene_error
+from comparisons.scenes.schema.running_in import running_in_of
+from comparisons.scenes.schema.scene import (
+    BodyTable,
+    CoatingTable,
+    RollerTable,
+    SceneTables,
+    plain_tables,
+)
+
+LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
+
+
+def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
+    """The scene in a file, or of a name that comes with the project.
+
+    Raises SceneError, one line, for anything that is wrong with the file, with what it says, or
+    with the profile that it names.
+    """
+    path = find_scene(name_or_path)
+    name = path.stem.strip(". ") or "scene"
+    source = os.fspath(name_or_path)  # as it was asked for: that is how to ask for it again
+    return resolve_tables(read_toml(path), name=name, folder=path.parent, source=source)
+
+
+def resolve_tables(
+    tables: Mapping, *, name: str, folder: Path, source: str, kept: KeptTrace | None = None
+) -> ResolvedScene:
+    """The scene that `tables`, as TOML has them, describe.
+
+    folder  that the profile's path starts from
+    source  what messages call the scene
+    kept    the trace to take in place of the profile's file
+    Raises SceneError as `load_scene` does.
+    """
+    try:
+        scene = SceneTables.model_validate(tables)
+    except ValidationError as error:
+        raise scene_error(error, source) from error
+    body = Material(scene.body.youngs_modulus, scene.body.poissons_ratio)
+    roller = _roller(scene.roller)
+    load = Load(
+        LOAD_KINDS.get(scene.load.kind, scene.load.kind), getattr(scene.load, scene.load.kind)
+    )
+    plain = plain_tables(scene)
+    if scene.body.thickness is not None:
+        plain["body"].setdefault("base", "bonded")
+    ratios = [table.poissons_ratio for table in (scene.roller, scene.body, scene.coating) if table]
+    largest = max(ratio for ratio in ratios if ratio is not None)
+    settings = settings_of(scene.finite_element, scene.load.coupled, largest)
+    plain["finite_element"] = asdict(settings)
+    profile = info = None
+    position = scene.load.position or 0.0
+    if scene.profile is not None:
+        if scene.profile.kind == "sinusoid":
+            length = sinusoid_length(scene.profile, load, scene.roller.radius, roller, body)
+            if scene.running_in is not None:
+                length += scene.running_in.travel(position)
+            plain["profile"].setdefault("length", length)
+        profile, info, position = profile_of(
+            plain["profile"], scene.load.position, folder=folder, source=source, kept=kept
+        )
+        if info.cutoff is not None:
+            plain["profile"]["cutoff"] = info.cutoff  # of "auto", what it came to
+    plain["load"]["position"] = position
+    running_in = None
+    if scene.running_in is not None:
+        running_in, defaults = running_in_of(
+            scene.running_in, scene.body.hardness, position, profile, source
+        )
+        plain["running_in"] |= defaults
+    return ResolvedScene(
+        name=name,
+        source=source,
+        title=scene.title or name,
+        roller_radius=scene.roller.radius,
+        roller=roller,
+        body=body,
+        hardness=scene.body.hardness,
+        yielding=_yielding(scene.body),
+        coating=_coating(scene.coating),
+        thickness=scene.body.thickness,
+        width=scene.body.width,
+        base=plain["body"].get("base"),
+        profile=profile,
+        profile_info=info,
+        load=load,
+        running_in=running_in,
+        friction=scene.load.friction,
+        coupled=scene.load.coupled,
+        position=position,
+        stress=None if scene.stress is None else StressWindow(**dict(scene.stress)),
+        tolerance={name: value for name, value in scene.tolerance if value is not None},
+        finite_element=settings,
+        resolution=Resolution(**dict(scene.resolution)),
+        budget=Budget(**dict(scene.budget)),
+        tables=plain,
+    )
+
+
+def _roller(table: RollerTable) -> Material | None:
+    return None if table.rigid else Material(table.youngs_modulus, table.poissons_ratio)
+
+
+def _yielding(table: BodyTable) -> Yielding | None:
+    if table.yield_stress is None:
+        return None
+    return Yielding(table.yield_stress, table.hardening_modulus or 0.0)
+
+
+def _coating(table: CoatingTable | None) -> Coated | None:
+    if table is None:
+        return None
+    return Coated(Material(table.youngs_modulus, table.poissons_ratio), table.thickness)

@@ -1,0 +1,1 @@
+"""The sections and fields of a scene file, and how each is checked."""

@@ -1,0 +1,180 @@
+"""The [finite_element] section: which of the half-plane's assumptions the finite elements keep."""
+
+from typing import Annotated
+
+from pydantic import model_validator
+
+from comparisons.common.units import DIMENSIONLESS
+from comparisons.scenes.scene import FiniteElementSettings
+from comparisons.scenes.schema.fields import Choice, Number, Truth
+from comparisons.scenes.schema.section import FieldError, Table
+
+HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
+# Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
+# stresses at the edge of a contact half as large again as the largest below it.
+QUADRATIC_UP_TO = 0.49
+HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
+
+
+class FiniteElementTable(Table):
+    """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
+
+    geometry: Annotated[str, Choice(("flat", "rough"))] = "flat"
+    gap: Annotated[str, Choice(("reference", "displaced"))] | None = None
+    roller_shape: Annotated[str, Choice(("parabola", "circle"))] = "parabola"
+    roller_body: Annotated[str, Choice(("half-plane", "disc"))] = "half-plane"
+    coupled: Annotated[bool, Truth()] | None = None
+    deformation: Annotated[str, Choice(("linear", "finite"))] = "linear"
+    plastic: Annotated[bool, Truth()] = False
+    element: Annotated[str, Choice(("P1", "P2", "P3"))] | None = None
+    far_field: Annotated[str, Choice(("held", "half-plane"))] = "held"
+    block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
+    growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
+
+    @model_validator(mode="after")
+    def _nonlinear_bodies_have_what_they_take(self) -> "FiniteElementTable":
+        nonlinear = "finite_element.deformation" if self.deformation == "finite" else "plastic"
+        if self.deformation == "finite" and self.plastic:
+            raise FieldError(
+                "plastic",
+                'is true beside deformation = "finite"; allowed is either, plastic flow is of '
+                "small deformation",
+            )
+        if self.nonlinear and self.element not in (None, "P2"):
+            raise FieldError(
+                "element", f'is "{self.element}" with {nonlinear}; allowed there is "P2"'
+            )
+        return self
+
+    @property
+    def nonlinear(self) -> bool:
+        return self.deformation == "finite" or self.plastic
+
+    def defaults(self, poissons_ratio: float) -> dict:
+        """Fields that follow from others where the section leaves them out.
+
+        poissons_ratio  the largest of the bodies
+        """
+        found = {}
+        if self.element is None:
+            cubic = poissons_ratio > QUADRATIC_UP_TO and not self.nonlinear
+            found["element"] = "P3" if cubic else "P2"
+        if self.gap is None:
+            found["gap"] = "displaced" if self.geometry == "rough" else "reference"
+        if self.block is None:
+            found["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
+        return found
+
+    def check(
+        self, roller: Table, body: Table, load: Table, profile: Table | None, coating: Table | None
+    ) -> None:
+        """Raise FieldError unless the rest of the scene fits what this section asks for."""
+        unbounded = body.thickness is None and body.width is None
+        coated, finite = coating is not None, self.deformation == "finite"
+        coupled = load.coupled if self.coupled is None else self.coupled
+        nonlinear = self.nonlinear
+        rules = [
+            (
+                self.geometry == "rough" and profile is None,
+                "geometry",
+                'is "rough" for a smooth body; allowed with [profile]',
+            ),
+            (
+                nonlinear and self.far_field == "half-plane",
+                "far_field",
+                'is "half-plane" for a body that is not linear; allowed is "held"',
+            ),
+            (
+                nonlinear and len(load.friction) != 1,
+                "plastic" if self.plastic else "deformation",
+                f"wants one friction coefficient, not {len(load.friction)}: each has pressures of "
+                "its own; allowed is load.friction = one number",
+            ),
+            (
+                finite and body.hardness is not None,
+                "deformation",
+                'is "finite" for a body with a hardness, a cap on small deformation; '
+                "allowed without body.hardness",
+            ),
+            (
+                self.roller_body == "disc" and roller.rigid,
+                "roller_body",
+                'is "disc", but the roller is rigid; allowed with an elastic roller',
+            ),
+            (
+                self.far_field == "half-plane" and not unbounded,
+                "far_field",
+                'is "half-plane", but the body has a thickness or a width; allowed is "held"',
+            ),
+            (
+                self.far_field == "half-plane" and coated,
+                "far_field",
+                'is "half-plane", but the body has a coating; allowed is "held"',
+            ),
+            (
+                self.plastic and body.yield_stress is None,
+                "plastic",
+                "is true, but the body has no yield stress; allowed with body.yield_stress",
+            ),
+            (
+                bool(self.coupled) and len(load.friction) != 1,
+                "coupled",
+                f"is true with {len(load.friction)} friction coefficients, each of which has "
+                "pressures of its own then; allowed is one friction coefficient",
+            ),
+            (
+                finite and not roller.rigid,
+                "deformation",
+                'is "finite" with an elastic roller; allowed with roller.rigid = true',
+            ),
+            (
+                finite and coated,
+                "deformation",
+                'is "finite" for a coated body; allowed without [coating]',
+            ),
+            (
+                finite and profile is not None and self.geometry == "flat",
+                "geometry",
+                'is "flat" at finite deformation, which takes a real boundary; allowed is "rough"',
+            ),
+            (
+                finite and max(load.friction) > 0.0 and not coupled,
+                "coupled",
+                "is false at finite deformation, where the sliding traction moves the surface; "
+                "allowed is true",
+            ),
+            (
+                body.yield_stress is not None and not self.plastic,
+                "plastic",
+                "is false, but the body has a yield stress; allowed is true, or no "
+                "body.yield_stress",
+            ),
+            (
+                self.plastic and load.kind == "approach",
+                "plastic",
+                "is true with load.approach; allowed with per_length or hertz_peak_pressure",
+            ),
+            (
+                self.plastic and max(load.friction) > 0.0 and not coupled,
+                "coupled",
+                "is false for a body that yields, in which stresses of pressure and sliding "
+                "traction do not add up; allowed is true",
+            ),
+        ]
+        for broken, field, message in rules:
+            if broken:
+                raise FieldError(f"finite_element.{field}", message)
+
+
+def settings_of(
+    table: FiniteElementTable, coupled: bool, poissons_ratio: float
+) -> FiniteElementSettings:
+    """The section with its defaults.
+
+    coupled         what [load] says of both models
+    poissons_ratio  the largest of the bodies
+    """
+    given = dict(table) | table.defaults(poissons_ratio)
+    if table.coupled is None:
+        given["coupled"] = coupled
+    return FiniteElementSettings(**given)

@@ -1,0 +1,177 @@
+"""The [profile] section: a measured profile or a made one, each variety with fields of its own."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated
+
+from pydantic import model_validator
+
+from analytic.profile import MAX_SAMPLES
+from analytic.surface.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
+from comparisons.common.units import DIMENSIONLESS, LENGTH
+from comparisons.scenes.schema.fields import Choice, Number, Text, Unit, Whole
+from comparisons.scenes.schema.profile_fields import CutOff, Segment
+from comparisons.scenes.schema.section import FieldError, Length, Table, allowed
+
+Positive = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
+Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
+
+
+class ProfileTable(Table):
+    """A measured profile (`file`) or a made one (`kind`).
+
+    The parameters of a made profile are those of `analytic.surface.synthetic`, which also checks
+    how they fit together.
+    """
+
+    file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None
+    x_unit: Annotated[str, Unit(LENGTH)] | None = None
+    z_unit: Annotated[str, Unit(LENGTH)] | None = None
+    spacing: Length | None = None
+    row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
+    line: Annotated[tuple, Segment()] | None = None
+    form: Annotated[str, Choice(("none", "mean", "line", "arc"))] | None = None
+    dropouts: Annotated[str, Choice(("refuse", "bridge"))] | None = None
+    kind: Annotated[str, Choice(("sinusoid", "self-affine", "ground", "turned"))] | None = None
+    wavelength: Length | None = None
+    amplitude: Length | None = None
+    samples_per_wavelength: Samples | None = None
+    hurst: Annotated[float, Number(DIMENSIONLESS, above=0.0, at_most=1.0)] | None = None
+    rms_slope: Positive | None = None
+    rms_height: Length | None = None
+    samples: Samples | None = None
+    length: Length | None = None
+    seed: Annotated[int, Whole(0, 2**63 - 1)] | None = None
+    shortest_wavelength: Length | None = None
+    roll_off_wavelength: Length | None = None
+    longest_wavelength: Length | None = None
+    decay: Positive | None = None
+    one_sidedness: Positive | None = None
+    feed: Length | None = None
+    nose_radius: Length | None = None
+    ridge_radius: Length | None = None
+    phase: Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=1.0)] | None = None
+    samples_per_feed: Samples | None = None
+    noise: Length | None = None
+    noise_wavelength: Length | None = None
+    cutoff: Annotated[float | str, CutOff()] | None = None
+    short_cutoff: Length | None = None
+
+    @property
+    def variety(self) -> str:
+        """ "file" for a measured profile, else its kind."""
+        return self.kind or "file"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _defaults_of_the_variety(cls, given: object) -> object:
+        if not isinstance(given, dict):
+            return given
+        kind = given.get("kind", "file")
+        variety = PROFILE_VARIETIES.get(kind) if isinstance(kind, str) else None
+        return {**variety.defaults, **given} if variety else given
+
+    @model_validator(mode="after")
+    def _one_variety(self) -> "ProfileTable":
+        if self.file is not None and self.kind is not None:
+            raise FieldError("kind", "is given beside file; allowed is one of the two")
+        if self.file is None and self.kind is None:
+            raise FieldError("file", "is missing; allowed is file (measured) or kind (made)")
+        variety = PROFILE_VARIETIES[self.variety]
+        for name in sorted(self.model_fields_set - variety.fields()):
+            if getattr(self, name) is not None:
+                raise FieldError(
+                    name,
+                    f"does not belong to {variety.title}; allowed there are "
+                    + ", ".join([*sorted(variety.fields() - {"kind", "file", *FILTER}), *FILTER]),
+                )
+        for name in variety.needed:
+            if getattr(self, name) is None:
+                raise FieldError(
+                    name, f"is missing; allowed is {allowed(ProfileTable, name)} ({variety.title})"
+                )
+        for names in variety.one_of:
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) != 1:
+                raise FieldError(
+                    names[-1] if given else names[0],
+                    f"is {'given beside ' + names[0] if given else 'missing'}; "
+                    f"allowed is exactly one of {' and '.join(names)}",
+                )
+        for names in variety.at_most_one_of:
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) > 1:
+                raise FieldError(
+                    given[1],
+                    f"is given beside {given[0]}; allowed is exactly one of {' and '.join(names)}",
+                )
+        return self
+
+
+FILTER = ("cutoff", "short_cutoff")  # every variety has them
+
+
+@dataclass(frozen=True)
+class ProfileVariety:
+    """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
+
+    title: str
+    needed: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    defaults: Mapping[str, object] = field(default_factory=dict)
+    one_of: tuple[tuple[str, ...], ...] = ()
+    at_most_one_of: tuple[tuple[str, ...], ...] = ()
+
+    def fields(self) -> set[str]:
+        """Every field it may have."""
+        return {
+            *self.needed,
+            *self.optional,
+            *self.defaults,
+            *FILTER,
+            *(name for names in (*self.one_of, *self.at_most_one_of) for name in names),
+        }
+
+
+PROFILE_VARIETIES = {
+    "file": ProfileVariety(
+        "a measured profile",
+        needed=("file",),
+        optional=("z_unit",),  # a file that is not text may bring its units and its size
+        defaults={"form": "line", "dropouts": "refuse"},
+        at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
+    ),
+    "sinusoid": ProfileVariety(
+        'kind = "sinusoid"',
+        needed=("kind", "wavelength", "amplitude"),
+        optional=("length",),
+        defaults={"samples_per_wavelength": SAMPLES_PER_WAVELENGTH},
+    ),
+    "self-affine": ProfileVariety(
+        'kind = "self-affine"',
+        needed=("kind", "hurst", "samples", "length"),
+        optional=("shortest_wavelength", "longest_wavelength"),
+        defaults={"seed": 0},
+        one_of=(("rms_slope", "rms_height"),),
+    ),
+    "ground": ProfileVariety(
+        'kind = "ground"',
+        needed=(
+            "kind",
+            "rms_height",
+            "samples",
+            "length",
+            "shortest_wavelength",
+            "roll_off_wavelength",
+            "longest_wavelength",
+        ),
+        defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
+    ),
+    "turned": ProfileVariety(
+        'kind = "turned"',
+        needed=("kind", "feed", "nose_radius", "length"),
+        optional=("ridge_radius", "samples_per_feed", "noise", "noise_wavelength"),
+        defaults={"phase": 0.0, "seed": 0},
+    ),
+}

@@ -1,0 +1,100 @@
+"""The [running_in] section: how a surface is run in before both models press it."""
+
+from typing import Annotated
+
+import numpy as np
+from pydantic import model_validator
+
+from analytic.profile import Profile
+from analytic.running_in import SWEEPS
+from comparisons.common.errors import SceneError
+from comparisons.common.units import LENGTH, LOAD, PRESSURE
+from comparisons.scenes.scene import RunningIn
+from comparisons.scenes.schema.fields import Number, Several, Whole
+from comparisons.scenes.schema.section import FieldError, Length, Table
+
+PASSES = 15  # of a stroke that does not say how many
+MOST_PASSES = 1000  # of a sweep, and sweeps at most
+
+
+class RunningInTable(Table):
+    """Places of the roller one by one (`positions`), or evenly along a `stroke` about its own."""
+
+    hardness: Annotated[float, Number(PRESSURE, above=0.0)] | None = None
+    load: Annotated[float, Number(LOAD, above=0.0)] | None = None
+    positions: Annotated[tuple[float, ...], Several(Number(LENGTH))] | None = None
+    stroke: Length | None = None
+    passes: Annotated[int, Whole(2, MOST_PASSES)] | None = None
+    sweeps: Annotated[int, Whole(1, MOST_PASSES)] = SWEEPS
+
+    @model_validator(mode="after")
+    def _one_way_to_give_the_positions(self) -> "RunningInTable":
+        both, none = "given beside positions", "missing"
+        if (self.positions is None) == (self.stroke is None):
+            raise FieldError(
+                "positions" if self.stroke is None else "stroke",
+                f"is {none if self.stroke is None else both}; "
+                "allowed is exactly one of positions and stroke",
+            )
+        if self.positions is not None and self.passes is not None:
+            raise FieldError("passes", f"is {both}, which are one pass each; allowed with stroke")
+        return self
+
+    def check(self, profile: Table | None, hardness: float | None, load_kind: str) -> None:
+        """Raise FieldError unless the rest of the scene gives what this section leaves out."""
+        if profile is None:
+            raise FieldError(
+                "running_in", "is given for a smooth surface; allowed only with [profile]"
+            )
+        if self.hardness is None and hardness is None:
+            raise FieldError(
+                "running_in.hardness",
+                "is missing; allowed is a pressure above 0, here or as body.hardness",
+            )
+        if self.load is None and load_kind == "approach":
+            raise FieldError(
+                "running_in.load",
+                "is missing; allowed is a load per length above 0, which load.approach is not",
+            )
+
+    def travel(self, position: float) -> float:
+        """Twice the farthest that the roller goes from `position` [m]: so much longer than for
+        one contact a trace must be."""
+        if self.stroke is not None:
+            return self.stroke
+        return 2.0 * float(np.abs(np.array(self.positions) - position).max())
+
+
+def running_in_of(
+    table: RunningInTable, hardness: float | None, position: float, placed: Profile, source: str
+) -> tuple[RunningIn, dict]:
+    """How the scene's surface is run in, and the fields that the section leaves to defaults.
+
+    hardness  [Pa] of the body, if it has one
+    position  [m] of the roller's centre on the trace
+    placed    the trace with its x = 0 there
+    Raises SceneError where the roller would leave the trace.
+    """
+    defaults = {"hardness": hardness} if table.hardness is None else {}
+    positions = table.positions
+    if positions is None:
+        passes = table.passes or PASSES
+        defaults["passes"] = passes
+        positions = position + table.stroke * np.linspace(-0.5, 0.5, passes)
+    first, last = position + placed.x[[0, -1]]
+    for place in positions:
+        if not first < place < last:
+            field, given = "positions", place
+            allowed = f"inside the trace, above {first:g} m and below {last:g} m"
+            if table.stroke is not None:
+                field, given = "stroke", table.stroke
+                room = 2.0 * min(position - first, last - position)
+                allowed = f"below {room:g} m, to stay on the trace about the roller's centre"
+            raise SceneError(f"{source}: running_in.{field}: is {given:g} m; allowed is {allowed}")
+    settings = RunningIn(
+        hardness=table.hardness or hardness,
+        load=table.load,
+        positions=tuple(map(float, positions)),
+        sweeps=table.sweeps,
+    )
+    return settings, defaults

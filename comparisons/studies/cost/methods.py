@@ -1,0 +1,104 @@
+"""The ways to solve a contact whose cost is measured, at which settings, and where each applies.
+
+A setting is a pitch of the pressure elements [m] or, for meshes that the contact chooses, the
+relative error of the pressure that it is to reach. Pitches are those of the scene's own levels,
+coarser and finer by powers of two.
+"""
+
+from dataclasses import dataclass
+
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem
+
+MOST_DENSE = 4000  # elements of a dense matrix: 128 MB, and as much again for its factor
+HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
+FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
+TOLERANCES = (0.1, 0.03, 0.01, 3e-3, 1e-3)
+ADAPTED = "P2 adapted"
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to solve.
+
+    name     of the table and the diagram
+    model    half_plane | finite_element
+    element  hat | strip of pressure; or P1 | P2 | P3
+    dense    a matrix, in place of transforms
+    """
+
+    name: str
+    model: str
+    element: str
+    dense: bool = False
+
+    @property
+    def adapted(self) -> bool:
+        return self.name == ADAPTED
+
+    def settings(self, problem: Problem) -> tuple[float, ...]:
+        """From coarse to fine."""
+        if self.adapted:
+            return TOLERANCES
+        factors = HALF_PLANE_PITCHES if self.model == "half_plane" else FINITE_ELEMENT_PITCHES
+        return tuple(factor * problem.pitches[0] for factor in factors)
+
+
+FINEST = Method("hats, FFT", "half_plane", "hat")  # what the others are measured by, where it may
+METHODS = (
+    Method("strips, FFT", "half_plane", "strip"),
+    Method("strips, dense", "half_plane", "strip", dense=True),
+    FINEST,
+    Method("hats, dense", "half_plane", "hat", dense=True),
+    Method("P1", "finite_element", "P1"),
+    Method("P2", "finite_element", "P2"),
+    Method("P3", "finite_element", "P3"),
+    Method(ADAPTED, "finite_element", "P2"),
+)
+
+
+def why_not(method: Method, problem: Problem) -> str | None:
+    """Why a method does not apply to a scene at all, None where it does."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    if method.model == "half_plane":
+        if problem.coupling and method != FINEST:
+            return "friction moves the surfaces: that is in hats by FFT alone"
+        return None
+    nonlinear = settings.plastic or settings.deformation == "finite"
+    if method.element != "P2" and nonlinear:
+        return "bodies that yield or deform finitely take P2"
+    if not method.adapted:
+        return None
+    plan = make_plan(problem, ("half_plane", "finite_element"))
+    for hinders, because in (
+        (nonlinear, "the body yields or deforms finitely"),
+        (scene.hardness is not None, "the pressure has a cap"),
+        (settings.gap == "displaced", "the gap is taken at the displaced place"),
+        (settings.geometry == "rough" and scene.profile is not None, "the boundary is rough"),
+        (settings.roller_shape == "circle", "the roller is a circle"),
+        (settings.coupled and any(scene.friction), "friction moves the surfaces"),
+        (scene.coating is not None, "the body has a coating"),
+        (scene.width is not None or scene.thickness is not None, "the body has ends of its own"),
+        (scene.roller is not None and not plan.shared_factor, "the roller is a body of its own"),
+    ):
+        if hinders:
+            return f"adapted meshes are not made where {because}"
+    return None
+
+
+def is_half_plane_problem(problem: Problem) -> bool:
+    """Whether the finite elements solve what the half-plane solves: their limits are the same."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    unbounded = scene.thickness is None and scene.width is None and scene.coating is None
+    flat = settings.geometry == "flat" or scene.profile is None
+    linear = settings.deformation == "linear" and not settings.plastic
+    moved = bool(any(scene.friction) and problem.dundurs_beta)
+    return (
+        unbounded
+        and flat
+        and linear
+        and settings.gap == "reference"
+        and settings.roller_shape == "parabola"
+        and settings.roller_body == "half-plane"
+        and (settings.coupled == scene.coupled or not moved)
+    )

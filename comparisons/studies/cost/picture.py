@@ -1,0 +1,117 @@
+"""Error against time, a diagram a quantity: methods as lines, the floor, and what nothing beats."""
+
+import math
+
+from comparisons.common.numbers import given_percent, percent, with_unit
+from comparisons.common.words import label
+from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
+from comparisons.studies.cost.choice import needs_stress
+from comparisons.studies.cost.cost import Cost
+from comparisons.studies.cost.methods import METHODS
+from comparisons.studies.cost.study import OK
+
+# Okabe and Ito's colours, a line style and a mark of its own for each.
+DASHED = (0, (4, 1.6))
+LOOKS = {
+    "strips, FFT": ("#56B4E9", "-", "s"),
+    "strips, dense": ("#56B4E9", ":", "D"),
+    "hats, FFT": ("#0072B2", "-", "o"),
+    "hats, dense": ("#0072B2", ":", "v"),
+    "P1": ("#CC79A7", DASHED, "^"),
+    "P2": ("#D55E00", DASHED, "o"),
+    "P3": ("#009E73", DASHED, "s"),
+    "P2 adapted": ("#E69F00", DASHED, "P"),
+}
+HEIGHT = 3.9
+LEAST = 1e-7  # errors below are drawn there: nobody asks for them
+
+
+def cost_picture(cost: Cost, quantity: str) -> Picture:
+    """The diagram of one quantity."""
+    stresses = needs_stress([quantity])
+    reference = cost.references[quantity]
+    drawn = figure(COLUMN, HEIGHT)
+    axes = drawn.add_axes((0.125, 0.115, 0.855, 0.735))
+    floor = max(reference.floor, LEAST)
+    for method in METHODS:
+        points = [
+            (each.row.seconds(stresses), max(each.errors[quantity], LEAST))
+            for each in cost.assessed
+            if each.row.method.name == method.name
+            and each.row.status == OK
+            and each.errors.get(quantity) is not None
+        ]
+        if points:
+            colour, line, mark = LOOKS[method.name]
+            axes.plot(
+                *zip(*points, strict=True),
+                color=colour,
+                linestyle=line,
+                marker=mark,
+                markersize=4.5,
+                linewidth=1.1,
+                label=method.name,
+            )
+    front = [
+        (each.row.seconds(stresses), max(each.errors[quantity], floor))
+        for each in cost.fronts[quantity]
+    ]
+    if front:
+        axes.plot(
+            *zip(*front, strict=True),
+            linestyle="none",
+            marker="o",
+            markersize=10.0,
+            markerfacecolor="none",
+            markeredgecolor="#222222",
+            markeredgewidth=0.9,
+            label="nothing beats it",
+        )
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    first, last = axes.get_xlim()
+    if reference.row is not None and math.isfinite(floor):
+        low = min(axes.get_ylim()[0], 0.5 * floor)
+        axes.axhspan(low, floor, facecolor="#eceff1", zorder=0)
+        axes.set_ylim(bottom=low)
+        axes.annotate(
+            f"reference uncertain to {percent(floor)}",
+            (last, floor),
+            (-3, -3),
+            textcoords="offset points",
+            ha="right",
+            va="top",
+            fontsize=8.0,
+            color="#555555",
+        )
+    tolerance = cost.problem.scene.tolerance.get(quantity)
+    if tolerance is not None:
+        axes.axhline(tolerance, **REFERENCE)
+        axes.annotate(
+            f"tolerance {given_percent(tolerance)}",
+            (first, tolerance),
+            (3, 3),
+            textcoords="offset points",
+            fontsize=8.0,
+        )
+    axes.set_xlim(first, last)
+    axes.set_xlabel(
+        "seconds of the processor" + (", stresses included" if stresses else ", contact alone")
+    )
+    axes.set_ylabel("relative error")
+    drawn.legend(loc="upper left", ncol=4, bbox_to_anchor=(0.1, 1.0), columnspacing=1.2)
+    return Picture(
+        source=data_uri(drawn),
+        alternative=_in_words(cost, quantity, stresses),
+        caption=f"{label(quantity).capitalize()}: error against {reference.source}, over time.",
+    )
+
+
+def _in_words(cost: Cost, quantity: str, stresses: bool) -> str:
+    """The rows that nothing beats, for those who cannot see the diagram."""
+    rows = "; ".join(
+        f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity])} in "
+        f"{with_unit(each.row.seconds(stresses), 's', 2)}"
+        for each in cost.fronts[quantity]
+    )
+    return f"Error of the {label(quantity)} over time. Nothing beats: {rows}."

@@ -1,0 +1,229 @@
+"""One contact by one of the methods whose cost is measured, at one setting."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.stress.field import friction_field
+from analytic.stress.maxima import stress_maxima
+from analytic.stress_state import Extremum
+from comparisons.assessment.comparison import figures
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level import Level, StressResult, Window
+from comparisons.models.plan import Plan, make_plan
+from comparisons.models.problem import Problem
+from comparisons.models.window import search_window
+from comparisons.studies.cost.methods import Method
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a solution says of the compared quantities.
+
+    figures    one table a friction coefficient: peak_pressure, contact_length, …, SI
+    x, pressure   (n,) [m], [Pa] nodes of the pressure, straight between, feet included
+    stresses   one a friction coefficient on the scene's window, empty without
+    elements   of pressure
+    level      the solution as a level of a run, without its mesh; None on unequal hats
+    """
+
+    figures: tuple[dict[str, float], ...]
+    x: np.ndarray
+    pressure: np.ndarray
+    stresses: tuple[StressResult, ...]
+    elements: int
+    unknowns: int
+    converged: bool
+    level: Level | None
+
+
+def solved(
+    method: Method,
+    problem: Problem,
+    setting: float,
+    window: Window | None,
+    stages: Stages,
+    halved: bool = False,
+) -> Answer:
+    """Solve; `halved` holds an unbounded body at half the distance."""
+    if method.model == "half_plane":
+        if method.element == "hat" and not method.dense:
+            plan = make_plan(problem, ("half_plane",))
+            return _of_level(half_plane_level(problem, plan, setting, window, stages), problem)
+        return _of_level(_plain_half_plane(method, problem, setting, window, stages), problem)
+    settings = replace(problem.scene.finite_element, element=method.element)
+    problem = replace(problem, scene=replace(problem.scene, finite_element=settings))
+    if method.adapted:
+        return _adapted(problem, setting, window, stages)
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement
+
+    plan = finite_element_plan(problem)
+    level = finite_element_level(problem, plan, Refinement(setting, halved), window, stages)
+    return _of_level(replace(level, mesh=None, mesh_field=None), problem)
+
+
+def finite_element_plan(problem: Problem) -> Plan:
+    """Of the finite elements alone."""
+    return make_plan(problem, ("finite_element",))
+
+
+def _of_level(level: Level, problem: Problem) -> Answer:
+    pressure = level.solution.pressure
+    return Answer(
+        figures=tuple(figures(level, problem, friction) for friction in problem.scene.friction),
+        x=level.grid.pitch * np.arange(level.grid.first - 1, level.grid.last + 2),
+        pressure=np.concatenate([[0.0], pressure, [0.0]]),
+        stresses=level.stresses,
+        elements=level.grid.count,
+        unknowns=level.unknowns,
+        converged=level.solution.converged,
+        level=level,
+    )
+
+
+def _plain_half_plane(
+    method: Method, problem: Problem, pitch: float, window: Window | None, stages: Stages
+) -> Level:
+    """The half-plane as textbooks have it: uniform strips, or a dense matrix, or both."""
+    grid = problem.grid(pitch)
+    strips = method.element == "strip"
+    with stages.stage("contact"):
+        operator = HalfPlane(grid.count, pitch, problem.modulus, element=method.element)
+        if method.dense:
+            operator = DenseCompliance(operator.block(np.arange(grid.count)))
+        average = (
+            pitch * problem.gap(grid.x) if strips else grid.average(problem.gap, problem.knots)
+        )
+        solution = solve_contact(operator, average, grid.weights, problem.constraints())
+        level = Level(
+            grid=grid,
+            solution=solution,
+            displacement=np.zeros(grid.count),
+            patches=touching_strips(grid, solution) if strips else _patches(grid, solution),
+            seconds=stages.seconds,
+            unknowns=grid.count,
+        )
+    if window is None:
+        return level
+    with stages.stage("stresses"):
+        return replace(level, stresses=_stresses(problem, level, window, method.element))
+
+
+def _patches(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
+    from analytic.contact.patches import contact_patches
+
+    return contact_patches(grid.x, solution.pressure, solution.gap)
+
+
+def touching_strips(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
+    """Patches (k, 2) [m]: strips under pressure in a row, from edge to edge."""
+    touching = np.concatenate([[False], solution.pressure > 0.0, [False]])
+    first = np.flatnonzero(~touching[:-1] & touching[1:])
+    last = np.flatnonzero(touching[:-1] & ~touching[1:])
+    start = (grid.first - 0.5) * grid.pitch
+    return start + grid.pitch * np.column_stack([first, last])
+
+
+def _stresses(
+    problem: Problem, level: Level, window: Window, element: str
+) -> tuple[StressResult, ...]:
+    """As `comparisons.models.half_plane`; of strips below the surface alone, on which sx has no
+    bound."""
+    x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
+    top = 1 if element == "strip" else 0
+    shown, searched = (
+        friction_field(
+            x,
+            pressure,
+            (points.x[0], points.x[-1]),
+            points.z[top:],
+            subdivisions=points.subdivisions(pitch),
+            stride=points.stride(pitch),
+            element=element,
+        )
+        for points in (window, search_window(problem, window))
+    )
+    results = []
+    for friction in problem.scene.friction:
+        nu = problem.scene.body.poissons_ratio
+        found = stress_maxima(x, pressure, friction, searched.at(friction), nu, element)
+        extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
+        field = shown.at(friction).stress
+        if top:  # unknown there
+            unknown = [
+                np.vstack([np.full((1, part.shape[1]), np.nan), part])
+                for part in (field.sx, field.sz, field.txz)
+            ]
+            field = type(field)(*unknown)
+        results.append(StressResult(friction, extremes, field))
+    return tuple(results)
+
+
+def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: Stages) -> Answer:
+    """On a mesh and hats that the contact chooses; a block with the half-plane's far field."""
+    from analytic.surface.roughness import shortest_wavelength
+    from comparisons.models.finite_element.adaptive import Pressing, adapted_contact
+    from comparisons.models.finite_element.stress import Pressed, stresses_of
+    from fem.body.surface import straight_down
+    from fem.stress.stress import nodal_stress
+
+    scene = problem.scene
+    pressing = Pressing(
+        gap=problem.finite_element_gap,
+        load=problem.hertz.load_per_length,
+        material=scene.body,
+        extent=problem.extent,
+        knots=problem.knots,
+        shortest=np.inf if scene.profile is None else shortest_wavelength(scene.profile),
+        stiffening=scene.body.plane_strain_modulus / problem.modulus,
+    )
+    with stages.stage("contact and meshes"):
+        contact = adapted_contact(pressing, tolerance)
+    pressure, stresses = contact.solution.pressure, ()
+    if window is not None:
+        rough = contact.compliance
+
+        def stress(friction: float) -> object:
+            moved = rough.displacement(pressure, friction)
+            return nodal_stress(rough.body, moved, rough.hats, pressure, friction, straight_down)
+
+        with stages.stage("stresses"):
+            nothing = np.zeros(rough.count)
+            pressed = Pressed(rough.body, contact.solution, nothing, stress, np.empty((0, 2)))
+            stresses, _ = stresses_of(pressed, scene.friction, window)
+    found = []
+    for friction in scene.friction:
+        own = {
+            "peak_pressure": contact.peak_pressure,
+            "contact_length": contact.contact_length,
+            "contact_ratio": contact.contact_length / (2.0 * problem.hertz.half_width),
+        }
+        own |= of_extremes(next((s.extremes for s in stresses if s.friction == friction), None))
+        found.append(own)
+    return Answer(
+        figures=tuple(found),
+        x=contact.hats,
+        pressure=np.concatenate([[0.0], pressure, [0.0]]),
+        stresses=stresses,
+        elements=len(pressure),
+        unknowns=contact.rounds[-1].unknowns,
+        converged=contact.converged,
+        level=None,
+    )
+
+
+def of_extremes(extremes: dict[str, Extremum] | None) -> dict[str, float]:
+    """The figures that are of stresses, by the names of result.json."""
+    if extremes is None:
+        return {}
+    tau1 = extremes["tau1"]
+    return {
+        "tau1_max": tau1.value,
+        "tau1_max_depth": tau1.z,
+        "txz_max_abs": abs(extremes["txz"].value),
+    }

@@ -1,0 +1,225 @@
+"""The dimensionless groups of a map: how a scene's tables take a value of each.
+
+    a, p0   half-width [m] and peak pressure [Pa] of the smooth contact under the scene's load
+    t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
+    mu      coefficient of friction                    H   hardness [Pa]
+    beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
+
+Each group also says which of the half-plane's assumptions the finite elements drop for it. What
+is not spoken of stays as in the scene, but for what follows from its lengths: waves that are
+stretched keep their slopes. Groups that change a are set before those that are measured by it.
+"""
+
+import copy
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from comparisons.common.errors import SceneError
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.resolve import resolve_tables
+
+# Fields of made profiles that are lengths along x, and the one that heights are proportional to.
+WAVES = {
+    "sinusoid": ("wavelength", "length"),
+    "self-affine": ("length", "shortest_wavelength", "longest_wavelength"),
+    "ground": ("length", "shortest_wavelength", "roll_off_wavelength", "longest_wavelength"),
+}
+HEIGHTS = {"sinusoid": ("amplitude",), "self-affine": ("rms_height",), "ground": ("rms_height",)}
+SHORTEST = 4.0  # samples of a profile's shortest wave, where it names none
+FILTERS = ("cutoff", "short_cutoff")
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where tables come from: what messages call the scene, and the folder of its profile."""
+
+    source: str
+    folder: Path
+
+
+@dataclass(frozen=True)
+class Group:
+    """A dimensionless group.
+
+    symbol, label  for axes: short, and in words
+    span           where it is mapped unless a range is asked for
+    set_to         gives the SI tables of a scene (changed in place) a value of the group
+    removes        of [finite_element], so that it lacks the assumption that the group speaks of
+    early          the group changes a
+    """
+
+    symbol: str
+    label: str
+    span: tuple[float, float]
+    set_to: Callable[[dict, float, Origin], None]
+    removes: Mapping[str, object] = field(default_factory=dict)
+    early: bool = False
+
+
+def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
+    """The smooth contact of half-planes under a scene's load, which groups refer to."""
+    plain = {
+        "roller": tables["roller"],
+        "body": {name: tables["body"][name] for name in ("youngs_modulus", "poissons_ratio")},
+        "load": {k: v for k, v in tables["load"].items() if k not in ("friction", "position")},
+    }
+    if "approach" in plain["load"]:
+        raise SceneError(
+            f"{origin.source}: load.approach: is no load that groups can refer to; allowed for a "
+            "map is per_length or hertz_peak_pressure"
+        )
+    plain["load"].pop("coupled", None)
+    return problem_of(resolve_tables(plain, name="smooth", **vars(origin)))
+
+
+def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) -> dict:
+    """SI tables of a scene in which every named group has its value.
+
+    Raises SceneError where the scene lacks what a group is about.
+    """
+    changed = copy.deepcopy(dict(tables))
+    for name in sorted(values, key=lambda name: not GROUPS[name].early):
+        GROUPS[name].set_to(changed, values[name], origin)
+    return changed | {"finite_element": finite_elements(changed, values)}
+
+
+def finite_elements(tables: Mapping, names: Iterable[str]) -> dict:
+    """The scene's [finite_element] without the assumptions that the named groups speak of."""
+    settings = dict(tables.get("finite_element", {}))
+    for name in names:
+        settings |= GROUPS[name].removes
+    if settings.get("deformation") == "finite" and tables.get("profile"):
+        settings["geometry"] = "rough"
+    return settings
+
+
+def _half_width(tables: dict, origin: Origin) -> float:
+    return smooth_problem(tables, origin).hertz.half_width
+
+
+def _set_thickness(tables: dict, value: float, origin: Origin) -> None:
+    tables["body"]["thickness"] = _half_width(tables, origin) / value
+
+
+def _set_width(tables: dict, value: float, origin: Origin) -> None:
+    tables["body"]["width"] = _half_width(tables, origin) / value
+
+
+def _set_radius(tables: dict, value: float, origin: Origin) -> None:
+    """By the load: a = 2 p0 R / E*."""
+    if not tables["roller"].get("rigid"):
+        raise SceneError(
+            f"{origin.source}: roller: is elastic; allowed with a_over_radius, which takes finite "
+            "deformation, is roller.rigid = true"
+        )
+    modulus = smooth_problem(tables, origin).modulus
+    tables["load"].pop("per_length", None)
+    tables["load"]["hertz_peak_pressure"] = 0.5 * value * modulus
+
+
+def _set_friction(tables: dict, value: float, origin: Origin) -> None:
+    beta = abs(smooth_problem(tables, origin).dundurs_beta)
+    if beta == 0.0:
+        raise SceneError(
+            f"{origin.source}: body: has the roller's elastic constants, so that friction moves "
+            "nothing; allowed with friction_dundurs are unlike bodies or a rigid roller"
+        )
+    tables["load"]["friction"] = value / beta
+    tables["load"]["coupled"] = False
+
+
+def _set_hardness(tables: dict, value: float, origin: Origin) -> None:
+    """By hardness and yield stress in their ratio: the half-plane is capped, the body flows."""
+    body = tables["body"]
+    if not {"hardness", "yield_stress"} <= body.keys():
+        raise SceneError(
+            f"{origin.source}: body.yield_stress: is missing; allowed with "
+            "peak_pressure_over_hardness are body.hardness and body.yield_stress"
+        )
+    factor = smooth_problem(tables, origin).hertz.peak_pressure / value / body["hardness"]
+    for name in {"hardness", "yield_stress", "hardening_modulus"} & body.keys():
+        body[name] *= factor
+
+
+def _set_poissons_ratio(tables: dict, value: float, origin: Origin) -> None:
+    tables["body"]["poissons_ratio"] = value
+
+
+def _set_modulus_ratio(tables: dict, value: float, origin: Origin) -> None:
+    if "youngs_modulus" not in tables["roller"]:
+        raise SceneError(
+            f"{origin.source}: roller.rigid: is true; allowed with modulus_ratio is an elastic one"
+        )
+    tables["roller"]["youngs_modulus"] = value * tables["body"]["youngs_modulus"]
+
+
+def _made_profile(tables: dict, origin: Origin, group: str) -> dict:
+    profile = tables.get("profile") or {}
+    if profile.get("kind") not in WAVES:
+        raise SceneError(
+            f"{origin.source}: profile: cannot be changed along {group}; allowed there is kind = "
+            + ", ".join(f'"{kind}"' for kind in WAVES)
+        )
+    return profile
+
+
+def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
+    """By a likeness of the profile: x and heights by one factor."""
+    profile = _made_profile(tables, origin, "wavelength_over_a")
+    kind = profile["kind"]
+    if kind == "sinusoid":
+        shortest = profile["wavelength"]
+    else:
+        spacing = profile["length"] / (profile["samples"] - 1)
+        shortest = profile.get("shortest_wavelength", SHORTEST * spacing)
+    factor = value * _half_width(tables, origin) / shortest
+    for name in (*WAVES[kind], *HEIGHTS[kind], *FILTERS):
+        if isinstance(profile.get(name), float):
+            profile[name] *= factor
+    if "position" in tables["load"]:
+        tables["load"]["position"] *= factor
+
+
+def _set_slope(tables: dict, value: float, origin: Origin) -> None:
+    profile = _made_profile(tables, origin, "rms_slope")
+    scene = resolve_tables(tables, name="slope", **vars(origin))
+    factor = value / scene.profile_info.roughness.rms_slope
+    for name in (*HEIGHTS[profile["kind"]], "rms_slope"):
+        if name in profile:
+            profile[name] *= factor
+
+
+REAL_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
+OWN_BOUNDARY = {"far_field": "held"}
+
+GROUPS: dict[str, Group] = {
+    "a_over_thickness": Group(
+        "a/t", "half-width over thickness", (0.05, 5.0), _set_thickness, OWN_BOUNDARY
+    ),
+    "a_over_width": Group("a/w", "half-width over width", (0.02, 0.4), _set_width, OWN_BOUNDARY),
+    "a_over_radius": Group(
+        "a/R",
+        "half-width over radius",
+        (0.005, 0.3),
+        _set_radius,
+        {"deformation": "finite", "roller_shape": "circle"},
+        early=True,
+    ),
+    "rms_slope": Group("rms slope", "of the surface", (0.005, 0.2), _set_slope, REAL_BOUNDARY),
+    "wavelength_over_a": Group(
+        "λ/a", "shortest wavelength over half-width", (0.2, 4.0), _set_wavelength, REAL_BOUNDARY
+    ),
+    "friction_dundurs": Group(
+        "μβ", "friction times Dundurs' beta", (0.01, 0.3), _set_friction, {"coupled": True}
+    ),
+    "peak_pressure_over_hardness": Group(
+        "p₀/H", "Hertz's peak pressure over hardness", (0.3, 1.5), _set_hardness, {"plastic": True}
+    ),
+    "poissons_ratio": Group(
+        "ν", "Poisson's ratio of the body", (0.0, 0.49), _set_poissons_ratio, early=True
+    ),
+    "modulus_ratio": Group(
+        "E/E'", "roller's modulus over the body's", (0.01, 100.0), _set_modulus_ratio, early=True
+    ),
+}

@@ -1,0 +1,62 @@
+"""A map from start to end: its points, map.json, the picture."""
+
+import json
+import os
+from contextlib import nullcontext
+from pathlib import Path
+
+from comparisons.common.files import check_writable
+from comparisons.common.progress import Listener, silent
+from comparisons.results.record import as_json
+from comparisons.studies.maps.cache import PointStore
+from comparisons.studies.maps.content import map_content
+from comparisons.studies.maps.executors import Workers, processes
+from comparisons.studies.maps.request import MapRequest
+from comparisons.studies.maps.sweep import sweep
+
+GOES_ON = "finished points are kept, the same command goes on from there"
+MAP, PICTURE, TIMES = "map.json", "map.svg", "map_times.json"
+
+
+def make_map(
+    request: MapRequest,
+    out: Path,
+    workers: Workers | int | None = None,
+    listener: Listener = silent,
+) -> dict:
+    """Compute the points that `out` lacks, write the map there, and return its content.
+
+    workers  an executor that has the points solved, or a number of processes; None: one a core
+    Raises InputError for what cannot be mapped or written.
+    """
+    points = request.points
+    check_writable(out)
+    store = PointStore(out)
+    store.tidy()
+    open_executor, count = processes, workers or os.cpu_count() or 1
+    if isinstance(workers, Workers):
+        open_executor, count = lambda count: nullcontext(workers.executor), workers.count
+    try:
+        sweep(points, store, open_executor, count, listener)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(GOES_ON) from None
+    content = map_content(request, store)
+    listener("map: picture")
+    from comparisons.studies.maps.picture import map_picture
+
+    _write(out / PICTURE, map_picture(content))
+    _write(out / TIMES, as_json({"seconds": [store.load(p.key)["seconds"] for p in points]}))
+    _write(out / MAP, as_json(content))
+    return content
+
+
+def read_map(path: Path) -> dict:
+    """The content of a map.json."""
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def _write(path: Path, text: str) -> None:
+    """A file, whole or not at all."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    part.write_text(text, encoding="utf-8")
+    os.replace(part, path)

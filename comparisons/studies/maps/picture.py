@@ -1,0 +1,226 @@
+"""A map as a picture: colours by the half-plane's own error, lines at the tolerances.
+
+A cell a point. Where the error cannot be told from the numerical one it is hatched, without
+colour: dots where it is below the first tolerance all the same, lines where it may be above. A
+failed point has a cross, one that was not computed is blank.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.quantities import QUANTITIES
+from comparisons.report.figures.style import drawing, figure, svg
+from comparisons.studies.maps.content import BELOW, MISSING, TOLD
+from comparisons.studies.maps.point import FAILED
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SIZE = (7.2, 5.9)  # inches
+BOX = (0.105, 0.2, 0.74, 0.71)
+BAR = (0.87, 0.2, 0.028, 0.71)
+BANDS = (0.0, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5)
+COLOURS = "cividis_r"  # for every kind of colour vision; darker is worse
+LIGHT = 0.45  # share of the colours from whose darkness on letters are white
+LETTERED = 12  # columns up to which each cell tells its error
+SMALLEST = 1e-3  # errors below are drawn as if on a straight scale
+STYLES = ((0, (1, 1.2)), (0, (5, 1.5)), "-", (0, (7, 1.5, 1, 1.5)))
+HATCHES = {True: "....", False: "////"}
+
+
+def map_picture(content: dict) -> str:
+    """SVG of a map's content; the same for the same content."""
+    with drawing():
+        return svg(map_figure(content))
+
+
+def map_figure(content: dict) -> "Figure":
+    """The same as a figure, to be called inside `drawing()`."""
+    drawn = figure(*SIZE)
+    axes = drawn.add_axes(BOX)
+    x, y = (_places(content[name]) for name in ("x", "y"))
+    edges = _edges(x), _edges(y)
+    axes.set_xlim(edges[0][[0, -1]])
+    axes.set_ylim(edges[1][[0, -1]])
+    axes.grid(False)
+    kinds = _cells(axes, content, edges)
+    lines = _lines(axes, content, x, y)
+    _ticks(axes.xaxis, content["x"], x)
+    _ticks(axes.yaxis, content["y"], y)
+    _bar(drawn)
+    label = QUANTITIES[content["quantity"]].label
+    axes.set_title(f"The half-plane's own error: {label}, per cent\n{content['scene']['title']}")
+    _legend(axes, content, kinds, lines)
+    return drawn
+
+
+def _places(axis: dict) -> np.ndarray:
+    """Where values lie: their logarithms on a logarithmic axis."""
+    values = np.array(axis["values"])
+    return np.log10(values) if axis["logarithmic"] else values
+
+
+def _edges(places: np.ndarray) -> np.ndarray:
+    """Borders of cells about ascending places."""
+    middles = 0.5 * (places[1:] + places[:-1])
+    return np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]])
+
+
+def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) -> set[str]:
+    """Draw every point's cell; which kinds there are beside coloured ones."""
+    from matplotlib import colormaps
+    from matplotlib.patches import Rectangle
+
+    colours, kinds = colormaps[COLOURS], set()
+    columns = len(content["x"]["values"])
+    for number, point in enumerate(content["points"]):
+        row, column = divmod(number, columns)
+        left, low = edges[0][column], edges[1][row]
+        wide, high = edges[0][column + 1] - left, edges[1][row + 1] - low
+        middle = (left + 0.5 * wide, low + 0.5 * high)
+        look = {"edgecolor": "white", "linewidth": 0.4, "facecolor": "none"}
+        if point["status"] == MISSING:
+            kinds.add(MISSING)
+            continue
+        if point["status"] == FAILED:
+            kinds.add(FAILED)
+            axes.plot(*middle, "x", color="#222222", markersize=7.0, markeredgewidth=1.2)
+            continue
+        if point["error"] == TOLD:
+            error = point["quantities"][content["quantity"]]["difference"]
+            share = _share(abs(error))
+            look["facecolor"] = colours(share)
+            if columns <= LETTERED:
+                ink = "white" if share > LIGHT else "black"
+                text = f"{100.0 * error:+#.2g}".rstrip(".").replace("-", "−")
+                axes.text(
+                    *middle,
+                    text,
+                    color=ink,
+                    fontsize=7.0,
+                    ha="center",
+                    va="center",
+                    zorder=4,
+                    # lines stop short of letters
+                    bbox={"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8},
+                )
+        else:
+            kinds.add(point["error"])
+            look |= {"hatch": HATCHES[point["error"] == BELOW], "edgecolor": "#777777"}
+        axes.add_patch(Rectangle((left, low), wide, high, **look))
+    return kinds
+
+
+def _share(error: float) -> float:
+    """Of the colours, by the band that an error is in."""
+    return (np.searchsorted(BANDS, error, side="right") - 1) / (len(BANDS) - 1)
+
+
+def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[float, object]:
+    """Where the error is at each tolerance, either sign, straight between points on its scale.
+
+    Returns the style of the line of every tolerance that the map reaches.
+    """
+    error = np.full((len(y), len(x)), np.nan)
+    for number, point in enumerate(content["points"]):
+        own = point.get("quantities", {}).get(content["quantity"])
+        if own is not None:
+            error.flat[number] = own["difference"]
+    drawn = {}
+    for tolerance, style in zip(content["tolerances"], STYLES, strict=True):
+        for side in (-1.0, 1.0):
+            if np.nanmax(side * error, initial=-np.inf) <= tolerance:
+                continue
+            drawn[tolerance] = style
+            found = axes.contour(
+                x,
+                y,
+                np.ma.masked_invalid(_scaled(side * error)),
+                levels=[_scaled(tolerance)],
+                colors="#D55E00",
+                linewidths=1.3,
+                linestyles=[style],
+            )
+            found.set(path_effects=_halo())
+    return drawn
+
+
+def _scaled(error: np.ndarray | float) -> np.ndarray | float:
+    """Nearly logarithmic for either sign."""
+    return np.arcsinh(np.asarray(error) / SMALLEST)
+
+
+def _halo() -> list:
+    from matplotlib.patheffects import Normal, Stroke
+
+    return [Stroke(linewidth=2.6, foreground="white"), Normal()]
+
+
+def _ticks(side: object, axis: dict, places: np.ndarray) -> None:
+    side.set_label_text(f"{axis['symbol']}, {axis['label']}")
+    if not axis["logarithmic"]:
+        return
+    low, high = np.floor(places[0]), np.ceil(places[-1])
+    decades = 10.0 ** np.arange(low, high + 1)
+    values = [m * d for d in decades for m in (1, 2, 5)]
+    ends = side.get_view_interval()
+    values = [v for v in values if ends[0] <= np.log10(v) <= ends[1]]
+    side.set_ticks(np.log10(values), [f"{v:g}" for v in values])
+    minor = np.log10([m * d for d in decades for m in range(1, 10)])
+    side.set_ticks(minor[(minor >= ends[0]) & (minor <= ends[1])], minor=True)
+
+
+def _bar(drawn: "Figure") -> None:
+    from matplotlib import colormaps
+    from matplotlib.patches import Rectangle
+
+    bar = drawn.add_axes(BAR)
+    count = len(BANDS)
+    for number, low in enumerate(BANDS):
+        colour = colormaps[COLOURS](_share(low))
+        bar.add_patch(Rectangle((0.0, number), 1.0, 1.0, facecolor=colour, edgecolor="white"))
+    bar.set(xlim=(0.0, 1.0), ylim=(0.0, count), xticks=[])
+    bar.grid(False)
+    bar.yaxis.tick_right()
+    bar.set_yticks(range(1, count), [f"{100.0 * band:g} %" for band in BANDS[1:]])
+    bar.tick_params(length=0.0)
+    for spine in bar.spines.values():
+        spine.set_visible(False)
+
+
+def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, object]) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    entries = [
+        Line2D(
+            [], [], color="#D55E00", linewidth=1.3, linestyle=style, label=f"error of {100 * t:g} %"
+        )
+        for t, style in lines.items()
+    ]
+    first = f"{100.0 * content['tolerances'][0]:g} %"
+    words = {
+        BELOW: f"not told from numerical error, below {first}",
+        "unclear": "not told from numerical error",
+    }
+    for kind, label in words.items():
+        if kind in kinds:
+            look = {"facecolor": "none", "edgecolor": "#777777", "hatch": HATCHES[kind == BELOW]}
+            entries.append(Patch(label=label, linewidth=0.4, **look))
+    if FAILED in kinds:
+        cross = {"marker": "x", "color": "#222222", "linestyle": "none"}
+        entries.append(Line2D([], [], label="failed", **cross))
+    if MISSING in kinds:
+        entries.append(Patch(facecolor="none", edgecolor="none", label="blank: not computed"))
+    if not entries:
+        return
+    axes.legend(
+        handles=entries,
+        loc="upper left",
+        bbox_to_anchor=(-0.1, -0.115),
+        ncols=4,
+        borderaxespad=0.0,
+        columnspacing=1.4,
+    )

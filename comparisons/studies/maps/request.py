@@ -1,0 +1,148 @@
+"""What is asked of a map: a scene, two axes, a quantity; and of each of its points."""
+
+import copy
+import hashlib
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from comparisons.common.errors import InputError, SceneError
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.level_cache import program_code
+from comparisons.results.record import digest, versions
+from comparisons.scenes.files import find_scene, read_toml
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.studies.maps.axes import Axis, axis_of, counts_of, usual_axes
+from comparisons.studies.maps.groups import Origin, finite_elements, tables_with
+
+FINISHED = Path(__file__).parent / "finished"
+SIZE = "8x8"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A point of a map.
+
+    x, y      values of the groups
+    quantity  that the levels are refined for
+    tables    the scene, SI; None where it cannot be
+    why       it cannot be
+    key       hash of everything that shapes the answer
+    """
+
+    x: float
+    y: float
+    quantity: str
+    tables: dict | None
+    folder: Path
+    source: str
+    why: str | None
+    key: str
+
+
+@dataclass(frozen=True)
+class MapRequest:
+    """A map.
+
+    scene     as it was asked for: a name or a path
+    tables    of the scene, SI, with what it leaves open left open
+    quantity  of `comparisons.common.quantities`, that is shown
+    """
+
+    scene: str
+    name: str
+    tables: dict
+    origin: Origin
+    x: Axis
+    y: Axis
+    quantity: str
+
+    @property
+    def command(self) -> str:
+        """That makes this map."""
+        return (
+            f"crosscheck map {self.scene} --points {self.x.count}x{self.y.count} "
+            f"--x {self.x} --y {self.y} --quantity {self.quantity}"
+        )
+
+    @property
+    def removed(self) -> dict:
+        """[finite_element] of the points: which assumptions are dropped."""
+        return finite_elements(self.tables, (self.x.group, self.y.group))
+
+    @cached_property
+    def points(self) -> tuple[Asked, ...]:
+        """Row by row: y outside, x inside.
+
+        Raises SceneError where no point can be asked for, with what is wrong at the first.
+        """
+        program = [versions(), program_code()]
+        points = tuple(self._asked(x, y, program) for y in self.y.values for x in self.x.values)
+        if all(point.tables is None for point in points):
+            raise SceneError(points[0].why)
+        return points
+
+    def _asked(self, x: float, y: float, program: list) -> Asked:
+        values = {self.x.group: x, self.y.group: y}
+        tables = why = None
+        profile = ""
+        try:
+            scene = resolve_tables(
+                tables_with(self.tables, values, self.origin), name=self.name, **vars(self.origin)
+            )
+            tables = scene.tables
+            if scene.profile is not None:
+                profile = digest(scene.profile.x, scene.profile.height)
+        except InputError as error:
+            why = str(error)
+        parts = json.dumps([tables or [why], profile, self.quantity, program], sort_keys=True)
+        key = hashlib.sha256(parts.encode()).hexdigest()[:24]
+        return Asked(x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key)
+
+
+def request_of(
+    scene: str,
+    points: str = SIZE,
+    x: str | None = None,
+    y: str | None = None,
+    quantity: str = "peak_pressure",
+) -> MapRequest:
+    """The map that the arguments of `crosscheck map` ask for.
+
+    scene   of a finished map, or as for `crosscheck run`
+    points  "NxM"
+    x, y    "GROUP" or "GROUP=FROM:TO"
+    Raises InputError for anything that is wrong with them.
+    """
+    counts = counts_of(points)
+    own = FINISHED / f"{scene}.toml"
+    path = own if own.is_file() else find_scene(scene)
+    given = read_toml(path)
+    name = path.stem.strip(". ") or "scene"
+    origin = Origin(source=scene, folder=path.parent)
+    tables = _open_tables(given, name, origin)
+    usual = usual_axes(tables)
+    axes = [
+        axis_of(asked or default, count, option)
+        for asked, default, count, option in zip((x, y), usual, counts, ("--x", "--y"), strict=True)
+    ]
+    if axes[0].group == axes[1].group:
+        raise InputError(f"--y: is {axes[1].group}, as --x; allowed are two groups")
+    if quantity not in QUANTITIES:
+        raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(QUANTITIES)}")
+    if QUANTITIES[quantity].needs_stress and "stress" not in tables:
+        raise InputError(f"--quantity: {quantity} needs a [stress] section in {scene}")
+    return MapRequest(scene, name, tables, origin, *axes, quantity)
+
+
+def _open_tables(given: dict, name: str, origin: Origin) -> dict:
+    """The scene in SI; what it leaves to follow from the rest is left out, since that changes."""
+    tables = copy.deepcopy(resolve_tables(given, name=name, **vars(origin)).tables)
+    tables["finite_element"] = given.get("finite_element", {})
+    for section, field in (("load", "position"), ("profile", "length"), ("profile", "cutoff")):
+        if section in tables and field not in given[section]:
+            tables[section].pop(field, None)
+    if "profile" in tables and given["profile"].get("cutoff") == "auto":
+        tables["profile"]["cutoff"] = "auto"
+    return tables

@@ -1,0 +1,1 @@
+"""The paper's claims, and the numbers that judge them."""

@@ -1,0 +1,96 @@
+"""One scale of each kind for every picture: stresses over p0, lengths over a, heights in m."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.stress.field import StressField, friction_field
+from comparisons.report.figures.field_layout import round_bands
+from comparisons.report.figures.fields import COMPONENTS, Component
+from comparisons.results.outcome import Outcome
+from comparisons.studies.paper.pictures.trace import trace_surfaces
+
+RANGE = 1.25  # a, to either side
+# Depths of the stacked lines [a]: the asperities' stresses would stand between even ones.
+DEPTHS = np.concatenate(
+    [[0.0, 0.0025, 0.005, 0.0075], np.arange(0.01, 0.095, 0.01), np.arange(0.1, 1.001, 0.02)]
+)
+COLUMN = 0.004  # a, from one column of a line to the next
+STEP = 0.25  # p0, of the scales of stress
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Shared by all surfaces.
+
+    bands     of colour, by component's name [p0]
+    ceilings  highest tick of the isometric views, by component's name [p0]
+    floors    where their blocks end below, by component's name [p0]
+    pressure  top of the pressures' axes [p0]
+    relief    height of the surfaces' axes [m]
+    """
+
+    bands: dict[str, np.ndarray]
+    ceilings: dict[str, float]
+    floors: dict[str, float]
+    pressure: float
+    relief: float
+
+
+def layered(outcome: Outcome, friction: float = 0.0) -> StressField:
+    """The half-plane's stresses on the stacked lines: x and z [a], stresses [p0]."""
+    level, hertz = outcome.runs["half_plane"].finest, outcome.problem.hertz
+    a, pitch = hertz.half_width, outcome.runs["half_plane"].finest.grid.pitch
+    found = friction_field(
+        level.grid.x,
+        level.solution.pressure / hertz.peak_pressure,
+        (-RANGE * a, RANGE * a),
+        DEPTHS * a,
+        subdivisions=max(1, round(pitch / (COLUMN * a))),
+        stride=max(1, round(COLUMN * a / pitch)),
+    ).at(friction)
+    return StressField(found.x / a, DEPTHS, found.stress)
+
+
+def values_of(outcome: Outcome, component: Component, model: str, friction: float) -> np.ndarray:
+    """A model's field on the run's window [p0]."""
+    field = outcome.runs[model].finest.stress(friction).field
+    return component.of(field) / outcome.problem.hertz.peak_pressure
+
+
+def scales_of(outcomes: dict[str, Outcome]) -> Scales:
+    """The scales that hold all surfaces."""
+    stacked = {name: layered(outcome).stress for name, outcome in outcomes.items()}
+    bands, ceilings, floors = {}, {}, {}
+    for component in COMPONENTS:
+        fields = [
+            values_of(outcome, component, "half_plane", friction)
+            for outcome in outcomes.values()
+            for friction in outcome.problem.scene.friction
+        ]
+        bands[component.name] = round_bands(fields, component.signed)
+        lines = [component.of(stress) for stress in stacked.values()]
+        top = max(line.max() for line in lines)
+        ceilings[component.name] = STEP * float(np.ceil(top / STEP))
+        # of the block's two sides that are seen
+        low = min(min(line[-1].min(), line[:, -1].min()) for line in lines)
+        floors[component.name] = STEP * float(np.floor(low / STEP)) if component.signed else 0.0
+    return Scales(
+        bands=bands,
+        ceilings=ceilings,
+        floors=floors,
+        pressure=1.12 * max(_highest(outcome) for outcome in outcomes.values()),
+        relief=max(_relief(outcome) for outcome in outcomes.values()),
+    )
+
+
+def _highest(outcome: Outcome) -> float:
+    peaks = [run.finest.solution.pressure.max() for run in outcome.runs.values()]
+    return float(max(peaks) / outcome.problem.hertz.peak_pressure)
+
+
+def _relief(outcome: Outcome) -> float:
+    """Height [m] that both surfaces under load take, with room for the roller."""
+    x, body, roller = trace_surfaces(outcome)
+    near = np.abs(x) <= RANGE * outcome.problem.hertz.half_width
+    return 1.45 * float(roller[near].max() - body[near].min())

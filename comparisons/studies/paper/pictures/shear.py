@@ -1,0 +1,119 @@
+"""Shear stresses below a surface, as the paper shows them: isometric views and contours."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from comparisons.common.numbers import decimal, plain, significant
+from comparisons.report.figures.field_layout import colour_bar, cross, fill
+from comparisons.report.figures.fields import Component
+from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
+from comparisons.results.outcome import Outcome
+from comparisons.studies.paper.pictures.isometric import bounds, draw_isometric, draw_scales, frame
+from comparisons.studies.paper.pictures.scales import RANGE, STEP, Scales, layered, values_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
+TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
+FOOT, TITLE, BAR = 0.86, 0.3, 0.1  # inches
+
+
+def isometric_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:
+    """A component without friction as stacked lines; `of`, the surface in words."""
+    import matplotlib
+    from matplotlib.colors import BoundaryNorm
+
+    field = layered(outcome)
+    values = component.of(field.stress)
+    floor, ceiling = scales.floors[component.name], scales.ceilings[component.name]
+    ends = np.array([-RANGE, RANGE])  # which the columns of each surface come near to
+    left, right, bottom, top = bounds(ends, field.z, floor, ceiling)
+    drawn = figure(COLUMN, COLUMN * (top - bottom) / (right - left))
+    axes = drawn.add_axes((0.0, 0.0, 1.0, 1.0))
+    colours = matplotlib.colormaps[component.colours]
+    norm = BoundaryNorm(
+        scales.bands[component.name], colours.N, extend="both" if component.signed else "max"
+    )
+    draw_isometric(axes, field.x, field.z, values, floor, colours, norm)
+    heights = np.arange(floor, ceiling + 0.5 * STEP, STEP)
+    draw_scales(axes, field.x, field.z, floor, heights, component.symbol)
+    frame(axes, ends, field.z, floor, ceiling)
+    row, column = np.unravel_index(np.argmax(np.abs(values)), values.shape)
+    largest = (
+        f"highest on the lines drawn: {significant(abs(values[row, column]), 3)} p₀ at "
+        f"x = {decimal(field.x[column], 2)} a, z = {significant(field.z[row], 2)} a"
+    )
+    words = f"{component.words.capitalize()} {component.symbol} below the {of}, no friction"
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Isometric view. {words}; {largest}.",
+        caption=(
+            f"{words} (half-plane). Seen from inside the body: the surface lies at the back, each "
+            f"line is a depth, colours are those of the contours; {largest}."
+        ),
+    )
+
+
+def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:
+    """A component at every friction coefficient: half-plane in bands, finite elements in lines."""
+    hertz, window = outcome.problem.hertz, outcome.window
+    frictions = outcome.problem.scene.friction
+    bands = scales.bands[component.name]
+    total = FOOT + len(frictions) * (TALL + TITLE)
+    drawn = figure(COLUMN, total)
+    found = []
+    for place, friction in enumerate(frictions, start=1):
+        low = total - place * (TALL + TITLE)
+        axes = drawn.add_axes((0.62 / COLUMN, low / total, 2 * RANGE * TALL / COLUMN, TALL / total))
+        shown = fill(
+            axes,
+            window.x / hertz.half_width,
+            window.z / hertz.half_width,
+            values_of(outcome, component, "half_plane", friction),
+            bands,
+            component.colours,
+            component.signed,
+        )
+        _lines(axes, outcome, component, friction, bands)
+        axes.set(xlim=(-RANGE, RANGE), xticks=np.arange(-1.0, 1.01, 0.5))
+        extreme = outcome.runs["half_plane"].finest.stress(friction).extremes[component.name]
+        at = extreme.x / hertz.half_width, extreme.z / hertz.half_width
+        cross(axes, *at)
+        largest = significant(abs(extreme.value) / hertz.peak_pressure, 3)
+        found.append(
+            f"friction {plain(friction)}: largest {largest} p₀ at x = {decimal(at[0], 2)} a, "
+            f"z = {significant(at[1], 2)} a"
+        )
+        axes.set_title(found[-1])
+        axes.tick_params(labelbottom=place == len(frictions))
+    axes.set_xlabel("x/a")
+    bar = drawn.add_axes((1.1 / COLUMN, 0.3 / total, (COLUMN - 1.3) / COLUMN, BAR / total))
+    colour_bar(drawn, bar, shown, f"{component.symbol}/p₀", bands)
+    words = f"{component.words.capitalize()} {component.symbol} below the {of}"
+    return Picture(
+        source=data_uri(drawn),
+        alternative=f"Contours. {words}. {'; '.join(found)}.",
+        caption=(
+            f"{words}: colours are the half-plane's, dashed lines the finite elements' at the "
+            f"bounds of the colours; + marks the largest amount"
+            f"{', stripes what is negative' if component.signed else ''}. Sliding acts on the body "
+            "towards +x."
+        ),
+    )
+
+
+def _lines(
+    axes: "Axes", outcome: Outcome, component: Component, friction: float, bands: np.ndarray
+) -> None:
+    """The finite elements' contours."""
+    hertz, window = outcome.problem.hertz, outcome.window
+    near = np.abs(window.x) <= 1.01 * RANGE * hertz.half_width
+    axes.contour(
+        window.x[near] / hertz.half_width,
+        window.z / hertz.half_width,
+        values_of(outcome, component, "finite_element", friction)[:, near],
+        levels=bands,
+        **LINES,
+    )

@@ -1,0 +1,137 @@
+"""Backward errors and conditions of what the half-plane solves: direct solvers, FFT products.
+
+Ratios as LAPACK's own tests have them (`backward`), for the ordinary grid and for the worst
+conditioned matrices there are: many nodes, incompressible layers, coatings of high contrast.
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.material import Material
+from analytic.operators.convolution import Convolution
+from analytic.operators.elements import at_whole_offsets, hat_galerkin
+from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.operators.tangential import CoupledHalfPlane
+from comparisons.studies.robustness.backward import THRESHOLD, backward_ratio, product_ratio
+from comparisons.studies.robustness.many_digits import galerkin_log
+from comparisons.studies.robustness.row import Case, Figure, Findings
+
+OFFSETS = (0, 1, 2, 3, 4, 7, 30, 1000, 65_536, 10**6, 10**8)
+
+
+def coefficient_findings() -> Findings:
+    """Coefficients of hats at whole offsets up to 1e8, where closed forms cancel altogether."""
+    found = hat_galerkin(np.array(OFFSETS, dtype=float))
+    exact = np.array([float(galerkin_log(offset)) for offset in OFFSETS])
+    error = float(np.abs(found / exact - 1.0).max())
+    table = at_whole_offsets(hat_galerkin, 1024)
+    few = np.array([float(galerkin_log(offset)) for offset in range(0, 1024, 93)])
+    tabled = float(np.abs(table[::93] / few - 1.0).max())
+    return Findings(
+        (
+            Figure("coefficient", error, 4e-15, "a hundred digits"),
+            Figure("tabled coefficient", tabled, 4e-15, "a hundred digits"),
+        )
+    )
+
+
+def direct_findings(make: Callable[[], Convolution], nodes: np.ndarray) -> Findings:
+    """Few free nodes, solved for directly."""
+    operator = make()
+    rng = np.random.default_rng(1)
+    right = rng.standard_normal((len(nodes), 2)) * operator.column[0]
+    matrix = operator.block(nodes)
+    found = operator.solve(nodes, right)
+    ratio = np.inf if found is None else backward_ratio(matrix, found, right)
+    figure = Figure("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
+    return Findings((figure,), condition=float(np.linalg.cond(matrix)))
+
+
+def product_findings(make: Callable[[], Convolution], single: bool = False) -> Findings:
+    """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
+
+    The ratio grows like log n at most, which THRESHOLD leaves room for.
+    """
+    operator = make()
+    count = operator.count
+    kind = np.float32 if single else float
+    pressure = np.random.default_rng(2).uniform(0.0, 1.0, count).astype(kind)
+    rows = np.unique(np.linspace(0, count - 1, 64).astype(int))
+    distance = rows[:, None] - np.arange(count)
+    matrix = np.where(distance >= 0, operator.column[abs(distance)], operator.row[abs(distance)])
+    exact = matrix.astype(np.longdouble) @ pressure.astype(np.longdouble)
+    norm = float(np.abs(matrix).sum(axis=1).max())
+    eps = float(np.finfo(kind).eps)
+    found = operator.apply(pressure)
+    ratio = product_ratio(norm, pressure, found[rows], exact, eps)
+    against = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
+    return Findings((Figure("error of the product", ratio, THRESHOLD, against),))
+
+
+def dense_findings() -> Findings:
+    """Hats finer than what deforms leave a matrix without full rank: it must still be solved."""
+    coarse = HalfPlane(40, 4.0, 1.0).block(np.arange(40))
+    spread = np.zeros((160, 40))
+    for j in range(40):
+        centre = 4 * j + 3
+        offset = np.arange(-3, 4)
+        inside = (centre + offset >= 0) & (centre + offset < 160)
+        spread[(centre + offset)[inside], j] = (1.0 - np.abs(offset) / 4.0)[inside]
+    operator = DenseCompliance(spread @ coarse @ spread.T)
+    pressure = np.random.default_rng(3).uniform(size=160)
+    sunk = operator.apply(pressure)
+    again = operator.apply(operator.precondition(sunk))
+    error = float(np.abs(again - sunk).max() / np.abs(sunk).max())
+    figure = Figure("displacement given back", error, 1e-6, "the displacement asked for")
+    return Findings((figure,), condition=float(np.linalg.cond(operator.matrix)))
+
+
+def cases() -> tuple[Case, ...]:
+    """The cases of this module."""
+    elastomer = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
+    coated = LayeredBody(Material(1e6, 0.3), 1.0, Material(1.0, 0.3))
+    rough = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
+    rows = [
+        ("coefficients at offsets to 1e8", coefficient_findings),
+        (
+            "half-plane, 120 scattered nodes",
+            partial(direct_findings, partial(HalfPlane, 1000, 1.0, 1.0), rough),
+        ),
+        (
+            "half-plane, 240 nodes in a row",
+            partial(direct_findings, partial(HalfPlane, 1000, 1.0, 1.0), np.arange(300, 540)),
+        ),
+        (
+            "incompressible layer, 240 nodes in a row",
+            partial(
+                direct_findings, partial(LayeredSurface, 400, 0.05, elastomer), np.arange(80, 320)
+            ),
+        ),
+        (
+            "stiff coating, 120 nodes in a row",
+            partial(
+                direct_findings, partial(LayeredSurface, 400, 1e-3, coated), np.arange(100, 220)
+            ),
+        ),
+        (
+            "sliding, mu beta = 1, 120 scattered nodes",
+            partial(direct_findings, partial(CoupledHalfPlane, 1000, 1.0, 1.0, 1.0), rough),
+        ),
+        ("product, 4096 nodes", partial(product_findings, partial(HalfPlane, 4096, 1.0, 1.0))),
+        ("product, 65536 nodes", partial(product_findings, partial(HalfPlane, 65_536, 1.0, 1.0))),
+        ("product, 32 bits", partial(product_findings, partial(HalfPlane, 4096, 1.0, 1.0), True)),
+        (
+            "product, incompressible layer",
+            partial(product_findings, partial(LayeredSurface, 4096, 0.05, elastomer)),
+        ),
+        (
+            "product, sliding, mu beta = 1",
+            partial(product_findings, partial(CoupledHalfPlane, 4096, 1.0, 1.0, 1.0)),
+        ),
+        ("more hats than what deforms", dense_findings),
+    ]
+    return tuple(Case("algebra", name, "half_plane", solve) for name, solve in rows)

@@ -1,0 +1,152 @@
+"""Stresses at 1e-12 a below the surface, on edges of elements, at 1e6 a below and beside.
+
+References in a hundred digits, at the very doubles that the product is given; each component by its
+own relative error, so that none hides behind a larger one.
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from analytic.exact.hertz import HertzContact, hertz_stress
+from analytic.stress.elements import hat_stress
+from analytic.stress.field import stress_field
+from analytic.stress.points import stress_at
+from analytic.stress_state import PlaneStress
+from comparisons.studies.robustness.many_digits import hat_parts, hertz_parts
+from comparisons.studies.robustness.row import Case, Figure, Findings
+
+DIGITS = 2e-13  # of each component
+NOTHING = 1e-90  # what a hundred digits leave of zero
+ROUNDING = 4e-15  # of the largest component
+NEAR, FAR = 1e-12, 1e6
+BESIDE = (0.0, 0.01, 0.3, 0.999999, 1.0, 1.0 + 2.0**-52, 1.000001, 3.0, 1e3, FAR)
+AXIS = 1e-9  # so near the axis what is odd in x keeps the digits of the largest component only
+HERTZ = HertzContact(1.0, 1.0, 0.5 * np.pi, 0.5, 1.0)
+COUNT = 65  # hats of a line load seen from afar
+Parts = tuple[float, float, float, float]
+
+
+def component_error(found: np.ndarray, exact: np.ndarray) -> float:
+    """Largest relative error (k, 4) of any component that is not zero."""
+    zero = np.abs(exact) < NOTHING
+    if np.any(found[zero] != 0.0):
+        return float("inf")
+    return float(np.abs(found[~zero] / exact[~zero] - 1.0).max())
+
+
+def hat_at(x: np.ndarray, z: float) -> np.ndarray:
+    """(k, 4) as `many_digits.hat_parts`."""
+    hat = hat_stress(x, np.full_like(x, z), 1.0)
+    return np.column_stack([hat.normal.sx, hat.normal.sz, hat.normal.txz, hat.traction_sx])
+
+
+def hertz_at(x: np.ndarray, z: float) -> np.ndarray:
+    """(k, 4) as `many_digits.hertz_parts`."""
+    plain, slid = (hertz_stress(HERTZ, x, np.full_like(x, z), mu) for mu in (0.0, 1e30))
+    return np.column_stack([plain.sx, plain.sz, plain.txz, (slid.sx - plain.sx) / 1e30])
+
+
+def points_findings(
+    found: Callable[[np.ndarray, float], np.ndarray],
+    exact: Callable[[float, float], Parts],
+    z: float,
+) -> Findings:
+    """One depth, places from the axis to 1e6 beside, the ends among them."""
+    x = np.array([*BESIDE, *(-place for place in BESIDE[1:]), AXIS])
+    expected = np.array([exact(float(each), z) for each in x])
+    given = found(x, z)
+    error = component_error(given[:-1], expected[:-1])
+    size = np.abs(expected).max(axis=1, keepdims=True)
+    whole = float((np.abs(given - expected) / size).max())
+    figures = (
+        Figure("any component", error, DIGITS, "a hundred digits"),
+        Figure("all, of the largest", whole, ROUNDING, "a hundred digits"),
+    )
+    return Findings(figures)
+
+
+def line_pressure() -> tuple[np.ndarray, np.ndarray]:
+    """Nodes and pressures of a line of hats, uneven."""
+    x = np.arange(COUNT) - COUNT // 2
+    return x / 32.0, 1.0 + 0.5 * np.cos(1.7 * x)
+
+
+def summed_exactly(x: float, z: float) -> np.ndarray:
+    """(4,) of that line, hat by hat in a hundred digits; the nodes are whole 32nds."""
+    nodes, pressure = line_pressure()
+    parts = np.array([hat_parts(float(32.0 * (x - n)), 32.0 * z) for n in nodes])
+    return pressure @ parts
+
+
+def line_findings(z: float) -> Findings:
+    """A line of hats at one depth: sums keep 1e-13 of the largest component there."""
+    nodes, pressure = line_pressure()
+    x = np.array([0.0, 0.25, 1.0, 1.03125, 2.0, -7.0, 64.0, z, -10.0 * z])
+    stress = stress_at(nodes, pressure, 0.0, x, z)
+    slid = stress_at(nodes, pressure, 1.0, x, z)
+    found = np.column_stack([stress.sx, stress.sz, stress.txz, slid.sx - stress.sx])
+    exact = np.array([summed_exactly(float(each), z) for each in x])
+    scale = np.abs(exact).max(axis=1, keepdims=True)
+    error = float((np.abs(found - exact) / scale).max())
+    return Findings((Figure("stress", error, 1e-13, "a hundred digits, of the largest component"),))
+
+
+def surface_findings() -> Findings:
+    """On the surface sz is the pressure and txz the traction, to the last bit."""
+    nodes, pressure = line_pressure()
+    field = stress_field(nodes, pressure, 0.3, (-1.0, 1.0), np.array([0.0, NEAR]), 4)
+    on_nodes = np.isin(field.x, nodes)
+    carried = np.interp(field.x, nodes, pressure)
+    off = np.abs(field.stress.sz[0] + carried)[on_nodes].max()
+    shear = np.abs(field.stress.txz[0] + 0.3 * carried)[on_nodes].max()
+    below = np.abs(field.stress.sz[1] + carried).max() / carried.max()
+    figures = (
+        Figure("sz on the surface", float(off), 0.0, "the pressure, exactly"),
+        Figure("txz on the surface", float(shear), 1e-16, "the traction, exactly"),
+        Figure("sz at 1e-12", float(below), 1e-10, "the pressure"),
+    )
+    return Findings(figures)
+
+
+def resultant_findings() -> Findings:
+    """At 1e6 a the field is the resultant's line load: Flamant's, with the dipole next to none."""
+    nodes, pressure = line_pressure()
+    load = pressure.sum() / 32.0
+    angle = np.linspace(0.05, np.pi - 0.05, 25)
+    x, z = FAR * np.cos(angle), FAR * np.sin(angle)
+    stress = stress_at(nodes, pressure, 0.0, x, z)
+    radial = -2.0 * load * np.sin(angle) / (np.pi * FAR)
+    exact = PlaneStress(
+        radial * np.cos(angle) ** 2,
+        radial * np.sin(angle) ** 2,
+        radial * np.cos(angle) * np.sin(angle),
+    )
+    error = (
+        max(
+            float(np.abs(a - b).max())
+            for a, b in zip(vars(stress).values(), vars(exact).values(), strict=True)
+        )
+        / np.abs(radial).max()
+    )
+    return Findings((Figure("stress", error, 1e-5, "Flamant, of order 1/distance"),))
+
+
+def cases() -> tuple[Case, ...]:
+    """The cases of this module."""
+    depths = {"1e-12 a": NEAR, "1e-3 a": 1e-3, "a": 1.0, "1e6 a": FAR}
+    rows = [
+        (f"{name}, at {said} below", partial(points_findings, found, exact, z))
+        for name, found, exact in (
+            ("one hat", hat_at, hat_parts),
+            ("Hertz", hertz_at, hertz_parts),
+        )
+        for said, z in depths.items()
+    ]
+    rows += [
+        (f"a line of hats, at {said} below", partial(line_findings, z))
+        for said, z in depths.items()
+    ]
+    rows += [("on the surface", surface_findings), ("1e6 a away", resultant_findings)]
+    return tuple(Case("stress", name, "half_plane", solve) for name, solve in rows)

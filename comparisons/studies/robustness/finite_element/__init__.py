@@ -1,0 +1,1 @@
+"""Stiff and extreme cases of the finite-element side."""

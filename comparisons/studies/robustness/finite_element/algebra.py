@@ -1,0 +1,162 @@
+"""Stiffness matrices at their worst: backward errors of MUMPS, conditions, exact states of strain.
+
+The ratio of LAPACK's tests must stay below its threshold whatever the condition is. A state that
+the elements hold exactly must come out to rounding, which the condition may magnify:
+"""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from analytic.material import Material
+from comparisons.studies.robustness.backward import (
+    EPS,
+    THRESHOLD,
+    backward_ratio,
+    condition_estimate,
+    one_norm,
+)
+from comparisons.studies.robustness.finite_element.bodies import flat_mesh
+from comparisons.studies.robustness.row import Case, Figure, Findings
+from fem.body.coating import Coating
+from fem.body.elasticity import ElasticBody, elastic_body
+from fem.body.support import Support
+from fem.body.surface import hat_forces
+from meshes.block import BlockMesh
+from meshes.roughen import roughen
+
+BONDED, EVEN = Support("bonded", "fixed"), Support("frictionless", "rollers")
+STEEL = Material(207e9, 0.3)
+GIVEN_BACK = 1e-8  # of a state that the elements hold, whatever the condition
+
+
+def solved_free(body: ElasticBody, right: np.ndarray) -> np.ndarray:
+    """Displacement (2n,) [m] under forces (2n,) [N/m]."""
+    return body.solve(right.reshape(-1, 2)).ravel()
+
+
+def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
+    """Random forces, and the forces of a hat: residual against rounding, and the condition."""
+    body = make()
+    matrix = csr_matrix(body.stiffness())
+    rng = np.random.default_rng(5)
+    forces = np.where(body.held, 0.0, rng.standard_normal(body.nodes.shape))
+    load = np.zeros(body.nodes.shape)
+    x = body.surface.x
+    hats = np.linspace(0.25 * x[0], 0.25 * x[-1], 7)
+    load[body.surface.point] = hat_forces(body.surface, hats)[:, 2].toarray().reshape(-1, 2)
+    ratios = {
+        "random forces": np.where(body.held, 0.0, forces).ravel(),
+        "one hat": np.where(body.held, 0.0, load).ravel(),
+    }
+    figures = [
+        Figure(
+            f"backward error, {name}",
+            backward_ratio(matrix, solved_free(body, right), right),
+            THRESHOLD,
+            "LAPACK's test ratio",
+        )
+        for name, right in ratios.items()
+    ]
+    held = body.held.ravel()
+    # held rows are the identity's: what they add to the condition is their scale, not the body's
+    free = np.flatnonzero(~held)
+
+    def inverse(right: np.ndarray) -> np.ndarray:
+        whole = np.zeros(len(held))
+        whole[free] = np.ravel(right)
+        return solved_free(body, whole)[free]
+
+    condition = condition_estimate(matrix[free][:, free], inverse)
+    symmetry = abs(matrix - matrix.T).max() / abs(matrix).max()
+    figures.append(Figure("asymmetry", float(symmetry), 1e-14, "none"))
+    return Findings(tuple(figures), condition=condition)
+
+
+def even_findings(make: Callable[[], ElasticBody]) -> Findings:
+    """Even compression, which elements of any shape hold exactly, under rough ground too.
+
+    uz = depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu).
+    """
+    body = make()
+    material, matrix = body.material, csr_matrix(body.stiffness())
+    moved = np.zeros(body.nodes.shape)
+    moved[:, 1] = body.mesh.spec.depth - body.nodes[:, 1]
+    moved[body.held] = 0.0
+    force = (matrix @ moved.ravel()).reshape(-1, 2)
+    top = body.surface.point
+    inside = ~body.held
+    inside[top] = False
+    ratio = np.abs(force[inside]).max() / (one_norm(matrix) * np.abs(moved).max() * EPS)
+    nu, shear = material.poissons_ratio, material.shear_modulus
+    resultant = 2.0 * body.mesh.spec.half_width * 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu)
+    carried = abs(force[top, 1].sum() / resultant - 1.0)
+    load = np.zeros_like(force)
+    load[top] = force[top]
+    error = np.abs(body.solve(load) - moved).max() / np.abs(moved).max()
+    return Findings(
+        (
+            Figure("displacement", float(error), GIVEN_BACK, "even compression, exact"),
+            Figure("forces inside", float(ratio), THRESHOLD, "none, as LAPACK's test ratio"),
+            Figure("resultant", float(carried), GIVEN_BACK, "even compression, exact"),
+        )
+    )
+
+
+def body_on(
+    mesh: Callable[[], BlockMesh],
+    material: Material = STEEL,
+    support: Support = BONDED,
+    degree: int = 2,
+    coating: Coating | None = None,
+) -> ElasticBody:
+    return elastic_body(mesh(), material, support, degree=degree, coating=coating)
+
+
+def rough_on(slope: float) -> Callable[[], BlockMesh]:
+    """A block whose top is a sinusoid of this rms slope, which fades beyond the refined ground."""
+
+    def height(x: np.ndarray) -> np.ndarray:
+        fading = np.exp(-((x / 2.0) ** 8))
+        return fading * slope * np.sqrt(2.0) / np.pi * np.cos(np.pi * x)
+
+    return lambda: roughen(flat_mesh(8.0, 8.0, 3.0, 0.05), height)
+
+
+def cases() -> tuple[Case, ...]:
+    """The cases of this module."""
+    plain = partial(flat_mesh, 40.0, 40.0, 1.5, 0.1)
+    graded = partial(flat_mesh, 1.0, 1.0, 1e-6, 1e-7, 0.5)
+    thin = partial(flat_mesh, 40.0, 0.1, 1.5, 0.1)
+    coated = partial(flat_mesh, 40.0, 40.0, 1.5, 0.1, 0.3, 0.2)
+    bodies: dict[str, Callable[[], ElasticBody]] = {
+        "ordinary": partial(body_on, plain),
+        "nu = 0": partial(body_on, plain, Material(1.0, 0.0)),
+        "nu = 0.4999": partial(body_on, plain, Material(1.0, 0.4999)),
+        "nu = 0.5 less 1e-9, cubic": partial(body_on, plain, Material(1.0, 0.5 - 1e-9), degree=3),
+        "grading of 1e7": partial(body_on, graded),
+        "a sheet 800 times as wide as thick": partial(body_on, thin),
+        "rms slope 1": partial(body_on, rough_on(1.0)),
+        "modulus 1e-12 Pa": partial(body_on, plain, Material(1e-12, 0.3)),
+    }
+    coatings = {
+        f"coating {ratio:g} times as stiff": partial(
+            body_on, coated, coating=Coating(Material(ratio * 207e9, 0.2), 0.2)
+        )
+        for ratio in (1e6, 1e-6)
+    }
+    rows = [(name, partial(factor_findings, make)) for name, make in (bodies | coatings).items()]
+    even = {
+        "ordinary": partial(body_on, plain, support=EVEN),
+        "nu = 0.4999": partial(body_on, plain, Material(1.0, 0.4999), EVEN),
+        "cubic, nu = 0.4999": partial(body_on, plain, Material(1.0, 0.4999), EVEN, 3),
+        "linear": partial(body_on, plain, support=EVEN, degree=1),
+        "grading of 1e7": partial(body_on, graded, support=EVEN),
+        "rms slope 1": partial(body_on, rough_on(1.0), support=EVEN),
+    }
+    rows += [
+        (f"even compression, {name}", partial(even_findings, make)) for name, make in even.items()
+    ]
+    return tuple(Case("stiffness", name, "finite_element", solve) for name, solve in rows)

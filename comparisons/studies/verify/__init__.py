@@ -1,0 +1,1 @@
+"""Both models against everything whose exact answer is known."""

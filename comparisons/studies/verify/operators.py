@@ -1,0 +1,184 @@
+"""Exact contacts that no scene describes: waves and rounded punches on the half-plane's operators,
+rigid cylinders on the analytic layer. Three grids each, judged as a scene's levels are."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.exact.cases import ExactContact
+from analytic.exact.gallery import exact_contacts
+from analytic.exact.layer_references import LayerReference, layer_references
+from analytic.grid import HatGrid, roller_gap
+from analytic.layers.layered import LayeredBody
+from analytic.layers.operator import LayeredSurface
+from analytic.material import Material
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL, length_resolution
+from comparisons.assessment.uncertainty import grid_convergence
+from comparisons.common.quantities import QUANTITIES
+from comparisons.studies.verify.pairs import Pair
+from comparisons.studies.verify.scenes import (
+    LAYER_MODULUS,
+    LAYER_RADIUS,
+    LAYER_THICKNESS,
+    NEARLY_INCOMPRESSIBLE,
+    spread,
+)
+
+LEVELS = 3
+FULL = 1.0 - 1e-12  # of a period: contact without an edge
+MARGIN = 0.5  # of the half-width: ground beyond the contact
+OTHERS = {"mean_gap": 2.0}  # formal orders of figures that are not compared in scenes
+
+
+@dataclass(frozen=True)
+class OperatorCase:
+    """A contact on an operator of the library.
+
+    kind    wave | punch | layer
+    model   half_plane | layer
+    make    grid to operator
+    gap     g0(x) [m], smooth but for `knots` [m]
+    span    (2,) ends of the grid [m]; a period's where it is periodic
+    scale   [m] of which the pitch is a part: half of the contact, or the corner that is in contact
+    """
+
+    name: str
+    source: str
+    kind: str
+    model: str
+    make: Callable[[HatGrid], ModelOperator]
+    gap: Callable[[np.ndarray], np.ndarray]
+    knots: tuple[float, ...]
+    load: float
+    span: tuple[float, float]
+    scale: float
+    exact: dict[str, float]
+    periodic: bool = False
+
+
+def operator_cases() -> tuple[OperatorCase, ...]:
+    """Waves and punches of the gallery, and the layers of the table."""
+    contacts = [_contact(c) for c in exact_contacts() if c.period is not None or c.knots]
+    layers = [
+        _layer(reference, nu)
+        for reference in layer_references()
+        for nu in [reference.poissons_ratio or NEARLY_INCOMPRESSIBLE]
+    ]
+    return (*contacts, *layers)
+
+
+def operator_pairs(cases: tuple[OperatorCase, ...] | None = None) -> list[Pair]:
+    """Every figure of every case, on three grids of its own number of elements."""
+    cases = operator_cases() if cases is None else cases
+    numbers = spread(len(cases))
+    return [
+        pair
+        for case, elements in zip(cases, numbers, strict=True)
+        for pair in _pairs(case, elements)
+    ]
+
+
+def _pairs(case: OperatorCase, elements: float) -> list[Pair]:
+    levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
+    history = [_figures(case, *level) for level in levels]
+    grid, solution = levels[-1]
+    iteration = PRESSURE_PER_RESIDUAL * solution.residuals.worst
+    found = []
+    for quantity, exact in case.exact.items():
+        values = [figures[quantity] for figures in history]
+        order = OTHERS.get(quantity) or QUANTITIES[quantity].formal_order
+        resolution = length_resolution(grid.pitch, 1) if quantity == "contact_length" else 0.0
+        convergence = grid_convergence(values, order, resolution)
+        scale = abs(values[-1])
+        found.append(
+            Pair(
+                case=f"{case.name}, {elements:g} elements",
+                source=case.source,
+                kind=case.kind,
+                model=case.model,
+                quantity=quantity,
+                levels=tuple(values),
+                exact=float(exact),
+                uncertainty=(iteration, convergence.uncertainty / scale, 0.0),
+                scale=scale,
+                behaviour=convergence.behaviour,
+                order=convergence.order,
+                converged=all(s.converged for _, s in levels),
+            )
+        )
+    return found
+
+
+def _solved(case: OperatorCase, elements: float) -> tuple[HatGrid, ContactSolution]:
+    """One grid with about `elements` on the case's scale; a whole even number on a period."""
+    pitch = case.scale / elements
+    if case.periodic:
+        half = round(case.span[1] / pitch)
+        grid = HatGrid(case.span[1] / half, -half, half - 1)
+    else:
+        grid = HatGrid.within(*case.span, pitch)
+    average = grid.average(case.gap, np.array(case.knots))
+    solution = solve_contact(case.make(grid), average, grid.weights, Constraints(load=case.load))
+    return grid, solution
+
+
+def _figures(case: OperatorCase, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
+    patches = contact_patches(grid.x, solution.pressure, solution.gap)
+    return {
+        "peak_pressure": float(solution.pressure.max()),
+        "contact_length": float((patches[:, 1] - patches[:, 0]).sum()),
+        "mean_gap": float(solution.gap.mean()),
+    }
+
+
+def _contact(case: ExactContact) -> OperatorCase:
+    names = ("peak_pressure", "contact_length", "mean_gap")
+    exact = {name: case.quantities[name] for name in names if name in case.quantities}
+    half_width = 0.5 * case.quantities["contact_length"]
+    if case.period is None:
+        kind, reach = HalfPlane, (1.0 + MARGIN) * half_width
+    else:
+        kind, reach = PeriodicHalfPlane, 0.5 * case.period
+        if half_width > FULL * reach:
+            exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
+    return OperatorCase(
+        name=case.name,
+        source=case.source,
+        kind="punch" if case.period is None else "wave",
+        model="half_plane",
+        make=lambda grid: kind(grid.count, grid.pitch, case.combined_modulus),
+        gap=case.gap,
+        knots=case.knots,
+        load=case.load,
+        span=(-reach, reach),
+        scale=half_width - max(case.knots, default=0.0),
+        exact=exact,
+        periodic=case.period is not None,
+    )
+
+
+def _layer(reference: LayerReference, nu: float) -> OperatorCase:
+    material = Material(LAYER_MODULUS, nu)
+    body = LayeredBody(material, LAYER_THICKNESS, reference.base)
+    unit = material.plane_strain_modulus * LAYER_THICKNESS / LAYER_RADIUS
+    half_width = reference.half_width * LAYER_THICKNESS
+    reach = (1.0 + MARGIN) * half_width
+    return OperatorCase(
+        name=f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t",
+        source="slope equation by collocation, analytic/exact/layer_contact.json",
+        kind="layer",
+        model="layer",
+        make=lambda grid: LayeredSurface(grid.count, grid.pitch, body),
+        gap=roller_gap(LAYER_RADIUS),
+        knots=(),
+        load=reference.load * unit * LAYER_THICKNESS,
+        span=(-reach, reach),
+        scale=half_width,
+        exact={"peak_pressure": reference.peak_pressure * unit, "contact_length": 2 * half_width},
+    )

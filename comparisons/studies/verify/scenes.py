@@ -1,0 +1,209 @@
+"""Scenes whose exact answer is known, as a user would write them.
+
+Each is solved by the product's own road, from the tables of a scene to a stated uncertainty, and
+judged by a closed form (or, on layers, by a table of ten digits) that the road does not use. An
+elastic contact only depends on ratios: what makes cases differ for the numerics is where the edges
+fall between two nodes, so each case has a number of pressure elements on a half-width of its own.
+
+Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
+pressure [Pa], mu friction coefficient.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, sliding_case
+from analytic.exact.gallery import STEEL, exact_contacts
+from analytic.exact.layer_references import LayerReference, layer_references
+from analytic.material import Material
+
+BOTH = ("half_plane", "finite_element")
+FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
+SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
+SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
+# a/h of the third level. With fewer the grid of the first holds too little open ground to find an
+# edge from.
+FEWEST_ELEMENTS, MOST_ELEMENTS = 55.0, 130.0
+HALF_PLANE_ROUNDS = 6
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+# Extremes are searched where the field is shown.
+WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
+ROUND_OFF = 1e-10  # relative; the tables of references have as many digits
+LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
+NEARLY_INCOMPRESSIBLE = 0.4999  # stands for any Poisson's ratio on a frictionless base, beside 0.3
+
+# Three levels, whatever their uncertainty: the clock must not decide on a fourth.
+LOOSE = {"peak_pressure": 0.9, "contact_length": 0.9}
+LOOSE_STRESS = {"tau1_max": 0.9}
+COMPARED = ("peak_pressure", "contact_length", "tau1_max", "tau1_max_depth", "txz_max_abs")
+
+
+@dataclass(frozen=True)
+class ExactScene:
+    """A scene and its exact figures.
+
+    name, source   of the case, and of its solution
+    tables         of the scene, as TOML has them
+    kind           Hertz | surface (Hertz, most shear on the surface) | sliding | hardness | layer
+    exact          figures [SI] by the names of `comparisons.common.quantities`
+    pressure       p(x) [Pa] where it is known in closed form
+    models         that the solution holds for
+    """
+
+    name: str
+    source: str
+    kind: str
+    tables: Mapping[str, object]
+    exact: Mapping[str, float]
+    pressure: Curve | None = None
+    models: tuple[str, ...] = BOTH
+
+
+def exact_scenes() -> tuple[ExactScene, ...]:
+    """All scenes of `verify`."""
+    return (*gallery_scenes(), *half_plane_scenes(), *finite_element_scenes(), *layer_scenes())
+
+
+def gallery_scenes() -> tuple[ExactScene, ...]:
+    """The gallery's rollers as a user would press them, on the default resolution, both models."""
+    return tuple(scene_of(case) for case in exact_contacts() if is_roller(case))
+
+
+def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]:
+    """Many resolutions, which cost the half-plane next to nothing."""
+    cases = (*rollers(FRICTIONS), *sliding_rollers(SLIDING_FRICTIONS), *capped_rollers(SHARES))
+    return tuple(
+        replace(scene_of(case, elements), models=("half_plane",))
+        for case, elements in zip(cases * rounds, spread(len(cases) * rounds), strict=True)
+    )
+
+
+def finite_element_scenes() -> tuple[ExactScene, ...]:
+    """Fewer, with what changes the finite elements: far boundary, size, growth, degree."""
+    settings = (
+        {"far_field": "half-plane"},
+        {"far_field": "half-plane", "element": "P3"},
+        {"block": 200.0, "growth": 0.1},
+    )
+    cases = (*rollers(FRICTIONS), *sliding_rollers((0.5,)), *capped_rollers((0.8,)))
+    asked = [(case, setting) for setting in settings for case in cases]
+    return tuple(
+        replace(scene_of(case, elements, setting), models=("finite_element",))
+        for (case, setting), elements in zip(asked, spread(len(asked)), strict=True)
+    )
+
+
+def spread(count: int) -> list[float]:
+    """Numbers between FEWEST_ELEMENTS and MOST_ELEMENTS, even on a logarithmic scale and each far
+    from those before it: steps of the golden ratio."""
+    ratio = MOST_ELEMENTS / FEWEST_ELEMENTS
+    return [round(FEWEST_ELEMENTS * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
+
+
+def layer_scenes() -> tuple[ExactScene, ...]:
+    """Rigid cylinders on layers, which are no half-planes."""
+    return tuple(
+        layer_scene(reference, nu)
+        for reference in layer_references()
+        for nu in (
+            (0.3, NEARLY_INCOMPRESSIBLE)
+            if reference.poissons_ratio is None
+            else (reference.poissons_ratio,)
+        )
+    )
+
+
+@cache
+def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
+    """Hertz's contact of like bodies, on which friction acts without moving them."""
+    return tuple(
+        hertz_case(f"Hertz, friction {friction:g}", STEEL, STEEL, 8.2e-3, 1.4e9, friction)
+        for friction in frictions
+    )
+
+
+@cache
+def sliding_rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
+    """Rigid cylinders whose traction moves the surface."""
+    return tuple(
+        sliding_case(f"sliding, friction {friction:g}", STEEL, None, 10e-3, 1e6, friction)
+        for friction in frictions
+    )
+
+
+@cache
+def capped_rollers(shares: tuple[float, ...] = SHARES) -> tuple[ExactContact, ...]:
+    return tuple(
+        capped_case(f"flattened, hardness {share:g} p0", STEEL, STEEL, 8.2e-3, 1.4e9, share)
+        for share in shares
+    )
+
+
+def is_roller(case: ExactContact) -> bool:
+    """Whether a scene can describe it: one parabola, sliding forwards."""
+    return case.period is None and not case.knots and case.friction >= 0.0
+
+
+def scene_of(
+    case: ExactContact,
+    elements: float | None = None,
+    finite_element: Mapping[str, object] | None = None,
+) -> ExactScene:
+    """The scene of a roller, with a/h = `elements` on the third level (None: the default)."""
+    radius = 0.5 * case.half_range**2 / float(case.gap(np.array(case.half_range)))
+    load = {"per_length": case.load, "friction": case.friction, "coupled": case.coupled}
+    tables = {
+        "roller": {"radius": radius, **_elastic(case.roller)},
+        "body": _elastic(case.body),
+        "load": load,
+        "tolerance": dict(LOOSE),
+    }
+    name = case.name
+    if np.isfinite(case.hardness):
+        tables["body"]["hardness"] = case.hardness
+    if "tau1_max" in case.quantities:
+        tables["stress"], tables["tolerance"] = WINDOW, LOOSE | LOOSE_STRESS
+    if elements is not None:
+        half_width = np.sqrt(4.0 * case.load * radius / (np.pi * case.combined_modulus))
+        tables["resolution"] = {"pitch": 4.0 * float(half_width) / elements}
+        name += f", a/h = {elements:g}"
+    if finite_element is not None:
+        tables["finite_element"] = dict(finite_element)
+        name += "".join(f", {field} {value}" for field, value in finite_element.items())
+    exact = {q: case.quantities[q] for q in COMPARED if q in case.quantities}
+    kind = "hardness" if np.isfinite(case.hardness) else "sliding" if case.coupled else "Hertz"
+    if exact.get("tau1_max_depth") == 0.0:
+        kind = "surface"
+    return ExactScene(name, case.source, kind, tables, exact, case.pressure)
+
+
+def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
+    """A rigid cylinder on a layer of Poisson's ratio `nu`."""
+    modulus = LAYER_MODULUS / (1.0 - nu**2)
+    load = reference.load * modulus * LAYER_THICKNESS**2 / LAYER_RADIUS
+    tables = {
+        "roller": {"radius": LAYER_RADIUS, "rigid": True},
+        "body": {
+            **_elastic(Material(LAYER_MODULUS, nu)),
+            "thickness": LAYER_THICKNESS,
+            "base": reference.base,
+        },
+        "load": {"per_length": load},
+        "tolerance": dict(LOOSE),
+    }
+    exact = {
+        "peak_pressure": reference.peak_pressure * modulus * LAYER_THICKNESS / LAYER_RADIUS,
+        "contact_length": 2.0 * reference.half_width * LAYER_THICKNESS,
+    }
+    name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
+    source = "slope equation by collocation, analytic/exact/layer_contact.json"
+    return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
+
+
+def _elastic(material: Material | None) -> dict:
+    if material is None:
+        return {"rigid": True}
+    return {"youngs_modulus": material.youngs_modulus, "poissons_ratio": material.poissons_ratio}

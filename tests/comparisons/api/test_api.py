@@ -1,0 +1,235 @@
+"""Python's way in: the same figures as the command line, tables, pictures, examples that run."""
+
+import doctest
+import importlib
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons import api
+from comparisons.api.results import CostStudy, Map, Run
+from comparisons.cli import main
+from comparisons.common.errors import InputError
+from comparisons.studies.maps.make import read_map
+
+ROOT = Path(__file__).parents[3]
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SMALL = {
+    "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
+    "stress": {"points": [12, 6]},
+    "resolution": {"pitch": 30e-6, "levels": 2},
+    "finite_element": {"block": 10, "growth": 0.5},
+    "budget": {"effects": False},
+}
+SCENES = {
+    "smooth, sliding": {
+        "title": "Smooth",
+        "roller": {"radius": 8e-3, **STEEL},
+        "body": STEEL,
+        "load": {"per_length": 1e6, "friction": [0.0, 0.1]},
+        **SMALL,
+    },
+    "wavy, capped": {
+        "title": "Wavy",
+        "roller": {"radius": 8e-3, "rigid": True},
+        "body": STEEL | {"hardness": 3e9},
+        "profile": {"kind": "sinusoid", "wavelength": 2e-4, "amplitude": 2e-7},
+        "load": {"hertz_peak_pressure": 1e9},
+        **SMALL,
+        "resolution": {"pitch": 5e-6, "levels": 2},
+    },
+}
+
+
+def toml(tables: dict) -> str:
+    lines = [f"title = {json.dumps(tables['title'])}"]
+    for name, table in tables.items():
+        if isinstance(table, dict):
+            lines += [f"[{name}]", *(f"{field} = {json.dumps(v)}" for field, v in table.items())]
+    return "\n".join(lines)
+
+
+def without_cost(figures: object) -> object:
+    """The figures without what the clock and the memory told."""
+    if isinstance(figures, dict):
+        return {name: without_cost(v) for name, v in figures.items() if name != "cost"}
+    return [without_cost(v) for v in figures] if isinstance(figures, list) else figures
+
+
+@pytest.fixture(params=SCENES)
+def tables(request) -> dict:
+    return SCENES[request.param]
+
+
+def test_the_same_scene_from_python_and_from_the_command_line(
+    tables, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")  # takes the longest
+    Path("scene.toml").write_text(toml(tables))
+    status = main(["run", "scene.toml", "--out", "out", "--json"])
+    told = without_cost(json.loads(capsys.readouterr().out))
+    found = api.run(tables)
+    assert without_cost(json.loads(json.dumps(found.result))) == told
+    assert status == found.outcome.exit_status
+    again = api.read("out")
+    assert without_cost(again.result) == told
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["out", "scene.toml"]
+
+
+def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("scene.toml").write_text(toml(SCENES["smooth, sliding"]))
+    by_path, by_tables = api.load("scene.toml"), api.load(SCENES["smooth, sliding"])
+    assert by_path.tables == by_tables.tables == api.load(by_path).tables
+    assert api.load("ground-unrun").profile_info.samples == 2237
+    assert set(api.load("smooth", tolerance=0.1).tolerance.values()) == {0.1}
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: api.load("smoth"), "the nearest scene is smooth"),
+        (lambda: api.run("smooth", "fem"), "models: there is no model fem"),
+        (lambda: api.run("smooth", ()), "models: is empty"),
+        (lambda: api.compare(), "is given no run"),
+        (lambda: api.read("nowhere"), "nowhere: is no folder"),
+        (lambda: api.map("smooth", "8"), "--points"),
+        (lambda: api.cost("smooth", repeats=0), "--repeats"),
+    ],
+)
+def test_wrong_input_is_one_line(call, words):
+    with pytest.raises(InputError) as caught:
+        call()
+    assert words in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.fixture(scope="module")
+def found(wavy_outcome) -> Run:
+    return Run(wavy_outcome)
+
+
+def test_a_run_prints_as_a_table(found):
+    text = repr(found)
+    assert text.startswith("Wavy body\n") and "peak pressure" in text
+    assert found.verdict.upper() in text
+    assert "\x1b" not in text and max(map(len, text.splitlines())) <= 100
+    html = found._repr_html_()
+    assert html.startswith("<pre") and "peak pressure" in html and "Wavy body" in html
+
+
+def test_curves_are_those_of_the_finest_level(found):
+    level = found.outcome.runs["half_plane"].finest
+    curves = found.contact()
+    assert np.array_equal(curves["x"], level.grid.x)
+    assert np.array_equal(curves["pressure"], level.solution.pressure)
+    assert set(curves) == {"x", "pressure", "gap", "deformed_height"}
+    with pytest.raises(InputError, match="model: is fem"):
+        found.contact("fem")
+
+
+def test_several_runs_in_one_table(found, smooth_outcome):
+    both = api.compare(found, Run(smooth_outcome))
+    assert len(both.rows) == len(found.rows) + len(Run(smooth_outcome).rows)
+    text = repr(both)
+    assert "Wavy body" in text and "Smooth roller" in text
+
+
+@pytest.fixture
+def pyplot():
+    from matplotlib import pyplot
+
+    pyplot.switch_backend("agg")
+    yield pyplot
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("draw", "words"),
+    [
+        (lambda plot: plot.problem(), None),
+        (lambda plot: plot.pressure(), "p/p₀"),
+        (lambda plot: plot.close_up(), "p/p₀"),
+        (lambda plot: plot.surfaces(), None),
+        (lambda plot: plot.field(), "z/a"),
+        (lambda plot: plot.field("txz", 0.1), "z/a"),
+        (lambda plot: plot.sections(1), None),
+        (lambda plot: plot.mesh(2), None),
+        (lambda plot: plot.budget(), None),
+    ],
+)
+def test_plots_return_the_axes_of_one_open_figure(found, pyplot, draw, words):
+    axes = draw(found.plot)
+    (number,) = pyplot.get_fignums()
+    assert {each.figure for each in axes} == {pyplot.figure(number)}
+    assert words is None or axes[0].get_ylabel() == words
+    axes[0].figure.canvas.draw()
+
+
+def test_fields_are_told_apart(found, pyplot):
+    titles = {
+        (name, mu): found.plot.field(name, mu)[0].get_title(loc="left")
+        for name in ("tau1", "txz")
+        for mu in (0.0, 0.1)
+    }
+    assert len(set(titles.values())) == 4
+    extreme = found.outcome.runs["half_plane"].finest.stress(0.1).extremes["txz"].value
+    largest = abs(extreme) / found.outcome.problem.hertz.peak_pressure
+    assert f"{largest:.4f} p₀" in titles["txz", 0.1]
+
+
+@pytest.mark.parametrize(
+    "draw",
+    [
+        lambda plot: plot.field("sx"),
+        lambda plot: plot.field("tau1", 0.5),
+        lambda plot: plot.mesh(3),
+        lambda plot: plot.view("fem"),
+        lambda plot: plot.view(array="sxx"),
+    ],
+)
+def test_a_picture_that_is_not_there_is_one_line(found, pyplot, draw):
+    with pytest.raises(InputError, match="allowed is"):
+        draw(found.plot)
+    assert pyplot.get_fignums() == []
+
+
+def test_a_view_holds_the_field_with_depth_downwards(found):
+    plotter = found.plot.view("half_plane", "tau1 (friction 0.1)")
+    mesh = plotter.mesh
+    field = found.outcome.runs["half_plane"].finest.stress(0.1).field
+    assert np.array_equal(mesh["tau1 (friction 0.1)"], field.tau1.ravel())
+    assert plotter.camera.up == (0.0, 0.0, -1.0)
+    sight = np.subtract(plotter.camera.focal_point, plotter.camera.position)
+    assert np.cross(sight, plotter.camera.up)[0] > 0.0  # x to the right
+    plotter.close()
+
+
+def test_report_is_written_where_it_is_asked_for(found, tmp_path, monkeypatch):
+    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: f"<p>{id(outcome)}</p>")
+    path = api.report(found, tmp_path / "mine.html")
+    assert path.read_text() == f"<p>{id(found.outcome)}</p>"
+    with pytest.raises(InputError, match="is no place"):
+        api.report(found, tmp_path / "no" / "mine.html")
+
+
+def test_a_finished_map_prints_and_draws(pyplot):
+    content = read_map(ROOT / "comparisons/studies/maps/finished/thickness-friction.json")
+    shown = Map(content, None)
+    assert "points" in repr(shown) and "map.json" not in repr(shown)
+    assert "The half-plane's own error" in shown.plot()[0].get_title(loc="left")
+    assert issubclass(CostStudy, type(shown).__mro__[1])
+
+
+def test_examples_run(tmp_path, monkeypatch, pyplot):
+    monkeypatch.chdir(tmp_path)
+    results = doctest.testmod(importlib.import_module("comparisons.api"))
+    assert results.attempted > 15 and results.failed == 0
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("package", ["analytic", "meshes", "fem", "comparisons"])
+def test_packages_say_that_they_are_typed(package):
+    assert (ROOT / package / "py.typed").read_bytes() == b""

@@ -1,0 +1,140 @@
+"""The budget as a reader meets it: rows, bars, the terminal's lines."""
+
+import io
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from rich.console import Console
+
+from comparisons.assessment.effects.budget import ErrorBudget
+from comparisons.assessment.effects.content import budget_content
+from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.model_error import OwnError, Share
+from comparisons.assessment.effects.selection import Choice
+from comparisons.report.figures.budget import LOOKS, budget_bars, budget_picture
+from comparisons.report.figures.style import drawing
+from comparisons.report.tables.budget import budget_rows, left_out_line
+from comparisons.report.tables.evidence import effects_table
+from comparisons.report.terminal import summary
+from comparisons.results.outcome import Outcome
+
+ESTIMATES = {
+    "circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},
+    "plastic flow": {"peak_pressure": 0.08},
+    "displaced gap": {"peak_pressure": 0.02},
+}
+CHOICE = Choice(
+    frozenset({"finite body"}),
+    frozenset({"displaced gap", "finite strain"}),
+    {"circle": ESTIMATES["circle"]},
+    {"plastic flow": "the body has no yield stress"},
+    ESTIMATES,
+)
+EFFECTS_HERE = {
+    "finite body": Share(0.04, 0.001),
+    "displaced gap": Share(-0.012, 0.0005),
+    "finite strain": Share(0.0001, 0.0001),
+}
+
+
+@pytest.fixture
+def split(wavy_outcome: Outcome) -> Outcome:
+    """A run whose peak pressures were split; those at both frictions alike, and one norm."""
+    own = (
+        OwnError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        OwnError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        OwnError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
+    )
+    budget = ErrorBudget(CHOICE, 2, None, own, {0.0: {"peak_pressure": 0.003}}, 1.5)
+    rows = tuple(
+        row
+        for row in wavy_outcome.comparisons
+        if (row.quantity, row.friction) in {(o.quantity, o.friction) for o in own}
+    )
+    content = budget_content(wavy_outcome.problem, wavy_outcome.runs, rows, budget)
+    result = wavy_outcome.result | {"budget": content}
+    return replace(wavy_outcome, budget=budget, comparisons=rows, result=result)
+
+
+def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
+    peak, norm = budget_rows(split)
+    assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
+    assert (peak.own, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
+    # an effect that raises the finite elements' figure makes the half-plane's too low
+    assert peak.parts == ("finite body −4.0 %", "displaced gap +1.2 %")
+    assert norm.own == "5.0 %" and "finite body 4.0 %" in norm.parts  # norms have no sign
+    assert [row.quantity for row in budget_rows(split, judged=True)] == ["peak_pressure"]
+
+
+def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
+    assert left_out_line(split) == (
+        "plastic flow (at most 8.0 %): the body has no yield stress; circle (at most 0.15 %)"
+    )
+    why = dict.fromkeys(("circle", "plastic flow"), "not asked for")
+    choice = replace(split.budget.choice, impossible=why, left_out=())
+    both = replace(split, budget=replace(split.budget, choice=choice))
+    assert left_out_line(both) == (
+        "circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
+    )
+
+
+def test_every_effect_that_applies_is_in_the_table(split: Outcome):
+    table = effects_table(split)
+    status = {row[0]: row[2] for row in table.rows}
+    assert status == {
+        "finite body": "contained",
+        "displaced gap": "computed",
+        "circle": "left out",
+        "finite strain": "computed",
+        "plastic flow": "not computed",
+    }
+    said = {row[0]: row[4] for row in table.rows}
+    assert said["plastic flow"] == "the body has no yield stress"
+    assert {row[0]: row[1] for row in table.rows}["circle"] == EFFECTS["circle"].words
+
+
+def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: dict):
+    outcome = finish(smooth_tables, ("half_plane",))
+    assert outcome.budget is None and outcome.result["budget"] is None
+    assert effects_table(outcome) is None
+    with drawing():
+        assert budget_picture(outcome) is None
+
+
+class TestBars:
+    def test_they_are_as_long_as_their_parts(self, split: Outcome):
+        peak = next(bar for bar in budget_bars(split) if bar.parts["sampling"])
+        assert peak.parts["finite body"] == 0.04 and peak.parts["displaced gap"] == 0.012
+        assert peak.parts["together"] == 0.002 and peak.parts["sampling"] == 0.003
+        assert peak.parts["estimated only"] == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
+        numerical = split.result["budget"]["quantities"]["peak_pressure"][0]["numerical"]
+        for model, name in (
+            ("half_plane", "half-plane's discretisation"),
+            ("finite_element", "finite elements' discretisation"),
+        ):
+            assert peak.parts[name] == numerical[model]["discretisation"]
+        assert (peak.own, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
+
+    def test_every_part_has_a_look_of_its_own(self, split: Outcome):
+        for bar in budget_bars(split):
+            assert set(bar.parts) <= set(LOOKS)
+        assert set(EFFECTS) <= set(LOOKS)
+        assert len(set(LOOKS.values())) == len(LOOKS)
+
+    def test_the_picture_says_what_is_judged(self, split: Outcome):
+        with drawing():
+            picture = budget_picture(split)
+        assert "peak pressure" in picture.alternative and "−3.1 %" in picture.alternative
+        assert picture.source.startswith("data:image/svg+xml;base64,")
+
+
+def test_the_terminal_shows_it_in_80_columns(split: Outcome):
+    stream = io.StringIO()
+    Console(file=stream, width=80).print(summary(split))
+    text = stream.getvalue()
+    assert max(map(len, text.splitlines())) <= 80
+    flat = " ".join(text.split())
+    assert re.search(r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite body -4\.0 displaced gap", flat)
+    assert "left out plastic flow (at most 8.0%" in flat

@@ -1,0 +1,127 @@
+"""The half-plane's own error, put together of effects, against finite elements that have them all.
+
+Here they are switched on in the scene, from the first level to the last: nothing is added up.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.assessment.comparison import figures, norms
+from comparisons.assessment.effects.effects import contained
+from comparisons.assessment.effects.model_error import OwnError
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import problem_of
+from comparisons.results.outcome import Outcome
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import ResolvedScene
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
+COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
+ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
+ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
+LINEAR = {"gap": "displaced", "roller_shape": "circle"}
+STRAINED = LINEAR | {"deformation": "finite"}
+QUANTITIES = ("peak_pressure", "contact_length", "pressure_l2")
+
+# What both scenes have, and the switches that one of them has beside it.
+SCENES = {
+    "rubber": (ON_RUBBER | {"load": {"per_length": 1e3}}, STRAINED),
+    "rubber, friction": (
+        ON_RUBBER | {"load": {"per_length": 1e3, "friction": 0.3}},
+        STRAINED | {"coupled": True},
+    ),
+    "rubber layer": (
+        ON_RUBBER | {"body": RUBBER | {"thickness": 5e-3}, "load": {"per_length": 1e3}},
+        STRAINED,
+    ),
+    "steel block, friction": (
+        ON_STEEL
+        | {
+            "body": STEEL | {"thickness": 2e-3, "width": 4e-3},
+            "load": {"hertz_peak_pressure": 2e9, "friction": 0.2},
+        },
+        STRAINED | {"coupled": True},
+    ),
+    "waves on steel, friction": (
+        ON_STEEL
+        | {
+            "profile": {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6},
+            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
+        },
+        STRAINED | {"coupled": True, "geometry": "rough"},
+    ),
+    "coated steel, friction": (
+        {
+            "roller": {"radius": 5e-3, "rigid": True},
+            "body": STEEL,
+            "coating": COATING,
+            "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
+        },
+        LINEAR | {"coupled": True},
+    ),
+}
+
+
+def outcome_of(tables: dict, levels: int) -> Outcome:
+    """On three levels, its effects on so many."""
+    scene = resolved(tables | {"tolerance": dict.fromkeys(QUANTITIES, 1e-5)})
+    scene = replace(
+        scene,
+        resolution=replace(scene.resolution, most=3),
+        budget=replace(scene.budget, levels=levels, time=1e4),
+    )
+    return run(scene, None, MODELS)
+
+
+def resolved(tables: dict) -> ResolvedScene:
+    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+
+
+def direct_errors(tables: dict) -> dict[str, float]:
+    """(half-plane - finite elements) / finite elements on the third level, by quantity."""
+    problem = problem_of(resolved(tables))
+    plan, pitch = make_plan(problem, MODELS), problem.pitches[2]
+    friction = problem.scene.friction[0]
+    one = half_plane_level(problem, plan, pitch, None, Stages())
+    other = finite_element_level(problem, plan, Refinement(pitch), None, Stages())
+    flat, real = (figures(level, problem, friction) for level in (one, other))
+    found = {name: flat[name] / real[name] - 1.0 for name in QUANTITIES[:2]}
+    return found | norms(one, other, problem, friction, None)
+
+
+def both(name: str, levels: int, elements: float) -> list[tuple[OwnError, float]]:
+    """Of every judged quantity, put together and switched on; the third level has so many elements
+    to a half-width."""
+    tables, switches = SCENES[name]
+    half_width = problem_of(resolved(tables)).hertz.half_width
+    tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
+    added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
+    assert added.budget.levels == levels and added.budget.unsplit is None
+    assert added.budget.choice.whole == contained(resolved(switched))
+    errors = direct_errors(switched)
+    friction = added.problem.scene.friction[0]
+    return [(added.budget.of(quantity, friction), errors[quantity]) for quantity in QUANTITIES]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_effects_on_two_levels_contain_what_all_at_once_make_on_three(name):
+    # between waves the pressures of a coarse grid do not reach far enough
+    for own, direct in both(name, levels=2, elements=64.0 if "waves" in name else 24.0):
+        assert abs(own.value - direct) <= own.uncertainty < np.inf, own.quantity
+        if own.quantity == "peak_pressure":
+            assert own.uncertainty < 0.05
+
+
+def test_on_the_same_levels_they_are_the_same():
+    """Relative to the whole, wherever it comes from."""
+    for own, direct in both("rubber layer", levels=3, elements=16.0):
+        assert own.value == pytest.approx(direct, abs=1e-6), own.quantity

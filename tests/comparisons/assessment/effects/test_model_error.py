@@ -1,0 +1,226 @@
+"""The half-plane's own error by real finite elements: against exact layers, and as it scales."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+import comparisons.models.finite_element.level
+from analytic.exact.layer_references import TABLE
+from comparisons.assessment.effects.budget import ErrorBudget
+from comparisons.assessment.verdict import half_space_verdict
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.plan import MODELS
+from comparisons.results.outcome import Outcome
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import resolve_tables
+from meshes.errors import MeshError
+
+RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+RIGID = {"radius": 10e-3, "rigid": True}
+
+
+def outcome_of(tables: dict, out: Path = Path("made")) -> Outcome:
+    """A run that leaves no files."""
+    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+    with patch("comparisons.runs.run.write_files"):
+        return run(scene, out, MODELS)
+
+
+def smooth(peak_pressure: float, **tables: dict) -> dict:
+    return {
+        "roller": RIGID,
+        "body": STEEL,
+        "load": {"hertz_peak_pressure": peak_pressure},
+        "tolerance": {"peak_pressure": 0.004, "contact_length": 0.1},
+    } | tables
+
+
+CASES = [
+    (case, nu)
+    for case in json.loads(TABLE.read_text())["cases"]
+    for nu in ([0.3] if case["nu"] == "any" else [float(case["nu"])])
+    if nu == 0.3 or (nu, case["a_over_t"]) == (0.4999, "0.25")
+]
+
+
+@pytest.mark.parametrize(
+    ("case", "nu"), CASES, ids=[f"{c['base']}-{c['a_over_t']}-{nu}" for c, nu in CASES]
+)
+def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
+    modulus = YOUNGS_MODULUS / (1.0 - nu**2)
+    exact = {
+        "peak_pressure": float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS,
+        "contact_length": 2.0 * float(case["a_over_t"]) * THICKNESS,
+    }
+    outcome = outcome_of(
+        {
+            "roller": {"radius": RADIUS, "rigid": True},
+            "body": {
+                "youngs_modulus": YOUNGS_MODULUS,
+                "poissons_ratio": nu,
+                "thickness": THICKNESS,
+                "base": case["base"],
+            },
+            "load": {
+                "per_length": float(case["P_R_over_Eprime_t2"]) * modulus * THICKNESS**2 / RADIUS
+            },
+            "budget": {"effects": False},
+        }
+    )
+    hertz, budget = outcome.problem.hertz, outcome.budget
+    half_plane = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
+    for quantity, true in exact.items():
+        own, error = budget.of(quantity, 0.0), half_plane[quantity] / true - 1.0
+        assert own.value == pytest.approx(error, abs=own.uncertainty)
+        assert own.uncertainty < 0.006
+        # and it is the body's doing, measured against the same block without an end
+        body = own.effects["finite body"]
+        assert -body.value == pytest.approx(error, abs=own.uncertainty + body.uncertainty)
+        assert own.interaction == 0.0
+
+
+@pytest.fixture(scope="module")
+def outcomes() -> list[Outcome]:
+    """Peak pressures, and so a/R and p/E, of one to two."""
+    return [outcome_of(smooth(pressure)) for pressure in (2.0e9, 4.0e9)]
+
+
+class TestSmooth:
+    def test_the_displaced_gap_and_strain_are_computed(self, outcomes):
+        for outcome in outcomes:
+            assert outcome.budget.choice.added == {"displaced gap", "finite strain"}
+            assert outcome.result["budget"]["effects"]["circle"]["status"] == "left out"
+            assert outcome.budget.unsplit is None and outcome.budget.levels >= 2
+
+    @pytest.mark.parametrize("name", ["displaced gap", "finite strain"])
+    def test_effects_of_first_order_double(self, outcomes, name):
+        one, other = (o.budget.of("peak_pressure", 0.0).effects[name].value for o in outcomes)
+        assert 1.85 < other / one < 2.15
+
+    def test_the_parts_make_up_the_difference_to_what_the_models_say(self, outcomes):
+        """All relative to the whole: half-plane - whole = (half-plane - own) - parts."""
+        for row in (row for row in outcomes[1].comparisons if row.half_plane is not None):
+            own = outcomes[1].budget.of(row.quantity, 0.0)
+            whole = row.half_plane / (1.0 + own.value)
+            parts = sum(share.value for share in own.effects.values()) + own.interaction
+            models = (row.half_plane - row.finite_element) / whole
+            assert models - parts == pytest.approx(own.value, abs=2e-5)
+
+    def test_the_verdict_is_taken_from_it(self, outcomes):
+        """Both models agree to 3e-4, and the half-plane is off by eight times as much."""
+        last = outcomes[1]
+        [row] = [row for row in last.comparisons if row.quantity == "peak_pressure"]
+        own = last.budget.of("peak_pressure", 0.0)
+        assert row.verdict == "agree" and abs(row.difference) < 3e-4
+        assert own.value == pytest.approx(-0.0024, abs=0.0006) and own.uncertainty < 6e-4
+        assert last.result["half_space"]["verdict"] == "holds"
+        strict = last.budget.standings({"peak_pressure": 1e-3})
+        assert half_space_verdict(strict)[0] == "fails"
+
+    def test_the_exit_status_is_the_comparisons(self, outcomes):
+        """What both models lack is no difference of theirs."""
+        fails = outcomes[1].result | {"half_space": {"verdict": "fails", "why": ""}}
+        assert replace(outcomes[1], result=fails).exit_status == ExitStatus.DONE
+
+    def test_models_and_comparison_are_those_without_effects(self, outcomes):
+        plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
+        for part in ("models", "comparison", "groups", "hertz"):
+            assert _figures(plain.result[part]) == _figures(outcomes[0].result[part])
+        assert plain.budget.choice.added == frozenset()
+        assert plain.result["half_space"]["verdict"] == "undecided"
+
+
+def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
+    """A large roller under a light load: a/R and p/E of a thousandth and less."""
+    outcome = outcome_of(
+        {
+            "roller": {"radius": 0.1, "rigid": True},
+            "body": STEEL,
+            "load": {"hertz_peak_pressure": 1e8},
+            "tolerance": {"peak_pressure": 0.001, "contact_length": 0.01},
+        }
+    )
+    for quantity in ("peak_pressure", "contact_length", "pressure_l2"):
+        own = outcome.budget.of(quantity, 0.0)
+        assert abs(own.value) <= own.uncertainty < 0.02
+    assert outcome.result["half_space"]["verdict"] == "holds"
+
+
+def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
+    solve = comparisons.models.finite_element.level.finite_element_level
+
+    def without_strain(problem, *arguments, **others):
+        if problem.scene.finite_element.deformation == "finite":
+            raise MeshError("no mesh\nis possible")
+        return solve(problem, *arguments, **others)
+
+    with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
+        outcome = outcome_of(smooth(2.0e9))
+    choice = outcome.budget.choice
+    assert choice.impossible["finite strain"] == "no mesh is possible"
+    assert choice.added == {"displaced gap"}
+    assert set(outcome.budget.of("peak_pressure", 0.0).effects) == {"displaced gap"}
+    assert "finite strain" in choice.unshown("peak_pressure")
+    effect = outcome.result["budget"]["effects"]["finite strain"]
+    assert effect["status"] == "not computed" and effect["because"] == "no mesh is possible"
+
+
+def test_what_cannot_be_taken_apart_keeps_its_difference():
+    solve = comparisons.models.finite_element.level.finite_element_level
+
+    def bounded_alone(problem, *arguments, **others):
+        if problem.scene.thickness is None:
+            raise MeshError("no mesh")
+        return solve(problem, *arguments, **others)
+
+    body = {**STEEL, "thickness": 1e-3}
+    with patch("comparisons.models.finite_element.level.finite_element_level", bounded_alone):
+        outcome = outcome_of(smooth(1.0e9, body=body))
+    assert outcome.budget.unsplit == "no mesh" and outcome.budget.levels == 0
+    [row] = [row for row in outcome.comparisons if row.quantity == "peak_pressure"]
+    own = outcome.budget.of("peak_pressure", 0.0)
+    assert (own.value, own.uncertainty) == (row.difference, row.uncertainty)
+    assert own.effects == {}
+
+
+def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp_path):
+    solve, solved = comparisons.models.finite_element.level.finite_element_level, []
+
+    def counted(problem, *arguments, **others):
+        solved.append(problem.scene.finite_element)
+        if len(solved) == stop:
+            raise KeyboardInterrupt
+        return solve(problem, *arguments, **others)
+
+    with patch("comparisons.models.finite_element.level.finite_element_level", counted):
+        stop = 7  # levels and the halved block are four; the third body of the budget
+        with pytest.raises(KeyboardInterrupt, match="goes on from there"):
+            outcome_of(smooth(2.0e9), tmp_path / "out")
+        first, stop = len(solved), None
+        again = outcome_of(smooth(2.0e9), tmp_path / "out")
+        once = outcome_of(smooth(2.0e9), tmp_path / "other")
+    assert _figures(again.result) == _figures(once.result)
+    whole = len(solved) - first
+    assert whole == 2 * _bodies(once) - (first - 1)
+
+
+def _bodies(outcome: Outcome) -> int:
+    """Finite-element levels of a run: the scene's own, the halved one, and the budget's."""
+    budget: ErrorBudget = outcome.budget
+    per_level = 1 + 1 + 1  # displaced gap, and strain with what it is measured beside
+    own = len(outcome.runs["finite_element"].levels) + 1
+    return own + budget.levels * (per_level - 1)
+
+
+def _figures(value: object) -> object:
+    """Without times, memory and what depends on them."""
+    if isinstance(value, dict):
+        kept = {k: v for k, v in value.items() if k not in ("cost", "seconds")}
+        return {name: _figures(item) for name, item in kept.items()}
+    if isinstance(value, list):
+        return [_figures(item) for item in value]
+    return value

@@ -1,0 +1,66 @@
+"""Sliding traction on bodies of like constants: half-planes move alike, layers and coats do not."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
+from comparisons.assessment.effects.selection import choose
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.level import Level
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.resolve import resolve_tables
+
+STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
+HALF_WIDTH = 216e-6  # of the smooth contact
+BODIES = {
+    "thin layer": {"body": STEEL | {"thickness": 0.3 * HALF_WIDTH}},
+    "thick layer": {"body": STEEL | {"thickness": 4.0 * HALF_WIDTH}},
+    "hard coating": {
+        "coating": {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
+    },
+    "soft coating": {"coating": {"thickness": 20e-6, "youngs_modulus": 5e9, "poissons_ratio": 0.4}},
+}
+
+
+def solved(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
+    """Like bodies under friction, on one level."""
+    made = {
+        "roller": {"radius": 8.2e-3, **STEEL},
+        "body": STEEL,
+        "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.3},
+        "finite_element": finite_element,
+        "resolution": {"pitch": HALF_WIDTH / 20.0},
+        "tolerance": {"peak_pressure": 0.02, "contact_length": 0.02, "pressure_l2": 0.02},
+    } | tables
+    problem = problem_of(resolve_tables(made, name="made", folder=Path("."), source="made.toml"))
+    plan, refinement = make_plan(problem, MODELS), Refinement(problem.pitches[0])
+    return problem, finite_element_level(problem, plan, refinement, None, Stages())
+
+
+def test_half_planes_are_moved_alike():
+    _, still = solved({})
+    _, moved = solved({}, coupled=True)
+    apart = np.abs(moved.solution.pressure - still.solution.pressure).max()
+    assert moved.solution.converged and apart < 1e-9 * still.solution.pressure.max()
+
+
+def test_along_the_roller_s_normal_a_solution_is_found():
+    """There it is not symmetric, for like bodies too: traction moves both sideways."""
+    _, moved = solved({}, gap="displaced", coupled=True)
+    assert moved.solution.converged
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_what_layers_and_coats_are_moved_otherwise_is_bounded_and_not_passed_over(name):
+    problem, still = solved(BODIES[name])
+    _, moved = solved(BODIES[name], coupled=True)
+    without = answer_of(still, problem, 0.3)
+    change = sizes(answer_of(moved, problem, 0.3) - without, without, problem, None)["pressure_l2"]
+    choice = choose(problem, problem.hertz.peak_pressure, ())
+    assert 0.003 < change <= choice.estimates["coupling"]["pressure_l2"] < 5.0 * change
+    assert "coupling" in choice.added

@@ -1,0 +1,71 @@
+"""A wrong scene in the working folder of a run that must never begin to solve."""
+
+import sys
+import types
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+
+GOOD = {
+    "title": '"A good scene"',
+    "roller.radius": '"8.2 mm"',
+    "roller.youngs_modulus": '"207 GPa"',
+    "roller.poissons_ratio": "0.3",
+    "body.youngs_modulus": '"207 GPa"',
+    "body.poissons_ratio": "0.3",
+    "load.per_length": '"3.85 N/um"',
+}
+
+
+@pytest.fixture(scope="session")
+def toml() -> Callable[[dict], str]:
+    """`toml(changes)`: GOOD with the changes, as a scene file; None takes a field away."""
+
+    def written(changes: dict) -> str:
+        fields = {name: text for name, text in {**GOOD, **changes}.items() if text is not None}
+        top = [f"{name} = {text}" for name, text in fields.items() if "." not in name]
+        sections: dict[str, list[str]] = {}
+        for path, text in fields.items():
+            if "." in path:
+                section, name = path.split(".")
+                sections.setdefault(section, []).append(f"{name} = {text}")
+        return "\n".join([*top, *(f"[{s}]\n" + "\n".join(rows) for s, rows in sections.items())])
+
+    return written
+
+
+@pytest.fixture(scope="session")
+def trace() -> str:
+    """What a measured profile's file may hold."""
+    return "x_um,height_um\n" + "".join(f"{i},{(i * 7) % 5 / 10}\n" for i in range(40))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch) -> Path:
+    def run(*arguments):
+        pytest.fail("a wrong scene was solved")
+
+    monkeypatch.setitem(sys.modules, "comparisons.runs.run", types.SimpleNamespace(run=run))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def complaint(folder, capsys) -> Callable[..., str]:
+    """`complaint(*arguments)`: the one line that the command ends with, after status 2 and without
+    a trace of a result."""
+
+    def line(*arguments: str) -> str:
+        before = sorted(folder.rglob("*"))
+        status = main(list(arguments))
+        out, err = capsys.readouterr()
+        assert status == 2, err
+        assert out == ""
+        assert err.startswith("crosscheck: ") and err.endswith("\n") and err.count("\n") == 1
+        assert sorted(folder.rglob("*")) == before
+        return err.strip()
+
+    return line

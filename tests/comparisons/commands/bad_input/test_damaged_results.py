@@ -1,0 +1,93 @@
+"""Result files that somebody edited or cut: one line and status 2, nothing written or concluded."""
+
+import json
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+from comparisons.common.progress import silent
+from comparisons.results.outcome import Outcome
+from comparisons.runs.write import write_files
+
+CONTACT = ("models", "half_plane", 0, "contact")
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory, smooth_outcome: Outcome) -> Path:
+    folder = tmp_path_factory.mktemp("finished") / "run"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("comparisons.report.page.render", lambda outcome: "before")
+        write_files(replace(smooth_outcome, directory=folder), silent)
+    return folder
+
+
+@pytest.fixture
+def damaged(finished: Path, tmp_path: Path) -> Callable[..., Path]:
+    """`damaged(file, value, *keys)`: a run's folder with another value there, None for none."""
+
+    def folder(file: str, value: object, *keys: str | int) -> Path:
+        copied = Path(shutil.copytree(finished, tmp_path / "run"))
+        whole = json.loads((copied / file).read_text())
+        part = whole
+        for key in keys[:-1]:
+            part = part[key]
+        if value is None:
+            del part[keys[-1]]
+        else:
+            part[keys[-1]] = value
+        (copied / file).write_text(json.dumps(whole))
+        return copied
+
+    return folder
+
+
+def refused(capsys, *arguments: object) -> str:
+    status = main([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    assert (status, out, err.count("\n")) == (2, "", 1), err
+    return err
+
+
+@pytest.mark.parametrize(
+    ("file", "value", "keys", "told"),
+    [
+        ("result.json", None, ("groups",), "make up no report (KeyError('groups'))"),
+        ("result.json", {}, ("models",), "make up no report"),
+        ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 1"),
+        ("result.json", float("nan"), (*CONTACT, "peak_pressure"), "NaN is no number"),
+        ("record.json", None, ("versions",), "make up no report (KeyError('versions'))"),
+    ],
+)
+def test_report_of_damaged_files(damaged, capsys, file, value, keys, told):
+    folder = damaged(file, value, *keys)
+    assert told in refused(capsys, "report", folder)
+    assert (folder / "report.html").read_text() == "before"
+
+
+@pytest.mark.parametrize(
+    ("value", "keys", "told"),
+    [
+        ("high", ("comparison", "peak_pressure", 0, "half_plane"), "half_plane: is 'high'"),
+        (3.0, ("half_space", "verdict"), "half_space: is 3.0"),
+        (float("inf"), ("comparison", "peak_pressure", 0, "difference"), "Infinity is no number"),
+    ],
+)
+def test_table_of_damaged_files(damaged, capsys, value, keys, told):
+    assert told in refused(capsys, "table", damaged("result.json", value, *keys))
+
+
+def test_a_figure_that_is_no_number_is_not_within_its_uncertainty(damaged, capsys):
+    folder = damaged("result.json", float("nan"), *CONTACT, "peak_pressure")
+    assert "result.json: is not JSON: NaN is no number" in refused(capsys, "rerun", folder)
+
+
+def test_a_table_is_no_folder(finished, tmp_path, capsys):
+    place = tmp_path / "rows.csv"
+    place.mkdir()
+    told = refused(capsys, "table", finished, "--out", place)
+    assert "rows.csv: is a folder; allowed is a file" in told
+    assert list(place.iterdir()) == []

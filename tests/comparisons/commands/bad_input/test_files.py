@@ -1,0 +1,145 @@
+"""Scenes and profiles that cannot be read: one line that names the file and the place."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[4]
+MEASURED = {"profile.file": '"trace.csv"', "profile.x_unit": '"um"', "profile.z_unit": '"um"'}
+
+FILES = {
+    "empty": (b"", "scene.toml: is empty; allowed are sections"),
+    "comments only": (b"# nothing\n\n", "scene.toml: is empty; allowed are sections"),
+    "binary": (b"[roller]\n\x80\x81\xff", "is not text (byte 9 is not UTF-8); allowed is a TOML"),
+    "zeros": (bytes(100), "scene.toml: is not TOML"),
+    "not TOML": (b"[roller]\nradius 8.2 mm\n", "is not TOML: "),
+    "line named": (b"[roller]\nradius = 8.2 mm\n", "line 2, column"),
+    "field twice": (b"[roller]\nradius = 1\nradius = 2\n", "line 3"),
+    "a profile": (b"x_um,height_um\n0,0.0\n1,1.4\n", "is not TOML: "),
+    "nested deep": (b"a = " + b"[" * 5000 + b"]" * 5000, "is beyond what TOML may hold"),
+    "digits without end": (b"a = " + b"9" * 5000, "is beyond what TOML may hold"),
+    "large": (b"# " + b"a" * 2**20, "allowed are 1048576 for a scene"),
+}
+
+
+@pytest.mark.parametrize(("content", "fragment"), FILES.values(), ids=FILES)
+def test_wrong_file(folder, content, fragment, complaint):
+    (folder / "scene.toml").write_bytes(content)
+    assert fragment in complaint("run", "scene.toml")
+
+
+PROFILES = {
+    "missing": (None, "trace.csv: there is no such file"),
+    "empty": (b"", "trace.csv: is empty"),
+    "binary": (b"\x00\x01\x02" * 50, "SurfaceTopography"),
+    "words": (b"a\nb\nc\n", "trace.csv: has no samples"),
+    "two samples": (b"0,1\n1,2\n", "trace.csv: "),
+    "heights alone": (b"0.1\n0.2\n0.3\n0.4\n0.5\n", "one column"),
+    "three columns": (b"0 1 2\n1 2 3\n2 3 4\n3 4 5\n", "trace.csv, line 1"),
+}
+ROWS = {
+    "word among numbers": ("20,peak", "trace.csv, line 22"),
+    "lost height": ("20,nan", "line 22: height is lost"),
+    "x twice": ("19,0.0", "trace.csv, line "),
+}
+
+
+@pytest.mark.parametrize(("content", "fragment"), PROFILES.values(), ids=PROFILES)
+def test_wrong_profile(folder, content, fragment, toml, complaint):
+    (folder / "scene.toml").write_text(toml(MEASURED))
+    if content is not None:
+        (folder / "trace.csv").write_bytes(content)
+    line = complaint("run", "scene.toml")
+    assert line.startswith("crosscheck: scene.toml: profile.file: ")
+    assert fragment in line
+
+
+@pytest.mark.parametrize(("row", "fragment"), ROWS.values(), ids=ROWS)
+def test_wrong_row_of_a_profile(folder, row, fragment, toml, trace, complaint):
+    (folder / "scene.toml").write_text(toml(MEASURED))
+    (folder / "trace.csv").write_text(trace.replace("\n20,0.0\n", f"\n{row}\n"))
+    line = complaint("run", "scene.toml")
+    assert line.startswith("crosscheck: scene.toml: profile.file: ")
+    assert fragment in line
+
+
+def test_profile_that_is_a_folder(folder, toml, complaint):
+    (folder / "scene.toml").write_text(toml(MEASURED))
+    (folder / "trace.csv").mkdir()
+    assert "trace.csv: is a directory" in complaint("run", "scene.toml")
+
+
+def test_spacing_for_a_file_of_two_columns(folder, toml, trace, complaint):
+    changes = {**MEASURED, "profile.x_unit": None, "profile.spacing": '"1 um"'}
+    (folder / "scene.toml").write_text(toml(changes))
+    (folder / "trace.csv").write_text(trace)
+    assert "spacing is for heights alone" in complaint("run", "scene.toml")
+
+
+def test_arc_that_fits_nothing(folder, monkeypatch, toml, trace, complaint):
+    """Whatever the form's own reason, the line names the field."""
+
+    def remove_form(profile, form):
+        raise ValueError("no circular arc fits the profile; remove a line instead")
+
+    monkeypatch.setattr("comparisons.scenes.profile.remove_form", remove_form)
+    (folder / "scene.toml").write_text(toml(MEASURED))
+    (folder / "trace.csv").write_text(trace)
+    assert "profile.form: no circular arc" in complaint("run", "scene.toml")
+
+
+@pytest.mark.parametrize(
+    ("scene", "fragment"),
+    [
+        ("smoth", "smoth: is neither a file nor a scene; the nearest scene is smooth, all are"),
+        ("absent.toml", "absent.toml: there is no such file"),
+        ("absent/scene", "absent/scene: there is no such file"),
+        (".", "is a directory; allowed is a TOML file"),
+        ("/dev/null", "is not a regular file; allowed is a TOML file"),
+        ("", "allowed is a scene's file or name"),
+    ],
+)
+def test_no_scene_there(scene, fragment, complaint):
+    assert fragment in complaint("run", scene)
+
+
+def test_unreadable_scene(folder, monkeypatch, toml, complaint):
+    def read_bytes(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    (folder / "scene.toml").write_text(toml({}))
+    monkeypatch.setattr(Path, "read_bytes", read_bytes)
+    assert "scene.toml: cannot be read: Permission denied" in complaint("run", "scene.toml")
+
+
+def test_control_characters_of_a_name_are_shown_harmless(complaint):
+    line = complaint("run", "\x1b[31m.toml")
+    assert "\x1b" not in line and r"\x1b[31m.toml" in line
+
+
+@pytest.mark.parametrize(
+    ("changes", "arguments", "fragment"),
+    [
+        ({"roller.raduis": "1"}, ["scene.toml"], "the nearest is roller.radius"),
+        (MEASURED, ["scene.toml", "--json"], "profile.file: trace.csv: there is no such file"),
+        ({}, ["scene.toml", "--out", "scene.toml"], "scene.toml is not a folder"),
+    ],
+)
+def test_as_a_process(tmp_path, changes, arguments, fragment, toml):
+    (tmp_path / "scene.toml").write_text(toml(changes))
+    done = subprocess.run(
+        [sys.executable, "-m", "comparisons.cli", "run", *arguments],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("crosscheck: ") and done.stderr.count("\n") == 1
+    assert fragment in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]

@@ -1,0 +1,83 @@
+"""Places that cannot be meant, and streams that are not there."""
+
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+from comparisons.commands.output import show_json
+
+ROOT = Path(__file__).parents[4]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "smooth", "--out", ""],
+        ["run", "smooth", "--out="],
+        ["run", "smooth", "--out", " "],
+        ["report", ".", "--summary", ""],
+        ["verify", "--junit", ""],
+    ],
+)
+def test_an_empty_place_is_not_the_working_folder(folder, complaint, arguments):
+    (folder / "result.json").write_text("mine")
+    assert "is empty; allowed is a path" in complaint(*arguments)
+    assert (folder / "result.json").read_text() == "mine"
+
+
+def test_a_scene_does_not_replace_its_profile(folder, trace, complaint):
+    (folder / "trace.toml").write_text(trace)
+    assert "is the profile itself; allowed is another --out" in complaint("init", "trace.toml")
+    assert "is the profile itself" in complaint("init", "trace.toml", "--force")
+
+
+def test_heights_alone_have_no_unit_of_positions(folder, complaint):
+    (folder / "z.txt").write_text("# step 1 um\n" + "".join(f"{i * 7 % 5}\n" for i in range(40)))
+    assert "heights alone; allowed is --spacing" in complaint("init", "z.txt", "--x-unit", "um")
+
+
+def test_heights_that_are_all_the_same_have_no_radius(folder, capsys):
+    (folder / "flat.csv").write_text("".join(f"{i},3.3\n" for i in range(400)))
+    assert main(["init", "flat.csv", "--x-unit", "um", "--z-unit", "um"]) == 0
+    assert 'form = "line"' in capsys.readouterr().out
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the stream")
+@pytest.mark.parametrize(("closed", "told"), [(">&-", ""), ("<&-", "smooth-sliding")])
+def test_a_closed_stream_is_no_defect(closed, told):
+    done = subprocess.run(
+        ["sh", "-c", f'"$0" -m comparisons.cli scenes {closed}', sys.executable],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert told in done.stdout
+
+
+def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path, trace):
+    (tmp_path / "trace.csv").write_text("x [µm],z [µm]\n" + trace.partition("\n")[2])
+    done = subprocess.run(
+        [sys.executable, "-m", "comparisons.cli", "init", "trace.csv"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "ascii"},
+        capture_output=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert rb'by "x [\xb5m],z [\xb5m]" in the file' in done.stdout
+
+
+def test_json_is_json_in_every_encoding(monkeypatch):
+    bytes_ = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(bytes_, "latin-1", "backslashreplace"))
+    show_json({"title": "Ra → µm"})
+    sys.stdout.flush()
+    assert json.loads(bytes_.getvalue()) == {"title": "Ra → µm"}

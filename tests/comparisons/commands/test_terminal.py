@@ -1,0 +1,231 @@
+"""What a terminal gets and a pipe does not: colour, progress; and what a shell may complete."""
+
+import json
+import os
+import pty
+import re
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import app, main
+from comparisons.commands import completion
+from comparisons.common.progress import Step, within
+from comparisons.common.progress_bar import Outlook, times
+from comparisons.scenes.files import scene_names, scene_titles
+
+ROOT = Path(__file__).parents[3]
+ESCAPE = "\x1b["
+SCENE = """
+title = "Seen"
+roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+load = {per_length = "1 N/um"}
+"""
+COMMAND = """
+import sys
+import comparisons.report.page
+comparisons.report.page.render = lambda outcome: ""
+from comparisons.cli import main
+sys.exit(main(["run", "scene.toml", "--models", "half-plane"]))
+"""
+
+
+def environment(**more: str) -> dict[str, str]:
+    plain = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR")}
+    return plain | {"PYTHONPATH": str(ROOT), "TERM": "xterm-256color", "COLUMNS": "90"} | more
+
+
+def in_terminal(folder: Path, **more: str) -> str:
+    """What a run says where both its outputs go to a terminal."""
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-c", COMMAND]
+    said = b""
+    with subprocess.Popen(
+        command, cwd=folder, env=environment(**more), stdout=theirs, stderr=theirs
+    ) as process:
+        os.close(theirs)
+        while True:
+            try:
+                piece = os.read(ours, 65536)
+            except OSError:  # the last writer has gone
+                break
+            if not piece:
+                break
+            said += piece
+    os.close(ours)
+    assert process.returncode == 0, said
+    return said.decode()
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return tmp_path
+
+
+def coloured(said: str) -> bool:
+    """Whether a colour is set; bold and moves of the cursor are none."""
+    codes = [code for found in re.findall(r"\x1b\[([\d;]*)m", said) for code in found.split(";")]
+    return any(code in ("38", "48") or re.fullmatch("[349][0-7]", code) for code in codes)
+
+
+def test_a_terminal_gets_colours_and_progress(folder):
+    said = in_terminal(folder)
+    assert coloured(said)
+    assert "half-plane: contact, level 1" in said and "peak pressure" in said
+
+
+def test_no_color_is_respected(folder):
+    said = in_terminal(folder, NO_COLOR="1")
+    assert not coloured(said)
+    assert "peak pressure" in said
+
+
+@pytest.mark.parametrize("more", [{}, {"FORCE_COLOR": "1"}])
+def test_a_pipe_gets_neither(folder, more):
+    done = subprocess.run(
+        [sys.executable, "-c", COMMAND],
+        cwd=folder,
+        env=environment(**more),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    assert "\x1b" not in done.stdout and "peak pressure" in done.stdout
+
+
+class Clock:
+    now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+def test_time_left_follows_from_what_lies_behind():
+    clock = Clock()
+    outlook = Outlook(clock)
+    outlook.told("a stage")
+    assert (outlook.share, outlook.left) == (None, None)
+    clock.now += 10.0
+    outlook.told(Step("a quarter", 0.25))
+    assert (outlook.share, outlook.left) == (0.25, 30.0)
+    clock.now += 10.0
+    outlook.told("another one")
+    outlook.told(Step("another quarter at the same time", 0.25))  # tells nothing new
+    assert (outlook.share, outlook.left) == (0.5, 20.0)
+    clock.now += 30.0
+    assert (outlook.share, outlook.left) == (0.99, None)
+
+
+def test_parts_of_a_task_have_their_part_of_its_time():
+    told = []
+    listener = within(within(told.append, 0.5, 1.0), 0.0, 0.5)
+    listener(Step("half of it", 0.5))
+    listener("whatever")
+    assert [(str(stage), getattr(stage, "behind", None)) for stage in told] == [
+        ("half of it", 0.625),
+        ("whatever", None),
+    ]
+
+
+def test_times_in_minutes():
+    assert times(59.6, None) == "1:00"
+    assert times(5.0, 3725.0) == "0:05, 1:02:05 left"
+
+
+def answer(line: str, shell: str = "bash") -> list[str]:
+    """What the shell is told that the last word of a line may become."""
+    asked = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
+    done = subprocess.run(
+        [sys.executable, "-m", "comparisons.cli"],
+        env=environment(_CROSSCHECK_COMPLETE=f"complete_{shell}", **asked),
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stderr == ""
+    return done.stdout.split()
+
+
+def test_scenes_are_completed(tmp_path, monkeypatch):
+    assert answer("crosscheck run ") == [*scene_names(), *_folders_of_the_checkout()]
+    assert completion.scenes("smooth") == ["smooth", "smooth-sliding"]
+    (tmp_path / "mine.toml").touch()
+    (tmp_path / "mine.csv").touch()
+    assert answer(f"crosscheck run {tmp_path}/m") == [f"{tmp_path}/mine.toml"]
+
+
+def _folders_of_the_checkout() -> list[str]:
+    shown = [path for path in sorted(ROOT.glob("*")) if not path.name.startswith(".")]
+    return [f"{p.name}/" if p.is_dir() else p.name for p in shown
+            if p.is_dir() or p.suffix == ".toml"]  # fmt: skip
+
+
+def test_commands_groups_and_models_are_completed():
+    assert answer("crosscheck sta") == ["stability"]
+    assert answer("crosscheck map smooth --x friction") == ["friction_dundurs"]
+    assert completion.maps("curv") == ["curvature-thickness"]
+    assert completion.models("half") == ["half-plane", "half-plane,finite-element"]
+    assert completion.quantities("tau1_f") == ["tau1_field_near", "tau1_field_deep"]
+
+
+def test_completion_is_installed_for_a_shell(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "comparisons.cli", "--install-completion", "bash"],
+        # by the name of the shell, not by that of the process that the tests happen to run in
+        env=environment(HOME=str(tmp_path), _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1"),
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    script = (tmp_path / ".bash_completions" / "crosscheck.sh").read_text()
+    assert "_CROSSCHECK_COMPLETE=complete_bash" in script
+
+
+def test_every_command_has_json():
+    from typer.main import get_command
+
+    without = {
+        name
+        for name, command in get_command(app).commands.items()
+        if not any("--json" in option.opts for option in command.params)
+    }
+    assert without == set()
+
+
+def test_scenes_and_doctor_as_json(capsys, monkeypatch):
+    assert main(["scenes", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == scene_titles()
+    from comparisons.commands import doctor_checks as doctor
+
+    found = [doctor.Check("a", True, "1.0", "")]
+    monkeypatch.setattr(doctor, "doctor", lambda listener: found)
+    assert main(["doctor", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == [
+        {"name": "a", "ok": True, "detail": "1.0", "remedy": ""}
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "module", "function"),
+    [
+        ("verify", "comparisons.studies.verify.verify", "verify"),
+        ("cost", "comparisons.studies.cost.cost", "cost"),
+    ],
+)
+def test_a_study_as_json_is_its_file(tmp_path, monkeypatch, capsys, name, module, function):
+    def done(*given: object) -> object:
+        (tmp_path / f"{name}.json").write_text('{"schema": 1}\n')
+        return types.SimpleNamespace(exit_status=0)
+
+    monkeypatch.setattr(f"{module}.{function}", done)
+    scene = ["smooth"] if name == "cost" else []
+    assert main([name, *scene, "--out", str(tmp_path), "--json"]) == 0
+    assert capsys.readouterr().out == '{"schema": 1}\n'

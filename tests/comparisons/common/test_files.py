@@ -1,0 +1,199 @@
+"""Publishing a run's folder: whole files or none."""
+
+import errno
+import os
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from comparisons.common.errors import InputError
+from comparisons.common.files import check_writable, published, unfinished
+
+NOBODY = 65534
+
+
+def fill(folder, names, text="new"):
+    for name in names:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text)
+
+
+def test_files_appear_at_the_end(tmp_path):
+    out = tmp_path / "deep" / "results"
+    with published(out) as scratch:
+        fill(scratch, ["result.json", "half_plane/contact.csv"])
+        assert not out.exists()
+    assert (out / "half_plane/contact.csv").read_text() == "new"
+    assert [p.name for p in out.parent.iterdir()] == ["results"]
+
+
+def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_path):
+    out = tmp_path / "results"
+    fill(out, ["result.json", "finite_element/mesh.msh", "notes.txt"], "old")
+    with published(out) as scratch:
+        fill(scratch, ["result.json"])
+    assert (out / "result.json").read_text() == "new"
+    assert (out / "notes.txt").read_text() == "old"
+    assert not (out / "finite_element").exists()
+
+
+@pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
+def test_a_failure_changes_nothing(tmp_path, error):
+    out = tmp_path / "results"
+    fill(out, ["result.json"], "old")
+    with pytest.raises(error), published(out) as scratch:
+        fill(scratch, ["result.json"])
+        raise error
+    assert (out / "result.json").read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["results"]
+    assert [p.name for p in out.iterdir()] == ["result.json"]
+
+
+def test_a_file_in_the_way_is_refused(tmp_path):
+    (tmp_path / "taken").write_text("mine")
+    for out in (tmp_path / "taken", tmp_path / "taken" / "deeper"):
+        with pytest.raises(InputError, match="not a folder"):
+            check_writable(out)
+    assert (tmp_path / "taken").read_text() == "mine"
+
+
+@pytest.mark.parametrize("length", [245, 300])
+def test_a_name_that_no_disk_takes_is_refused(tmp_path, length):
+    with pytest.raises(InputError, match="cannot be written: File name too long"):
+        check_writable(tmp_path / ("a" * length))
+    check_writable(tmp_path / ("a" * 230))
+
+
+@pytest.fixture
+def unprivileged():
+    """A new folder, and for the test a user whom permission bits hold back."""
+    with tempfile.TemporaryDirectory() as folder:
+        user = os.geteuid()
+        if user == 0:
+            os.chown(folder, NOBODY, NOBODY)
+            os.seteuid(NOBODY)
+        try:
+            yield Path(folder)
+        finally:
+            os.seteuid(user)
+            os.chmod(folder, 0o700)
+
+
+def test_a_folder_without_permission_is_refused(unprivileged):
+    unprivileged.chmod(0o500)
+    with pytest.raises(InputError, match=r"results: cannot be written: .*Permission denied"):
+        check_writable(unprivileged / "results")
+
+
+def test_a_sub_folder_without_permission_is_refused(unprivileged):
+    (unprivileged / "half_plane").mkdir(mode=0o500)
+    with pytest.raises(InputError, match=r"half_plane \(Permission denied"):
+        check_writable(unprivileged)
+
+
+def test_the_parent_of_an_existing_folder_need_not_be_writable(unprivileged):
+    """As of a mount point, where a rename from outside would fail as well."""
+    out = unprivileged / "results"
+    out.mkdir()
+    unprivileged.chmod(0o500)
+    check_writable(out)
+    with published(out) as scratch:
+        assert scratch.parent == unfinished(out).parent == out
+        fill(scratch, ["result.json", "half_plane/contact.csv"])
+    assert sorted(p.name for p in out.iterdir()) == ["half_plane", "result.json"]
+
+
+def test_where_unfinished_levels_are(tmp_path):
+    out = tmp_path / "results"
+    beside = tmp_path / ".results.unfinished"
+    assert unfinished(out) == beside
+    out.mkdir()
+    assert unfinished(out) == out / ".unfinished"
+    beside.mkdir()
+    assert unfinished(out) == beside
+
+
+@pytest.mark.parametrize("name", ["half_plane", "finite_element", ".unfinished"])
+def test_a_file_where_a_sub_folder_is_needed_is_refused(tmp_path, name):
+    (tmp_path / name).write_text("mine")
+    with pytest.raises(InputError, match=f"{name} is not a folder; allowed is a folder"):
+        check_writable(tmp_path)
+    assert (tmp_path / name).read_text() == "mine"
+
+
+def test_a_folder_where_a_file_is_needed_is_refused(tmp_path):
+    (tmp_path / "result.json").mkdir()
+    with pytest.raises(InputError, match=r"result\.json is a folder"):
+        check_writable(tmp_path)
+
+
+def test_a_sub_folder_that_another_run_removes_is_made_again(tmp_path, monkeypatch):
+    move = os.replace
+    removed = []
+
+    def replace(source, target):
+        if not removed:
+            removed.append(target.parent)
+            target.parent.rmdir()
+        move(source, target)
+
+    monkeypatch.setattr(os, "replace", replace)
+    with published(tmp_path / "out") as scratch:
+        fill(scratch, ["half_plane/contact.csv"])
+    assert removed == [tmp_path / "out" / "half_plane"]
+    assert (tmp_path / "out" / "half_plane" / "contact.csv").read_text() == "new"
+
+
+@pytest.mark.parametrize("comes_back", [False, True])
+def test_a_sub_folder_that_another_run_removes_while_it_is_tried(tmp_path, monkeypatch, comes_back):
+    place = tmp_path / "half_plane"
+    place.mkdir()
+    make = os.mkdir
+    removed = []
+
+    def mkdir(path, *args, **kwargs):
+        if not removed:
+            removed.append(path)
+            place.rmdir()
+            try:
+                make(path, *args, **kwargs)
+            finally:
+                if comes_back:
+                    make(place)
+        make(path, *args, **kwargs)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    check_writable(tmp_path)
+    assert removed
+    assert place.exists() is comes_back
+
+
+def test_a_folder_that_never_takes_anything_is_refused(tmp_path, monkeypatch):
+    """As /proc does: it exists, and every attempt ends as if it did not."""
+
+    def mkdir(path, *args, **kwargs):
+        raise FileNotFoundError(errno.ENOENT, "No such file or directory", path)
+
+    monkeypatch.setattr(os, "mkdir", mkdir)
+    with pytest.raises(InputError, match="No such file or directory"):
+        check_writable(tmp_path)
+
+
+def test_runs_at_once_into_one_folder(tmp_path):
+    """One keeps removing the folder that the other needs; each file is whole in the end."""
+    out = tmp_path / "out"
+
+    def publish(name):
+        for _ in range(40):
+            with published(out) as scratch:
+                fill(scratch, [name, "result.json"], name)
+        return True
+
+    names = ["half_plane/contact.csv", "finite_element/contact.csv"]
+    with ThreadPoolExecutor(2) as pool:
+        assert list(pool.map(publish, names)) == [True, True]
+    assert (out / "result.json").read_text() in names
+    assert {p.name for p in out.iterdir()} <= {"result.json", "half_plane", "finite_element"}
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]

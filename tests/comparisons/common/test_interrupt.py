@@ -1,0 +1,201 @@
+"""Ctrl-C wherever a run is: it ends, keeps what is finished, and says in one line how to go on."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+from comparisons.common.exit_status import ExitStatus
+
+ROOT = Path(__file__).parents[3]
+PATIENT = 60.0  # s; far longer than anything here takes
+SCENE = """
+roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+load = {per_length = "1 N/um"}
+tolerance = {peak_pressure = 0.5, contact_length = 0.5}
+resolution = {pitch = "30 um", levels = 2}
+finite_element = {block = 20}
+budget = {effects = false}
+"""
+# The command with one function replaced by what stands for it.
+COMMAND = """
+import os, pathlib, signal, sys, time
+import comparisons.report.page
+comparisons.report.page.render = lambda outcome: ""
+from comparisons.cli import main
+there = pathlib.Path("there")
+{replaced}
+sys.argv = ["crosscheck", "run", "scene.toml", "--out", "out"]
+sys.exit(main())
+"""
+# A loop inside the interpreter that hears no signal, as a library's would not.
+STUCK = """
+from fem import mumps
+factorised, calls = mumps.factorised, []
+def stuck(*given):
+    calls.append(1)
+    if len(calls) == {call}:
+        there.touch()
+        sum(range(10**12))
+    return factorised(*given)
+mumps.factorised = stuck
+"""
+COUNTED = """
+from fem import mumps
+factorised = mumps.factorised
+def counted(*given):
+    with there.open("a") as file:
+        file.write(".")
+    return factorised(*given)
+mumps.factorised = counted
+"""
+MESHER = """
+from meshes import build
+asleep = "import os, time; open('pid', 'w').write(str(os.getpid())); open('there', 'w'); "
+build.WORKER = (sys.executable, "-c", asleep + "time.sleep(600)")
+"""
+WAITS = """
+from fem import mumps
+def waits(*given):
+    there.touch()
+    while not pathlib.Path("go on").exists():
+        time.sleep(0.02)
+    os._exit(5)
+mumps.factorised = waits
+"""
+CRASH = """
+from fem import mumps
+mumps.factorised = lambda *given: os.kill(os.getpid(), signal.SIGSEGV)
+"""
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    (tmp_path / "scene.toml").write_text(SCENE)
+    return tmp_path
+
+
+def started(folder: Path, replaced: str = "") -> subprocess.Popen:
+    (folder / "there").unlink(missing_ok=True)
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    return subprocess.Popen(
+        [sys.executable, "-c", COMMAND.format(replaced=replaced)],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def reached(folder: Path, process: subprocess.Popen) -> None:
+    """Wait until the process is where it is to be stopped."""
+    end = time.monotonic() + PATIENT
+    while not (folder / "there").exists():
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def is_running(pid: str) -> bool:
+    """A process that has ended may wait for an init that never asks for it."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def count(folder: Path) -> int:
+    """Factorisations of a run to its end."""
+    process = started(folder, COUNTED)
+    _, err = process.communicate(timeout=PATIENT)
+    assert process.returncode == 0, err
+    return len((folder / "there").read_text())
+
+
+@pytest.mark.parametrize("interrupt", [os.kill, os.killpg], ids=["a signal", "a terminal"])
+def test_in_the_middle_of_a_factorisation(folder, interrupt):
+    process = started(folder, STUCK.format(call=3))
+    reached(folder, process)
+    interrupt(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=PATIENT)
+    assert process.returncode == ExitStatus.INTERRUPTED
+    assert out == ""
+    assert err == (
+        "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
+    )
+    kept = {path.name for path in (folder / ".out.unfinished").iterdir()}
+    assert "finite_element-1.npz" in kept and "finite_element-2.npz" not in kept
+    assert not (folder / "out").exists()
+    if interrupt is os.kill:
+        assert count(folder) == 2  # of the four that there are in all
+        assert not (folder / ".out.unfinished").exists()
+
+
+def test_in_the_middle_of_meshing(folder):
+    process = started(folder, MESHER)
+    reached(folder, process)
+    os.kill(process.pid, signal.SIGINT)
+    _, err = process.communicate(timeout=PATIENT)
+    assert process.returncode == ExitStatus.INTERRUPTED
+    assert err.startswith("crosscheck: interrupted; finished levels are kept")
+    assert err.count("\n") == 1
+    assert not is_running((folder / "pid").read_text())
+
+
+def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
+    def interrupted(outcome: object) -> str:
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("comparisons.report.page.render", interrupted)
+    assert main(["run", "scene.toml", "--models", "half-plane", "--out", "out"]) == 130
+    assert capsys.readouterr().err == (
+        "crosscheck: interrupted; finished levels are kept, the same command goes on from there\n"
+    )
+    assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
+
+
+def test_a_crash_stays_a_crash(folder):
+    process = started(folder, CRASH)
+    process.communicate(timeout=PATIENT)
+    assert process.returncode == -signal.SIGSEGV
+
+
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
+def test_nothing_outlives_the_command(folder, sent):
+    process = started(folder, STUCK.format(call=1))
+    reached(folder, process)
+    process.send_signal(sent)
+    process.communicate(timeout=PATIENT)  # returns when nobody holds its output any more
+    assert process.returncode == -sent
+
+
+def test_an_ignored_interrupt_stays_ignored(folder):
+    process = started(folder, "signal.signal(signal.SIGINT, signal.SIG_IGN)\n" + WAITS)
+    reached(folder, process)
+    process.send_signal(signal.SIGINT)
+    (folder / "go on").touch()
+    _, err = process.communicate(timeout=PATIENT)
+    assert (process.returncode, err) == (5, "")
+
+
+@pytest.mark.parametrize(
+    ("command", "work"),
+    [("paper", "paper.reproduce.paper"), ("stability", "stability.run.run_stability")],
+)
+def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):
+    def interrupted(*given: object, **named: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(f"comparisons.{work}", interrupted)
+    assert main([command, "--out", str(tmp_path / "out")]) == ExitStatus.INTERRUPTED
+    told = "interrupted; nothing was written, the same command starts again"
+    assert capsys.readouterr().err == f"crosscheck: {told}\n"

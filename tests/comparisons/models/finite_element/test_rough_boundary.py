@@ -1,0 +1,118 @@
+"""The real boundary of a rough body: the trace under every pressure element, on every level."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.scenes.resolve import resolve_tables
+from fem.solver.mumps import FemError
+from meshes.block import BlockMesh
+from meshes.build import build_block
+from meshes.quality import real_points, scaled_jacobians
+
+HALF_WIDTH = 100e-6
+# A wave whose troughs are where the contact ends: a boundary that comes back to the mean line
+# beside the contact touches the roller there.
+WAVE, SLOPE = 2.0 * HALF_WIDTH, 0.005
+SINUSOID = {
+    "kind": "sinusoid",
+    "wavelength": WAVE,
+    "amplitude": np.sqrt(2.0) * SLOPE * WAVE / (2.0 * np.pi),
+}
+
+
+def problem_with(profile: dict, **finite_element) -> Problem:
+    tables = {
+        "roller": {"radius": 100.0 * HALF_WIDTH, "rigid": True},
+        "body": {"youngs_modulus": 200e9, "poissons_ratio": 0.3},
+        "load": {"hertz_peak_pressure": 1.0989e9},
+        "profile": profile,
+        "finite_element": {"geometry": "rough", **finite_element},
+    }
+    return problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
+
+
+def self_affine(slope: float, length: float = 2e-3, seed: int = 3) -> Problem:
+    return problem_with(
+        {
+            "kind": "self-affine",
+            "hurst": 1.0,
+            "rms_slope": slope,
+            "samples": round(length / 1e-6) + 1,
+            "length": length,
+            "shortest_wavelength": 2e-5,
+            "seed": seed,
+        }
+    )
+
+
+def mesh_of(problem: Problem, pitch: float, contact: float = 0.7) -> BlockMesh:
+    """Of a level on which contact is predicted on this part of the smooth one."""
+    patches = contact * problem.hertz.half_width * np.array([[-1.0, 1.0]])
+    return rough_mesh(problem, build_block(block_spec(problem, Refinement(pitch), patches)))
+
+
+@pytest.mark.parametrize("level", [1, 4])
+def test_every_hat_lies_on_the_trace(level):
+    """Predicted contact or not: at finite deformation it may reach farther."""
+    problem = problem_with(SINUSOID)
+    pitch = problem.pitches[0] / 2.0 ** (level - 1)
+    x = problem.grid(pitch).x
+    mesh = mesh_of(problem, pitch)
+    top = np.flatnonzero(mesh.points[:, 1] == 0.0)
+    at, z = real_points(mesh)[top].T
+    under = (at >= x[0] - pitch) & (at <= x[-1] + pitch)
+    assert np.count_nonzero(under) > 2 * len(x)
+    amplitude = SINUSOID["amplitude"]
+    wave = amplitude * np.cos(2.0 * np.pi * at[under] / WAVE)
+    assert np.abs(z[under] + wave).max() < 1e-4 * amplitude
+
+
+@pytest.mark.parametrize("slope", [0.1, 0.2])
+def test_fading_roughness_leaves_elements_fit_on_every_level(slope):
+    """Refinement must not make them worse, as it does where the fading gets shorter with it."""
+    problem = self_affine(slope)
+    for pitch in problem.pitches[0] / 2.0 ** np.arange(4):
+        mesh = mesh_of(problem, pitch)
+        assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
+
+
+def test_high_long_waves_do_not_fade_steeply():
+    """The roughness at the ends of the contact may stand far above the mean line."""
+    problem = self_affine(0.2, length=6e-3, seed=5)
+    for pitch in problem.pitches[0] / np.array([1.0, 2.0]):
+        mesh = mesh_of(problem, pitch)
+        assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
+
+
+def test_finite_deformation_takes_a_few_factorisations_on_a_fine_mesh():
+    """Three steps of Newton's method from the linear solution, with nothing to be looked for."""
+    problem = problem_with(SINUSOID, deformation="finite", roller_shape="circle")
+    plan = make_plan(problem, ("finite_element",))
+    peaks = []
+    for pitch in problem.pitches[0] / np.array([4.0, 8.0]):
+        level = finite_element_level(problem, plan, Refinement(pitch), None, Stages())
+        counts = level.solution.iterations
+        assert level.solution.converged
+        assert counts["newton_steps"] <= 4
+        assert counts["increments"] == 1
+        peaks.append(level.solution.pressure.max())
+    assert peaks[1] == pytest.approx(peaks[0], rel=2e-4)
+
+
+def test_contact_that_ends_with_the_pressure_elements_is_an_error(monkeypatch):
+    """It would go on beyond them: the load would rest on hats at the ends."""
+    problem = problem_with(SINUSOID, deformation="finite", roller_shape="circle")
+    everywhere = SimpleNamespace(pressure=np.ones(problem.grid(problem.pitches[0]).count))
+    monkeypatch.setattr(finite_element_nonlinear, "press_finitely", lambda *_, **__: everywhere)
+    plan = make_plan(problem, ("finite_element",))
+    with pytest.raises(FemError, match="beyond the pressure elements"):
+        finite_element_level(problem, plan, Refinement(problem.pitches[0]), None, Stages())

@@ -1,0 +1,162 @@
+"""One assumption of the finite elements switched off at a time, all else the same."""
+
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.bodies import BodyStore
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import window_of
+from comparisons.scenes.resolve import resolve_tables
+
+STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
+RADIUS, HALF_WIDTH = 10e-3, 200e-6  # a/R = 0.02 under a rigid roller
+RIGID = {
+    "roller": {"radius": RADIUS, "rigid": True},
+    "body": STEEL,
+    "load": {"per_length": np.pi / 4.0 * 200e9 / 0.91 * HALF_WIDTH**2 / RADIUS},
+}
+ELASTIC = {**RIGID, "roller": {"radius": RADIUS, "youngs_modulus": 200e9, "poissons_ratio": 0.2}}
+
+
+def problem_with(tables: dict, finite_element: dict, **sections: dict) -> Problem:
+    merged = {name: {**tables.get(name, {}), **fields} for name, fields in sections.items()}
+    tables = {**tables, **merged, "finite_element": finite_element}
+    return problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
+
+
+def level_of(tables: dict, finite_element: dict, **sections: dict):
+    problem = problem_with(tables, finite_element, **sections)
+    plan = make_plan(problem, ("finite_element",))
+    level = finite_element_level(problem, plan, Refinement(problem.pitches[1]), None, Stages())
+    assert level.solution.converged
+    return problem, level
+
+
+def figures(tables: dict, finite_element: dict, **sections: dict) -> np.ndarray:
+    """Peak pressure and half-width, relative to Hertz."""
+    problem, level = level_of(tables, finite_element, **sections)
+    hertz = problem.hertz
+    return np.array(
+        [
+            level.solution.pressure.max() / hertz.peak_pressure,
+            0.5 * level.contact_length / hertz.half_width,
+        ]
+    )
+
+
+@lru_cache
+def plain(roller: str) -> np.ndarray:
+    return figures({"rigid": RIGID, "elastic": ELASTIC}[roller], {})
+
+
+def test_with_every_assumption_kept_it_is_hertz():
+    assert plain("rigid") == pytest.approx(1.0, abs=1e-3)
+    assert plain("elastic") == pytest.approx(1.0, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("finite_element", "peak", "half_width"),
+    [
+        # an eighth of a/R, of which finite strain takes half back
+        ({"gap": "displaced"}, 2.93e-3, -1.70e-3),
+        # of second order in a/R
+        ({"roller_shape": "circle"}, 2.4e-5, -8e-5),
+        ({"roller_shape": "circle", "gap": "displaced"}, 2.96e-3, -1.79e-3),
+        ({"roller_shape": "circle", "deformation": "finite"}, 1.41e-3, -5.3e-4),
+    ],
+)
+def test_what_a_rigid_roller_changes(finite_element, peak, half_width):
+    change = figures(RIGID, finite_element) - plain("rigid")
+    assert change == pytest.approx(np.array([peak, half_width]), rel=0.1)
+
+
+def test_an_elastic_disc_is_a_little_stiffer_than_the_half_plane_that_stands_for_it():
+    change = figures(ELASTIC, {"roller_body": "disc"}) - plain("elastic")
+    assert 2e-4 < change[0] < 7e-4
+    assert -7e-4 < change[1] < -2e-4
+
+
+@pytest.mark.parametrize("roller", ["rigid", "elastic"])
+def test_a_small_block_with_the_far_field_is_the_large_one(roller):
+    tables = {"rigid": RIGID, "elastic": ELASTIC}[roller]
+    small = figures(tables, {"far_field": "half-plane"})
+    assert small == pytest.approx(plain(roller), abs=2e-4)
+
+
+def test_cubic_elements_err_less_and_linear_ones_more():
+    errors = {
+        element: abs(figures(RIGID, {"element": element})[0] - 1.0)
+        for element in ("P1", "P2", "P3")
+    }
+    assert 5e-3 < errors["P1"] < 3e-2
+    assert 3.0 * errors["P3"] < errors["P2"] < errors["P1"] / 50.0
+
+
+def test_a_coating_of_the_bodys_own_material_is_none():
+    coated = figures(RIGID, {}, coating={"thickness": 0.1 * HALF_WIDTH, **STEEL})
+    assert coated == pytest.approx(plain("rigid"), abs=2e-4)
+
+
+def test_a_stiff_coating_narrows_the_contact():
+    hard = {"thickness": 0.1 * HALF_WIDTH, "youngs_modulus": 400e9, "poissons_ratio": 0.2}
+    change = figures(RIGID, {}, coating=hard) - plain("rigid")
+    assert 5e-3 < change[0] < 2e-2
+    assert -6e-2 < change[1] < -2e-2
+
+
+@pytest.mark.parametrize("tables", [RIGID, ELASTIC], ids=["rigid", "elastic"])
+def test_coupled_both_models_move_alike(tables):
+    load = {"friction": 0.5, "coupled": True}
+    problem, level = level_of(tables, {}, load=load)
+    plan = make_plan(problem, ("half_plane",))
+    other = half_plane_level(problem, plan, problem.pitches[1], None, Stages())
+
+    def centroid(pressure: np.ndarray) -> float:
+        return float(level.grid.x @ pressure / pressure.sum()) / problem.hertz.half_width
+
+    shift = centroid(level.solution.pressure)
+    assert abs(shift) > 0.01
+    # the block's boundary holds back a little of it
+    assert shift == pytest.approx(centroid(other.solution.pressure), abs=1.5e-3)
+
+
+def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisation():
+    problem = problem_with(RIGID, {}, load={"friction": [0.0, 0.1, 0.2]}, stress={"points": [9, 5]})
+    plan = make_plan(problem, ("finite_element",))
+    store, refinement = BodyStore(), Refinement(problem.pitches[0])
+    first, second = Stages(), Stages()
+    one = finite_element_level(problem, plan, refinement, None, first, store=store)
+    other = finite_element_level(problem, plan, refinement, None, second, store=store)
+    assert "factorisation" in first.seconds and "factorisation" not in second.seconds
+    assert np.array_equal(one.solution.pressure, other.solution.pressure)
+    held = Refinement(problem.pitches[0], halved=True)
+    third = Stages()
+    finite_element_level(problem, plan, held, None, third, store=store)
+    assert "factorisation" in third.seconds  # another support, the same mesh
+    assert third.seconds["mesh"] < 0.1 * first.seconds["mesh"]
+
+
+def test_finite_rotations_leave_the_surface_at_the_edge_of_contact_without_shear():
+    """At a/R = 0.18 a stress that takes rotations for strains is 1.2 times the largest there."""
+    load = {"per_length": 85.0 * RIGID["load"]["per_length"]}
+    tables = {**RIGID, "load": load, "stress": {"points": [41, 11]}}
+    problem = problem_with(tables, {"deformation": "finite", "roller_shape": "circle"})
+    plan, window = make_plan(problem, ("finite_element",)), window_of(problem)
+    refinement = Refinement(problem.pitches[0])
+    level = finite_element_level(problem, plan, refinement, window, Stages())
+    hertz = problem.hertz
+    assert hertz.half_width / RADIUS == pytest.approx(0.184, abs=1e-3)
+    [stress] = level.stresses
+    largest = stress.extremes["tau1"]
+    assert largest.value / hertz.tau1_max == pytest.approx(1.023, abs=0.01)
+    assert largest.z / hertz.half_width == pytest.approx(0.767, abs=0.02)
+    at_edge = np.abs(np.abs(window.x) - hertz.half_width) < 0.1 * hertz.half_width
+    assert stress.field.tau1[0, at_edge].max() < 0.15 * largest.value

@@ -1,0 +1,59 @@
+"""A wavy scene that is run in, and the smooth contact of its pair."""
+
+import copy
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from analytic.exact.hertz import HertzContact, hertz_from_load
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import ResolvedScene
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+LOAD, RADIUS = 2e5, 10e-3
+PAIR = hertz_from_load(LOAD, RADIUS, 210e9 / 1.82)
+HARDNESS = 1.25 * PAIR.peak_pressure
+WAVY = {
+    "roller": {"radius": RADIUS, **STEEL},
+    "body": dict(STEEL),
+    "profile": {"kind": "sinusoid", "wavelength": 40e-6, "amplitude": 0.1e-6},
+    "load": {"per_length": LOAD},
+    "running_in": {"hardness": HARDNESS, "stroke": 60e-6, "passes": 5},
+}
+
+
+@pytest.fixture(scope="session")
+def wavy() -> dict:
+    """The scene as tables."""
+    return copy.deepcopy(WAVY)
+
+
+@pytest.fixture(scope="session")
+def pair() -> HertzContact:
+    """Its smooth contact, under its load."""
+    return PAIR
+
+
+@pytest.fixture(scope="session")
+def hardness() -> float:
+    """Of the running-in [Pa]."""
+    return HARDNESS
+
+
+@pytest.fixture(scope="session")
+def resolved(wavy) -> Callable[..., ResolvedScene]:
+    """`resolved(changes)`: it with fields of sections replaced; None takes a field or a section
+    away."""
+
+    def changed(changes: dict | None = None) -> ResolvedScene:
+        tables = copy.deepcopy(wavy)
+        for section, fields in (changes or {}).items():
+            if fields is None:
+                tables.pop(section, None)
+                continue
+            merged = {**tables.get(section, {}), **fields}
+            tables[section] = {name: value for name, value in merged.items() if value is not None}
+        return resolve_tables(tables, name="wavy", folder=Path("."), source="wavy.toml")
+
+    return changed

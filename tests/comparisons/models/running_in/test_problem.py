@@ -1,0 +1,153 @@
+"""The surface that is pressed is the run-in one: under what load, where, how finely; its files."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import comparisons.models.running_in
+from analytic.profile import Profile
+from analytic.running_in import run_in
+from analytic.surface.roughness import roughness
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.running_in import run_in_scene
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.resolve import load_scene, resolve_tables
+
+
+class TestProblem:
+    def test_the_run_in_surface_is_the_one_that_is_pressed(self, resolved, pair):
+        scene = resolved()
+        problem = problem_of(scene)
+        worn = problem.scene.worn
+        assert worn.volume > 0.0 and worn.converged and worn.status == "shaken down"
+        assert problem.scene.profile is worn.profile
+        assert problem.scene.profile_info.roughness == roughness(worn.profile)
+        x = np.linspace(-50e-6, 50e-6, 999)
+        lowered = scene.profile.spline()(x) - worn.profile.spline()(x)
+        assert problem.gap(x) == pytest.approx(
+            x**2 / (2.0 * pair.radius) - scene.profile.spline()(x) + lowered, abs=1e-18
+        )
+        assert lowered.max() > 1e-9
+
+    def test_it_is_run_in_under_the_scenes_pair_load_and_places(self, resolved, pair, hardness):
+        scene = resolved({"load": {"position": 5e-6}})
+        worn = run_in_scene(scene).worn
+        other = run_in(
+            scene.profile.shifted(-5e-6),
+            pair.radius,
+            pair.combined_modulus,
+            worn.constraints,
+            np.array(scene.running_in.positions),
+            pitch=worn.pitch,
+        )
+        assert (
+            worn.constraints.load == pair.load_per_length and worn.constraints.hardness == hardness
+        )
+        assert other.volume == pytest.approx(worn.volume, rel=1e-6)
+        assert worn.passes[0].position == pytest.approx(-30e-6)
+
+    def test_the_load_is_the_scenes(self, resolved, pair):
+        by_peak = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
+        scene = run_in_scene(resolved({"load": by_peak}))
+        assert scene.worn.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
+
+    def test_the_load_is_its_own_where_it_has_one(self, resolved, pair):
+        scene = run_in_scene(resolved({"running_in": {"load": 1.5 * pair.load_per_length}}))
+        assert scene.worn.constraints.load == pytest.approx(1.5 * pair.load_per_length, rel=1e-12)
+
+    def test_running_in_is_done_once(self, monkeypatch, resolved):
+        problem = problem_of(resolved())
+
+        def again(*arguments, **named):
+            pytest.fail("run in twice")
+
+        monkeypatch.setattr(comparisons.models.running_in, "run_in", again)
+        assert problem_of(problem.scene).scene is problem.scene
+
+    def test_hats_are_fine_enough_for_the_volume_and_nest_in_the_samples(self, resolved, pair):
+        scene = run_in_scene(resolved())
+        worn = scene.worn
+        octaves = np.log2(worn.pitch / worn.before.spacing)
+        assert octaves == pytest.approx(round(octaves), abs=1e-9)
+        finer = run_in(
+            worn.before,
+            pair.radius,
+            pair.combined_modulus,
+            worn.constraints,
+            np.array(scene.running_in.positions),
+            pitch=0.25 * worn.pitch,
+        )
+        assert worn.volume == pytest.approx(finer.volume, rel=5e-3)
+
+    def test_a_long_flat_trace_does_not_ask_for_more_hats_than_the_contact_needs(
+        self, resolved, pair
+    ):
+        scene = resolved()
+        x = np.linspace(-2e-3, 2e-3, 2001)
+        waves = Profile(x, 1e-12 * np.cos(2.0 * np.pi * x / 8e-6))
+        scene = run_in_scene(replace(scene, profile=waves))
+        assert scene.worn.pitch > pair.half_width / 2500.0
+
+
+@pytest.mark.usefixtures("undrawn")
+class TestRun:
+    @pytest.fixture(scope="class")
+    @classmethod
+    def done(cls, tmp_path_factory, resolved) -> Outcome:
+        from comparisons.runs.run import run
+
+        heard = []
+        out = tmp_path_factory.mktemp("run-in") / "out"
+        outcome = run(resolved(), out, ("half_plane",), heard.append)
+        assert "running the surface in" in heard
+        return outcome
+
+    def test_files_hold_the_surface_before_and_after(self, done: Outcome):
+        worn, out = done.problem.scene.worn, done.directory
+        table = np.loadtxt(out / "run_in_profile.csv", delimiter=",", skiprows=1)
+        header = (out / "run_in_profile.csv").read_text().splitlines()[0]
+        assert header == "x [m],height before running-in [m],height [m]"
+        assert table[:, 0] == pytest.approx(worn.profile.x, rel=1e-11)
+        assert table[:, 1] - table[:, 2] == pytest.approx(worn.lowering, abs=1e-17)
+        assert json.loads((out / "result.json").read_text())["running_in"]["shaken_down"] is True
+        assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
+
+    def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Outcome, tmp_path):
+        from comparisons.runs.run import run
+
+        record = json.loads((done.directory / "record.json").read_text())
+        trace = done.problem.scene.worn.before
+        assert record["profile"]["x"] == trace.x.tolist()
+        assert record["profile"]["height"] == trace.height.tolist()
+        scene = resolve_tables(record["scene"], name="wavy", folder=Path("."), source="record")
+        placed = Profile(np.array(record["profile"]["x"]), np.array(record["profile"]["height"]))
+        again = run(replace(scene, profile=placed), tmp_path / "again", ("half_plane",))
+        assert again.record["hashes"] == done.record["hashes"]
+        assert set(done.record["hashes"]) == {"half_plane_pressure", "run_in_profile"}
+        assert again.result["running_in"] == done.result["running_in"]
+
+
+def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness():
+    """On ground as steep as the unrun, peaks end at the hardness, and little material goes."""
+    scene = load_scene("ground-running-in")
+    problem = problem_of(scene)
+    worn = problem.scene.worn
+    assert worn.status == "shaken down" and worn.converged
+    assert not any(one.at_end for one in worn.passes)
+    assert 1e-12 * 30.0 < worn.volume < 1e-12 * 45.0
+    from comparisons.common.progress import Stages
+    from comparisons.models.half_plane import half_plane_level
+
+    plan = make_plan(problem, ("half_plane",))
+    level = half_plane_level(problem, plan, problem.pitches[-1], None, Stages())
+    peak = level.solution.pressure.max()
+    assert peak == pytest.approx(scene.running_in.hardness, rel=0.02)
+    unrun = problem_of(load_scene("ground-unrun"))
+    before = half_plane_level(unrun, plan, unrun.pitches[-1], None, Stages())
+    assert before.solution.pressure.max() > 1.5 * peak
+    ratios = [found.contact_length / problem.hertz.half_width / 2.0 for found in (before, level)]
+    assert ratios == pytest.approx([0.69, 0.72], abs=0.01)

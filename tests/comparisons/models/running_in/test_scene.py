@@ -1,0 +1,160 @@
+"""Running-in as a scene has it: read, with its defaults, or refused in one line."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.cli import main
+from comparisons.common.errors import SceneError
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.running_in import run_in_scene
+from comparisons.scenes.resolve import resolve_tables
+
+
+class TestReading:
+    def test_a_stroke_is_centred_on_the_roller(self, resolved, hardness):
+        scene = resolved({"load": {"position": 5e-6}})
+        assert scene.running_in.positions == pytest.approx([-25e-6, -10e-6, 5e-6, 20e-6, 35e-6])
+        assert scene.running_in.hardness == hardness
+        assert scene.running_in.sweeps == 10 and scene.running_in.load is None
+
+    def test_positions_are_places_on_the_trace_in_their_order(self, resolved):
+        positions = [20e-6, -30e-6, 0.0]
+        scene = resolved({"running_in": {"positions": positions, "stroke": None, "passes": None}})
+        assert scene.running_in.positions == tuple(positions)
+
+    def test_defaults_are_written_out_and_read_again(self, resolved):
+        scene = resolved(
+            {"body": {"hardness": 3e9}, "running_in": {"hardness": None, "passes": None}}
+        )
+        assert scene.running_in.hardness == 3e9
+        assert len(scene.running_in.positions) == 15
+        table = scene.tables["running_in"]
+        assert table == {"hardness": 3e9, "stroke": 60e-6, "passes": 15, "sweeps": 10}
+        again = resolve_tables(
+            json.loads(json.dumps(scene.tables)), name="wavy", folder=Path("."), source="x"
+        )
+        assert again == scene and np.array_equal(again.profile.x, scene.profile.x)
+
+    def test_without_the_section_nothing_is_there(self, resolved):
+        scene = resolved({"running_in": None})
+        assert scene.running_in is None and scene.as_dict()["running_in"] is None
+        assert "running_in" not in scene.tables
+        problem = problem_of(scene)
+        plan = make_plan(problem, MODELS)
+        assert problem.scene is scene and not plan.running_in
+        assert not any("running-in" in text for text in plan.assumptions)
+        assert not any("running" in skipped.step for skipped in plan.skipped)
+
+    def test_a_made_trace_is_long_enough_for_the_stroke(self, resolved):
+        one = resolved({"running_in": None}).profile.length
+        assert resolved().profile.length - one == pytest.approx(60e-6, abs=2e-6)
+        places = {"positions": [-50e-6, 10e-6], "stroke": None, "passes": None}
+        longer = resolved({"running_in": places}).profile.length
+        assert longer - one == pytest.approx(100e-6, abs=2e-6)
+
+
+# fields of [running_in] and of other sections, how the line goes on after "wavy.toml: "
+WRONG = [
+    ({"hardness": None}, "running_in.hardness: is missing; allowed is a pressure above 0, here or"),
+    ({"hardness": 0.0}, "running_in.hardness: is 0.0; allowed is a pressure above 0"),
+    ({"hardness": "7 mm"}, 'running_in.hardness: is "7 mm", a length; allowed is a pressure'),
+    ({"load": -1.0}, "running_in.load: is -1.0; allowed is a load per length above 0"),
+    ({"load": "3 GPa"}, 'running_in.load: is "3 GPa", a pressure; allowed is a load per length'),
+    ({"stroke": None, "passes": None}, "running_in.positions: is missing; allowed is exactly one"),
+    ({"positions": [0.0]}, "running_in.stroke: is given beside positions; allowed is exactly one"),
+    (
+        {"positions": [0.0], "stroke": None},
+        "running_in.passes: is given beside positions, which are one pass each; allowed with",
+    ),
+    (
+        {"positions": [], "stroke": None, "passes": None},
+        "running_in.positions: is an empty list; allowed is a length",
+    ),
+    (
+        {"positions": [0.0, "4 GPa"], "stroke": None, "passes": None},
+        'running_in.positions: is "4 GPa", a pressure; allowed is a length',
+    ),
+    (
+        {"positions": [0.0, 1e-6, 0.0], "stroke": None, "passes": None},
+        "running_in.positions: lists 0 twice; allowed is",
+    ),
+    ({"stroke": 0.0}, "running_in.stroke: is 0.0; allowed is a length above 0"),
+    ({"passes": 1}, "running_in.passes: is 1; allowed is a whole number from 2 to 1000"),
+    ({"passes": 2.0}, "running_in.passes: is 2.0; allowed is a whole number"),
+    ({"sweeps": 0}, "running_in.sweeps: is 0; allowed is a whole number from 1 to 1000"),
+    ({"sweeps": True}, "running_in.sweeps: is true; allowed is a whole number"),
+    ({"sweep": 3}, "running_in.sweep: is no known field; the nearest is running_in.sweeps"),
+]
+
+
+@pytest.mark.parametrize(("fields", "line"), WRONG)
+def test_a_wrong_field_is_named_with_what_is_allowed(fields, line, resolved):
+    with pytest.raises(SceneError) as error:
+        resolved({"running_in": fields})
+    assert str(error.value).startswith(f"wavy.toml: {line}")
+
+
+class TestRestOfTheScene:
+    @pytest.fixture
+    def refused(self, resolved) -> Callable[[dict], str]:
+        def said(changes: dict) -> str:
+            with pytest.raises(SceneError) as error:
+                resolved(changes)
+            return str(error.value)
+
+        return said
+
+    def test_a_smooth_surface_has_nothing_to_run_in(self, refused):
+        found = refused({"profile": None})
+        assert found == (
+            "wavy.toml: running_in: is given for a smooth surface; allowed only with [profile]"
+        )
+
+    def test_an_approach_is_no_load_to_run_in_under(self, resolved, refused, pair):
+        rigid = {"rigid": True, "youngs_modulus": None, "poissons_ratio": None}
+        layer = {
+            "roller": rigid,
+            "body": {"thickness": 1e-3},
+            "load": {"per_length": None, "approach": 1e-6},
+        }
+        found = refused(layer)
+        assert found.startswith("wavy.toml: running_in.load: is missing; allowed is a load per")
+        scene = resolved({**layer, "running_in": {"load": pair.load_per_length}})
+        assert scene.running_in.load == pair.load_per_length
+
+    def test_the_roller_must_stay_on_the_trace(self, refused):
+        length = {"profile": {"length": 1e-3}}
+        places = {"positions": [0.0, 0.6e-3], "stroke": None, "passes": None}
+        assert refused({**length, "running_in": places}) == (
+            "wavy.toml: running_in.positions: is 0.0006 m; allowed is inside the trace, above "
+            "-0.0005 m and below 0.0005 m"
+        )
+        assert refused({**length, "running_in": {"stroke": 1.2e-3}}) == (
+            "wavy.toml: running_in.stroke: is 0.0012 m; allowed is below 0.001 m, to stay on the "
+            "trace about the roller's centre"
+        )
+
+    def test_a_body_too_soft_to_carry_the_load(self, resolved):
+        with pytest.raises(SceneError, match=r"^wavy.toml: running_in.hardness: the load 200000 N"):
+            run_in_scene(resolved({"running_in": {"hardness": 1e8}}))
+
+    def test_the_command_line_says_one_line_and_writes_nothing(self, tmp_path, monkeypatch, capsys):
+        monkeypatch.chdir(tmp_path)
+        (tmp_path / "wrong.toml").write_text(
+            '[roller]\nradius = "10 mm"\nrigid = true\n'
+            '[body]\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n'
+            '[profile]\nkind = "sinusoid"\nwavelength = "40 um"\namplitude = "0.1 um"\n'
+            '[running_in]\nstroke = "60 um"\n'
+            "[load]\nper_length = 2e5\n"
+        )
+        assert main(["run", "wrong.toml"]) == ExitStatus.BAD_INPUT
+        out, err = capsys.readouterr()
+        assert out == "" and err.count("\n") == 1
+        assert err.startswith("crosscheck: wrong.toml: running_in.hardness: is missing; allowed")
+        assert [path.name for path in tmp_path.iterdir()] == ["wrong.toml"]

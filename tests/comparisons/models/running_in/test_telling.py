@@ -1,0 +1,130 @@
+"""What result, plan, table and report tell of the running-in."""
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from io import StringIO
+
+import pytest
+
+import comparisons.models.running_in
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import problem_of
+from comparisons.report.figures.running_in import running_in_in_words, running_in_picture
+from comparisons.report.headline import headline
+from comparisons.report.page import render
+from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.terminal import run_in_text, summary
+from comparisons.results.outcome import Outcome
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+
+@pytest.fixture(scope="module")
+def outcome(finish: Callable[..., Outcome], wavy) -> Outcome:
+    return finish({**wavy, "title": "Wavy, run in", "stress": {"points": [60, 20]}})
+
+
+class TestTelling:
+    def test_result(self, outcome: Outcome, hardness):
+        told, worn = outcome.result["running_in"], outcome.problem.scene.worn
+        assert told["passes"] == len(worn.passes) == 5 * told["sweeps"]
+        assert told["volume_moved"] == worn.volume == sum(told["volume_by_pass"])
+        assert told["largest_lowering"] == worn.largest_lowering > 0.0
+        assert told["shaken_down"] is True and told["converged"] is True
+        assert told["at_ends_of_trace"] == []
+        assert told["roughness_before"]["rq"] > told["roughness_after"]["rq"] > 0.0
+        assert outcome.result["groups"]["rms_slope"] == told["roughness_after"]["rms_slope"]
+        assert json.loads(json.dumps(outcome.result, allow_nan=False)) == outcome.result
+        for model in outcome.result["models"].values():
+            assert model[0]["contact"]["peak_pressure"] < 1.03 * hardness
+
+    def test_result_without_running_in(self, wavy_outcome: Outcome):
+        assert wavy_outcome.result["running_in"] is None
+        assert running_in_picture(wavy_outcome) is None
+        assert "running-in" not in render(wavy_outcome)
+
+    def test_plan_and_assumptions(self, outcome: Outcome):
+        assert outcome.plan.running_in
+        [said] = [text for text in outcome.plan.assumptions if text.startswith("running-in")]
+        assert "what flows is lost" in said
+
+    def test_report_shows_both_surfaces_and_one_sentence(self, outcome: Outcome, monkeypatch):
+        figures = []
+        monkeypatch.setattr(
+            "comparisons.report.figures.running_in.data_uri",
+            lambda figure: figures.append(figure) or "data:",
+        )
+        picture = running_in_picture(outcome)
+        worn = outcome.problem.scene.worn
+        assert len(figures) == 2  # wide and narrow
+        for figure in figures:
+            [axes] = figure.axes
+            lines = {line.get_label(): line.get_xydata() for line in axes.lines}
+            assert axes.get_xlabel() == "x [µm]" and axes.get_ylabel() == "height [nm]"
+            for label, profile in (("before running-in", worn.before), ("after", worn.profile)):
+                points = lines[label]
+                assert points[:, 1] * 1e-9 == pytest.approx(
+                    profile.spline()(points[:, 0] * 1e-6), abs=1e-15
+                )
+        said = running_in_in_words(outcome.problem.scene)
+        assert picture.caption.endswith(said)
+        assert f"In {len(worn.passes)} passes ({worn.sweeps} sweeps over 5 places)" in said
+        assert said.count(". ") == 0 and said.endswith(" deep.")
+        page = render(outcome)
+        assert '<section id="running-in">' in page and page.index("running-in") > 0
+
+    def test_table(self, outcome: Outcome):
+        from rich.console import Console
+
+        console = Console(width=80, record=True, file=StringIO())
+        console.print(summary(outcome))
+        shown = console.export_text().splitlines()
+        [row] = [line for line in shown if line.startswith("run in")]
+        worn = outcome.problem.scene.worn
+        assert f"moved in {len(worn.passes)} passes, shaken down" in row
+        peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
+        softer = replace(worn.constraints, hardness=peak / 1.8)
+        scene = replace(outcome.problem.scene, worn=replace(worn, constraints=softer))
+        sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
+        assert run_in_text(sharp).endswith("; pressed then, up to 1.80 times its hardness")
+        assert "times its hardness" not in row
+        [surface] = [line for line in shown if line.startswith("surface")]
+        assert "before running-in " in surface or "at the cut-off" not in surface
+        assert "Roughness before running-in (ISO 21920-2)" in dict(problem_sheet(outcome))
+
+    def test_what_fell_short_is_told(self, outcome: Outcome):
+        problem = outcome.problem
+        worn = problem.scene.worn
+        passes = (replace(worn.passes[0], at_end=True), *worn.passes[1:])
+        scene = replace(problem.scene, worn=replace(worn, status="passes spent", passes=passes))
+        plan = make_plan(replace(problem, scene=scene), MODELS)
+        short = [text for text in plan.assumptions if text.startswith("running-in")][1:]
+        assert "has not shaken down in" in short[0] and "from −30 µm" in short[1]
+        said = running_in_in_words(scene)
+        assert "it has not shaken down." in said and "an end of the trace" in said
+
+    def test_hats_too_coarse_for_the_surface_are_told(self, monkeypatch, resolved):
+        monkeypatch.setattr(comparisons.models.running_in, "MOST_HATS", 100)
+        problem = problem_of(resolved())
+        worn = problem.scene.worn
+        [said] = [
+            text
+            for text in make_plan(problem, MODELS).assumptions
+            if "too coarse for the shortest waves" in text
+        ]
+        assert f"{1e6 * worn.pitch:#.3g} µm apart" in said
+
+    def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Outcome):
+        assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE)
+        problem = outcome.problem
+        worn = problem.scene.worn
+        passes = (replace(worn.passes[0], converged=False), *worn.passes[1:])
+        scene = replace(problem.scene, worn=replace(worn, passes=passes))
+        failed = replace(outcome, problem=replace(problem, scene=scene))
+        assert not failed.converged
+        assert failed.exit_status == ExitStatus.NOT_CONVERGED
+        said = headline(failed)
+        assert said.kind == "not converged"
+        assert f"running-in, 1 of {len(passes)} passes" in said.sentence

@@ -1,0 +1,54 @@
+"""What both models solve: the same mesh whatever the last bits of a computed surface."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from analytic.contact.patches import contact_patches
+from analytic.contact.problem import solve_contact
+from analytic.operators.half_plane import HalfPlane
+from analytic.profile import Profile
+from comparisons.models.finite_element.mesh import Refinement, block_spec
+from comparisons.models.problem import problem_of
+from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import ResolvedScene
+from meshes.build import in_units
+
+
+def mesh_in_edges(scene: ResolvedScene) -> tuple:
+    """Everything that the coarsest mesh is made from, with lengths in surface edges."""
+    problem = problem_of(scene)
+    refinement = Refinement(problem.pitches[0])
+    grid = problem.grid(refinement.pitch)
+    solution = solve_contact(
+        HalfPlane(grid.count, grid.pitch, problem.modulus),
+        grid.average(problem.gap, problem.knots),
+        grid.weights,
+        problem.constraints(),
+    )
+    spec = block_spec(problem, refinement, contact_patches(grid.x, solution.pressure, solution.gap))
+    small = in_units(spec, spec.surface_size)
+    return small.half_width, small.depth, small.growth, small.window, small.intervals.tolist()
+
+
+@pytest.mark.parametrize("thickness", [None, 1e-3])
+@pytest.mark.parametrize("load", [1.0, 0.1])
+@pytest.mark.parametrize("name", ["self-affine", "ground-unrun"])
+def test_rounding_of_the_surface_does_not_change_the_mesh(name, load, thickness):
+    scene = load_scene(name)
+    lighter = replace(scene.load, value=load * scene.load.value)
+    scene = replace(scene, thickness=thickness, load=lighter)
+    first = mesh_in_edges(scene)
+    noise = np.random.default_rng(1)
+    for _ in range(3):
+        rounding = 1.0 + 1e-14 * noise.standard_normal(len(scene.profile.height))
+        profile = Profile(scene.profile.x, scene.profile.height * rounding)
+        assert mesh_in_edges(replace(scene, profile=profile)) == first
+
+
+def test_pitches_halve_and_the_finest_is_a_fortieth_of_the_shortest_wave():
+    """A sinusoid's own spectrum finds its wave a little short: the trace is of finite length."""
+    pitches = np.array(problem_of(load_scene("sinusoid")).pitches)
+    assert pitches[:-1] / pitches[1:] == pytest.approx(2.0, rel=1e-15)
+    assert 40.0 <= 50e-6 / pitches[-1] <= 44.0

@@ -1,0 +1,70 @@
+"""The points of the fields: what is asked for, and what must not depend on it."""
+
+import numpy as np
+import pytest
+
+from comparisons.common.errors import SceneError
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.window import search_window, window_of
+from comparisons.scenes.files import SCENES, read_toml
+from comparisons.scenes.resolve import resolve_tables
+
+
+def problem(name="ground-unrun", **stress):
+    tables = read_toml(SCENES / f"{name}.toml")
+    tables["stress"] = {**tables["stress"], **stress}
+    return problem_of(resolve_tables(tables, name=name, folder=SCENES, source=name))
+
+
+@pytest.mark.parametrize("name", ["ground-unrun", "ground-run-in"])
+def test_extremes_do_not_depend_on_the_points_of_the_field(name):
+    found = []
+    for points in ([3, 3], [40, 16], [600, 200]):
+        given = problem(name, points=points)
+        plan = make_plan(given, ("half_plane",))
+        level = half_plane_level(given, plan, given.pitches[0], window_of(given), Stages())
+        found.append([e.value for s in level.stresses for e in s.extremes.values()])
+    assert found[0] == pytest.approx(found[2], rel=1e-9)
+    assert found[1] == pytest.approx(found[2], rel=1e-9)
+
+
+@pytest.mark.parametrize("columns", [3, 10, 77, 600, 2500])
+def test_points_belong_to_the_grid_of_every_level(columns):
+    given = problem(points=[columns, 20])
+    window = window_of(given)
+    assert len(window.x) == pytest.approx(columns, rel=0.5)
+    assert len(window.z) == 20 and window.z[0] == 0.0
+    spacing = np.diff(window.x).mean()
+    for pitch in given.pitches:
+        ratio = window.stride(pitch) / window.subdivisions(pitch)
+        assert ratio * pitch == pytest.approx(spacing, rel=1e-9)
+        assert min(window.stride(pitch), window.subdivisions(pitch)) == 1
+
+
+def test_the_search_is_as_dense_as_the_coarsest_pressures():
+    given = problem(points=[10, 10])
+    searched = search_window(given, window_of(given))
+    assert np.diff(searched.x).max() == pytest.approx(given.pitches[0])
+    assert searched.z[1] < given.pitches[0]
+    assert (searched.z[3:] / searched.z[2:-1]).max() < 1.7
+
+
+@pytest.mark.parametrize(
+    ("stress", "words"),
+    [
+        ({"half_range": 1e6}, "stress.half_range: is .* allowed is at most"),
+        ({"depth": 1e6}, "stress.depth: is .* allowed is at most"),
+        ({"half_range": 1e-9}, "stress.half_range: is .* allowed is at least"),
+    ],
+)
+def test_windows_that_show_nothing_or_leave_the_body_are_refused(stress, words):
+    with pytest.raises(SceneError, match=words):
+        window_of(problem(**stress))
+
+
+def test_a_shallow_window_of_many_rows():
+    window = window_of(problem(depth="1 nm", points=[50, 300]))
+    assert len(window.z) == 300 and window.z[-1] == pytest.approx(1e-9)

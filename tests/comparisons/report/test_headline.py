@@ -1,0 +1,95 @@
+"""The verdict in one sentence: the number that decides it, and what it is made of."""
+
+import math
+from dataclasses import replace
+
+from comparisons.assessment.effects.model_error import OwnError, Share
+from comparisons.assessment.effects.selection import Choice
+from comparisons.report.headline import headline
+from comparisons.results.outcome import Outcome
+
+TOLERANCE = 0.02
+NONE = Choice(frozenset(), frozenset(), {}, {}, {})
+
+
+def own(quantity: str, value: float, uncertainty: float, **effects: float) -> OwnError:
+    shares = {name.replace("_", " "): Share(size, 1e-4) for name, size in effects.items()}
+    return OwnError(quantity, 0.0, shares, 0.0, value, uncertainty)
+
+
+def judged(outcome: Outcome, *errors: OwnError, choice: Choice = NONE) -> Outcome:
+    """A run whose half-plane has these errors, all judged."""
+    scene = outcome.problem.scene
+    tolerance = {error.quantity: TOLERANCE for error in errors}
+    problem = replace(outcome.problem, scene=replace(scene, tolerance=tolerance))
+    return replace(
+        outcome, problem=problem, budget=replace(outcome.budget, own=errors, choice=choice)
+    )
+
+
+def test_agreement_names_what_is_nearest_to_its_tolerance(smooth_outcome: Outcome):
+    errors = own("peak_pressure", 1e-3, 1e-4), own("tau1_max", -0.0123, 1e-3)
+    said = headline(judged(smooth_outcome, *errors))
+    assert said.kind == "holds"
+    assert "both judged errors are within their tolerances" in said.sentence
+    assert (
+        "principal shear stress τ₁ is −1.2 % (tolerance 2 %, uncertainty 0.10 %)" in said.sentence
+    )
+
+
+def test_it_says_no_more_than_the_uncertainty_supports(smooth_outcome: Outcome):
+    for value, uncertainty, words in (
+        (0.0012, 0.0138, "is +0.1 %"),
+        (-0.0004, 0.0138, "is 0.0 % (tol"),
+        (0.00123, 0.0001, "is +0.12 %"),
+    ):
+        said = headline(judged(smooth_outcome, own("peak_pressure", value, uncertainty)))
+        assert said.kind == "holds" and words in said.sentence
+        assert "the one judged error is within its tolerance" in said.sentence
+
+
+def test_failure_names_what_is_farthest_outside_and_what_makes_most_of_it(smooth_outcome: Outcome):
+    errors = (
+        own("peak_pressure", 0.5, 1e-3),
+        own("contact_length", -0.7, 1e-3, finite_body=0.5, circle=0.1),
+        own("tau1_max", 0.0, 1e-3),
+    )
+    said = headline(judged(smooth_outcome, *errors))
+    assert said.kind == "fails"
+    assert "contact length is −70 %" in said.sentence
+    assert "most of it finite body" in said.sentence
+    assert "1 more of 3 judged errors is outside" in said.sentence
+    shared = own("contact_length", -0.7, 1e-3, finite_body=0.3, circle=0.3)
+    assert "most of it" not in headline(judged(smooth_outcome, shared)).sentence
+
+
+def test_a_norm_has_no_sign(smooth_outcome: Outcome):
+    assert (
+        "difference is 9.0 %"
+        in headline(judged(smooth_outcome, own("pressure_l2", 0.09, 1e-3))).sentence
+    )
+
+
+def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Outcome):
+    said = headline(judged(smooth_outcome, own("contact_length", 0.01, math.inf)))
+    assert said.kind == "undecided"
+    assert "uncertainty that reaches across the tolerance" in said.sentence
+    sizes = {"plastic flow": {"contact_length": 0.1}, "circle": {"contact_length": 0.001}}
+    missing = Choice(
+        frozenset(),
+        frozenset(),
+        {"circle": sizes["circle"]},
+        {"plastic flow": "the body has no yield stress"},
+        sizes,
+    )
+    said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), choice=missing))
+    assert said.kind == "undecided"
+    assert "may move it by 10 %, plastic flow most" in said.sentence
+    said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), choice=missing))
+    assert said.kind == "undecided"
+    assert "may move it by 10 %, plastic flow most" in said.sentence
+
+
+def test_nothing_judged_is_no_verdict(smooth_outcome: Outcome):
+    said = headline(judged(smooth_outcome))
+    assert said.kind == "undecided" and "no figure has a tolerance" in said.sentence

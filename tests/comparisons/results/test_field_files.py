@@ -1,0 +1,182 @@
+"""Fields and meshes as other programs open them: no complaint, equal values, all metadata."""
+
+import json
+import subprocess
+import sys
+
+import meshio
+import numpy as np
+import pytest
+import pyvista
+
+from comparisons.results import field_files as fields
+from comparisons.results.field_files import CELL_TYPES, FORMATS, STRESSES, field_of, write_field
+from comparisons.runs.write import write_contact, write_mesh
+
+MODELS = ("half_plane", "finite_element")
+
+
+@pytest.fixture(scope="module")
+def outcome(finish):
+    """Rough steel, two friction coefficients, one with a decimal point."""
+    tables = {
+        "title": "Waves of 1 µm & <more>",
+        "roller": {"radius": 0.01, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
+        "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.25},
+        "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+        "stress": {"points": [20, 10]},
+    }
+    return finish(tables)
+
+
+@pytest.fixture(params=MODELS)
+def field(outcome, request):
+    return field_of(outcome, outcome.runs[request.param])
+
+
+def quietly(program: str, *arguments: object) -> str:
+    """What a program prints in a process that any warning ends."""
+    command = [sys.executable, "-W", "error", "-c", program, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, ""), done.stderr
+    return done.stdout
+
+
+def names(field) -> list[str]:
+    return [*STRESSES, *(f"{name} (friction 0.1)" for name in STRESSES)]
+
+
+OPENED = """
+import sys
+import meshio, pyvista
+for path in sys.argv[1:]:
+    pyvista.read(path)
+    if not path.endswith("vtkhdf"):
+        meshio.read(path)
+"""
+
+
+def test_files_open_without_a_word_of_complaint(outcome, tmp_path, capfd):
+    paths = []
+    for model, run in outcome.runs.items():
+        (tmp_path / model).mkdir()
+        paths += [write_field(tmp_path / model, field_of(outcome, run), name) for name in FORMATS]
+    write_mesh(tmp_path / "mesh.msh", outcome, outcome.runs["finite_element"].finest.mesh)
+    assert [path.name for path in paths] == [f"stress.{name}" for name in FORMATS] * 2
+    # meshio takes every .msh for one of Ansys first, and prints that reader's empty complaint
+    assert quietly(OPENED, *paths, tmp_path / "mesh.msh").strip() == ""
+    assert capfd.readouterr() == ("", "")
+
+
+def test_vtu_in_meshio(field, tmp_path):
+    mesh = meshio.read(write_field(tmp_path, field))
+    assert list(mesh.point_data) == names(field)
+    for name, values in field.arrays.items():
+        assert np.array_equal(mesh.point_data[name], values)
+    assert np.array_equal(mesh.points, field.points)
+    (block,) = mesh.cells
+    assert block.type == field.kind and np.array_equal(block.data, field.cells)
+    notes = {name: bytes(codes).decode() for name, codes in mesh.field_data.items()}
+    assert notes == field.notes
+
+
+@pytest.mark.parametrize("ending", ["vtu", "vtkhdf"])
+def test_vtk_files_in_pyvista(field, tmp_path, ending):
+    from vtkmodules.vtkCommonCore import vtkDataArray
+
+    grid = pyvista.read(write_field(tmp_path, field, ending))
+    called = [name.replace(".", "_") if ending == "vtkhdf" else name for name in names(field)]
+    assert sorted(grid.point_data) == sorted(called)
+    for name, shown in zip(names(field), called, strict=True):
+        assert np.array_equal(grid.point_data[shown], field.arrays[name])
+        information = grid.GetPointData().GetArray(shown).GetInformation()
+        if ending == "vtu":  # of a vtkhdf the units are in its notes alone
+            assert information.Get(vtkDataArray.UNITS_LABEL()) == "Pa"
+    assert np.array_equal(grid.points, field.points)
+    assert np.array_equal(grid.cells_dict[CELL_TYPES[field.kind][0]], field.cells)
+    for name, text in field.notes.items():
+        held = grid.field_data[name]
+        assert (bytes(held).decode() if ending == "vtu" else str(held[0])) == text
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_notes_say_units_and_scene(outcome, model):
+    field = field_of(outcome, outcome.runs[model])
+    assert field.notes["title"] == "Waves of 1 µm & <more>"
+    assert json.loads(field.notes["scene"]) == outcome.result["scene"]
+    assert json.loads(field.notes["units"]) == {"points": "m", **dict.fromkeys(names(field), "Pa")}
+
+
+IN_GMSH = """
+import json, sys
+import gmsh
+gmsh.initialize(["gmsh", "-v", "0"])
+gmsh.logger.start()
+gmsh.open(sys.argv[1])
+tags, points, _ = gmsh.model.mesh.getNodes()
+blocks = gmsh.model.mesh.getElements(2)
+views = {}
+for view in gmsh.view.getTags():
+    name = gmsh.view.option.getString(view, "Name")
+    kind, nodes, values, _, parts = gmsh.view.getHomogeneousModelData(view, 0)
+    views[name] = [kind, nodes.tolist(), values.tolist(), parts]
+groups = [gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups()]
+print(json.dumps([tags.tolist(), points.tolist(), [int(k) for k in blocks[0]],
+                  blocks[2][0].tolist(), views, groups, gmsh.logger.get()]))
+"""
+
+
+def in_gmsh(path):
+    tags, points, kinds, nodes, views, groups, said = json.loads(quietly(IN_GMSH, path))
+    assert [line for line in said if not line.startswith("Info")] == []
+    order = np.argsort(tags)
+    assert np.array_equal(np.array(tags)[order], np.arange(1, len(tags) + 1))
+    return np.reshape(points, (-1, 3))[order], kinds, np.array(nodes), views, groups
+
+
+def test_msh_in_gmsh_and_meshio(field, tmp_path):
+    path = write_field(tmp_path, field, "msh")
+    points, kinds, nodes, views, groups = in_gmsh(path)
+    mesh = meshio.read(path)
+    number, corners = {"quad": (3, 4), "triangle6": (9, 6)}[field.kind]
+    assert (kinds, groups) == ([number], ["body"])
+    assert np.array_equal(points, field.points) and np.array_equal(mesh.points, field.points)
+    assert np.array_equal(nodes.reshape(-1, corners) - 1, field.cells)
+    assert list(views) == list(mesh.point_data) == names(field)
+    for name, values in field.arrays.items():
+        kind, of_nodes, in_view, parts = views[name]
+        assert (kind, parts) == ("NodeData", 1)
+        assert np.array_equal(np.array(in_view)[np.argsort(of_nodes)], values)
+        assert np.array_equal(mesh.point_data[name], values)
+    said = path.read_bytes().rpartition(b"$Comments\n")[2].decode()
+    lines = dict(line.split(": ", 1) for line in said.splitlines()[:-1])
+    assert lines == field.notes
+
+
+def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
+    mesh, path = outcome.runs["finite_element"].finest.mesh, tmp_path / "mesh.msh"
+    write_mesh(path, outcome, mesh)
+    points, kinds, nodes, views, groups = in_gmsh(path)
+    read = meshio.read(path, file_format="gmsh")
+    real = np.column_stack([mesh.points + mesh.shift, np.zeros(len(mesh.points))])
+    assert np.array_equal(points, real) and np.array_equal(read.points, real)
+    assert kinds == [9] and np.array_equal(nodes.reshape(-1, 6) - 1, mesh.triangles)
+    assert groups == ["top", "right", "bottom", "left", "body"] and list(views) == ["shift"]
+    assert np.array_equal(pyvista.read(path).points, real)
+    assert outcome.problem.scene.title in path.read_bytes().decode("utf-8", errors="replace")
+
+
+def test_contact_curves_have_units_in_their_header(outcome, tmp_path):
+    level = outcome.runs["half_plane"].finest
+    write_contact(tmp_path / "contact.csv", outcome.problem, level)
+    header, *rows = (tmp_path / "contact.csv").read_text().splitlines()
+    assert header == "x [m],pressure [Pa],gap [m],deformed height [m]"
+    read = np.array([row.split(",") for row in rows], dtype=float)
+    assert read[:, 0] == pytest.approx(level.grid.x, rel=1e-11)
+    assert read[:, 1] == pytest.approx(level.solution.pressure, rel=1e-11)
+
+
+def test_large_fields_go_to_hdf5(field, tmp_path, monkeypatch):
+    assert write_field(tmp_path, field).suffix == ".vtu"
+    monkeypatch.setattr(fields, "LARGE", len(field.points))
+    assert write_field(tmp_path, field).suffix == ".vtkhdf"

@@ -1,0 +1,104 @@
+"""The check of the finite elements' compliance in a run: levels, result, report, repetition."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from comparisons.assessment.refinement import CurrentBodies
+from comparisons.common.cache import keep, kept
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element import level as finite_element
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.level_cache import KINDS
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.report.tables.compliance_check import operator_note, operator_table
+from comparisons.results.changes import movement
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import load_scene, resolve_tables
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+LAYER = {
+    "title": "Smooth layer",
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": {**STEEL, "thickness": 2.1e-4},
+    "load": {"per_length": 1e6},
+    "resolution": {"pitch": 2e-5},
+}
+
+
+@pytest.fixture(scope="module")
+def outcome(tmp_path_factory):
+    coarse = resolve_tables(LAYER, name="made", folder=Path("."), source="made.toml")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("comparisons.report.page.render", lambda outcome: "")
+        return run(coarse, tmp_path_factory.mktemp("run") / "out", ("finite_element",))
+
+
+def test_every_level_but_the_halved_is_checked(outcome):
+    ladder = outcome.runs["finite_element"]
+    assert all(level.operator is not None for level in ladder.levels)
+    assert ladder.halved.operator is None and "check" not in ladder.halved.seconds
+    waves = [level.operator.nearest.waves[-1].difference for level in ladder.levels]
+    assert abs(waves[-1]) < abs(waves[0])
+
+
+def test_result(outcome):
+    content = json.loads((outcome.directory / "result.json").read_text())
+    found = content["models"]["finite_element"][0]["operator"]
+    finest = outcome.runs["finite_element"].finest.operator
+    assert found["verdict"] == finest.verdict == "neither"
+    assert found["levels"] == [
+        level.operator.verdict for level in outcome.runs["finite_element"].levels
+    ]
+    assert found["columns"][2]["x"] == finest.nearest.columns[2].x
+    assert found["waves"][0]["difference"] == finest.nearest.waves[0].difference
+    assert found["body_effect"]["of"] == ["thickness"] and found["datum_removed"]
+    assert len(found["body_effect"]["columns"]) == len(found["columns"]) == 5
+
+
+def test_a_figure_of_it_may_move_by_its_own_size(outcome):
+    recorded = json.loads((outcome.directory / "result.json").read_text())
+    repeated = json.loads(json.dumps(recorded))
+    wave = repeated["models"]["finite_element"][0]["operator"]["waves"][0]
+    wave["difference"] *= 1.5
+    assert len(movement(recorded, repeated).moved) == 1
+    assert not movement(recorded, repeated).beyond
+    wave["difference"] *= 2.0
+    assert len(movement(recorded, repeated).beyond) == 1
+
+
+def test_table_and_how_to_read_it(outcome):
+    table = operator_table(outcome)
+    assert table.title.endswith(": no fault of mesh or body")
+    assert table.head[-1] == "from the half-plane: what the thickness does"
+    assert len(table.rows) == 10 and {len(row) for row in table.rows} == {4}
+    assert table.rows[2][0].startswith("column at x = ")
+    assert table.rows[5][0].endswith(", 4 elements") and table.rows[5][1].startswith("−")
+    note = operator_note(outcome)
+    assert note.startswith("Mesh and body are right") and "a constant removed" in note
+
+
+def test_it_survives_an_interrupt(outcome, tmp_path):
+    found = outcome.runs["finite_element"].finest.operator
+    keep(tmp_path / "level.npz", "key", found)
+    assert kept(tmp_path / "level.npz", "key", KINDS) == found
+    assert kept(tmp_path / "level.npz", "another", KINDS) is None
+
+
+def test_bodies_of_a_pitch_are_kept_while_it_lasts():
+    bodies = CurrentBodies()
+    one = bodies.of(1e-6)
+    assert bodies.of(1e-6) is one
+    other = bodies.of(2e-6)
+    assert other is not one and bodies.of(2e-6) is other
+    assert bodies.of(1e-6) is not one
+
+
+def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):
+    monkeypatch.setattr(finite_element, "pressed_linearly", lambda *given: 1 / 0)
+    problem = problem_of(load_scene("finite-strain"))
+    plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
+    assert finite_element_level(problem, plan, refinement, None, Stages()).solution.converged

@@ -1,0 +1,54 @@
+"""Runs under loads out of the ordinary: by an approach, and so light that one crest touches."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.exact.hertz import hertz_from_load
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.plan import MODELS
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import resolve_tables
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+
+
+def scene_of(tables, name="scene", folder=Path(".")):
+    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
+
+
+def test_approach_prescribed_on_a_layer(tmp_path):
+    tables = {
+        "roller": {"radius": 10e-3, "rigid": True},
+        "body": {"youngs_modulus": 3e9, "poissons_ratio": 0.35, "thickness": 4e-4},
+        "load": {"approach": 10e-6},
+        "budget": {"effects": False},
+    }
+    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+    contact = outcome.result["models"]["finite_element"][0]["contact"]
+    assert contact["approach"] == pytest.approx(10e-6, rel=1e-3)
+    assert outcome.result["models"]["half_plane"][0]["contact"]["approach"] is None
+    assert outcome.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+
+
+@pytest.mark.parametrize("load", [1.0, 1e-3])
+def test_a_load_that_touches_one_crest_only(tmp_path, load):
+    """Both models find Hertz's contact on the crest's own curvature, however light the load."""
+    wavelength, amplitude = 50e-6, 0.2e-6
+    tables = {
+        "roller": {"radius": 10e-3, **STEEL},
+        "body": dict(STEEL),
+        "profile": {"kind": "sinusoid", "wavelength": wavelength, "amplitude": amplitude},
+        "load": {"per_length": load},
+        "budget": {"effects": False},
+    }
+    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+    curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
+    crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
+    assert outcome.exit_status == ExitStatus.DONE
+    for model in MODELS:
+        contact = outcome.result["models"][model][0]["contact"]
+        assert contact["peak_pressure"] == pytest.approx(crest.peak_pressure, rel=2e-3)
+        assert contact["contact_length"] == pytest.approx(2.0 * crest.half_width, rel=5e-3)

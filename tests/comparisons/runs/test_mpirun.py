@@ -1,0 +1,147 @@
+"""A whole run under mpirun: the same figures and files as from one process, and one way to end."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.cli import main
+
+SCENE = """
+[roller]
+radius = "8 mm"
+rigid = true
+
+[body]
+youngs_modulus = "100 GPa"
+poissons_ratio = 0.2
+
+[load]
+per_length = "1 N/um"
+friction = 0.1
+
+[stress]
+points = [20, 10]
+
+[finite_element]
+far_field = "half-plane"
+growth = 0.5
+
+[resolution]
+pitch = "40 um"
+levels = 2
+
+[budget]
+time = "1 us"
+effects = false
+"""
+# What a run measures of itself, and what is zero but for rounding.
+OF_THE_MACHINE = ("cost", "seconds", "checks", "iteration")
+COMMAND = ("-m", "comparisons.cli", "run")
+# Without the pictures: while one process draws, the other one waits at a core's full cost.
+UNDRAWN = """
+import sys
+import comparisons.report.page
+from comparisons.cli import main
+comparisons.report.page.render = lambda outcome: "page"
+sys.exit(main())
+"""
+
+
+def figures(found: object, name: str = "") -> dict[str, object]:
+    """Every leaf of a result, by its path."""
+    if isinstance(found, dict):
+        items = found.items()
+    elif isinstance(found, list):
+        items = enumerate(found)
+    else:
+        return {name: found}
+    return {
+        path: leaf
+        for key, value in items
+        if key not in OF_THE_MACHINE
+        for path, leaf in figures(value, f"{name}/{key}").items()
+    }
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*"))
+
+
+def table(said: str) -> list[str]:
+    lines = [" ".join(line.split()) for line in said.splitlines()]
+    return [line for line in lines if not line.startswith(("time", "report", "figures"))]
+
+
+def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeypatch):
+    scene, outs = tmp_path / "small.toml", (tmp_path / "one", tmp_path / "two")
+    scene.write_text(SCENE)
+    end = launch(2, "-c", UNDRAWN, "run", scene, "--out", outs[1])
+    assert end.returncode == 0, end.stderr
+    monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "page")
+    assert main(["run", str(scene), "--out", str(outs[0])]) == 0
+    assert table(end.stdout) == table(capsys.readouterr().out)
+    assert files(outs[0]) == files(outs[1])
+    assert {path.name for path in tmp_path.iterdir()} == {"small.toml", "one", "two"}
+    one, two = (figures(json.loads((out / "result.json").read_text())) for out in outs)
+    assert one.keys() == two.keys() and len(one) > 100
+    contact = [
+        np.loadtxt(out / "finite_element/contact.csv", delimiter=",", skiprows=1) for out in outs
+    ]
+    np.testing.assert_allclose(contact[0], contact[1], rtol=1e-9, atol=1e-9 * contact[0].max())
+    half_width = one["/hertz/half_width"]
+    for name, value in one.items():
+        # differences of figures, and a place near the middle, have no digits to spare
+        compared = ("/comparison", "/uncertainty", "/budget", "/operator")
+        difference = any(part in name for part in compared)
+        spare = 1.0 if difference else half_width if "_at/" in name else 0.0
+        if isinstance(value, float):
+            assert two[name] == pytest.approx(value, rel=1e-9, abs=1e-8 * spare), name
+        else:
+            assert two[name] == value, name
+
+
+def own_words(said: str) -> list[str]:
+    """Lines of crosscheck among what mpirun says when a process ends early, at times on the
+    same line, or behind the zero byte that ends its own text."""
+    lines = said.replace("\0", "").replace("-----", "\n-----", 1).splitlines()
+    return [line for line in lines if line.startswith("crosscheck")]
+
+
+def test_wrong_input_ends_all_with_one_line(tmp_path, launch):
+    """Found by all, once MPI is at work."""
+    scene = tmp_path / "wrong.toml"
+    scene.write_text(SCENE.replace('time = "1 us"', 'memory = "1 kB"'))
+    end = launch(2, *COMMAND, scene, "--out", tmp_path / "out")
+    assert (end.returncode, end.stdout) == (2, "")
+    (line,) = own_words(end.stderr)
+    assert line.startswith(f"crosscheck: {scene}: budget.memory:")
+    assert list(tmp_path.iterdir()) == [scene]
+
+
+ALONE = """
+import sys
+from mpi4py import MPI
+from comparisons import cli, rank
+from comparisons.commands import run as command
+from comparisons.common.errors import InputError
+
+def run(name):
+    if rank.from_first(lambda: rank.from_first(lambda: MPI.COMM_WORLD.rank)) != 0:
+        raise AssertionError("each has found its own")
+    if MPI.COMM_WORLD.rank == int(sys.argv[1]):
+        raise InputError("one line")
+    MPI.COMM_WORLD.barrier()
+
+rank.PATIENCE = 0.1
+command._run = lambda *arguments: run("scene")
+sys.exit(cli.main(["run", "smooth"]))
+"""
+
+
+@pytest.mark.parametrize("process", [0, 1])
+def test_an_error_of_one_process_is_heard_and_ends_the_others(launch, process):
+    end = launch(2, "-c", ALONE, process)
+    assert (end.returncode, end.stdout) == (2, "")
+    assert own_words(end.stderr) == ["crosscheck: one line"]

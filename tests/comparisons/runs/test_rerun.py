@@ -1,0 +1,271 @@
+"""Recorded runs repeated from their record alone: the same figures, and what is found if not."""
+
+import io
+import json
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from comparisons.cli import main
+from comparisons.common.errors import InputError
+from comparisons.models.plan import MODELS
+from comparisons.results.record import versions
+from comparisons.runs.rerun import rerun
+from comparisons.runs.rerun_table import rerun_summary
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import load_scene, resolve_tables
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SMOOTH = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 3.55e6},
+    "stress": {"points": [60, 20]},
+}
+TRACED = """
+roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+profile = {file = "trace.csv", x_unit = "um", z_unit = "um", form = "line", cutoff = "auto"}
+load = {per_length = "0.5 N/um"}
+resolution = {levels = 2}
+"""
+
+
+def recorded(folder, tables=SMOOTH, models=("half_plane",)):
+    run(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"), folder, models)
+    return folder
+
+
+def contents(folder):
+    return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def change(path, alter):
+    """Alter the content of a JSON file in place."""
+    content = json.loads(path.read_text())
+    alter(content)
+    path.write_text(json.dumps(content))
+
+
+@pytest.fixture(scope="module")
+def both(tmp_path_factory):
+    """The folder of a run of both models."""
+    return recorded(tmp_path_factory.mktemp("both") / "out", models=MODELS)
+
+
+@pytest.fixture(scope="module")
+def half_plane(tmp_path_factory):
+    return recorded(tmp_path_factory.mktemp("half") / "out")
+
+
+@pytest.fixture
+def own(half_plane, tmp_path):
+    """A copy to spoil."""
+    return shutil.copytree(half_plane, tmp_path / "own")
+
+
+@pytest.fixture(scope="module")
+def figures(both):
+    return json.loads((both / "result.json").read_text())
+
+
+def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures, monkeypatch):
+    """The effects on as many levels as recorded: where time ends those of a run, it does not end
+    those of its repetition."""
+    monkeypatch.setattr("comparisons.assessment.effects.budget._settled", lambda *_: False)
+    assert figures["budget"]["levels"] == 2
+    before = contents(both)
+    repetition = rerun(both)
+    assert repetition.levels[1] > 2
+    assert repetition.outcome.result["budget"]["levels"] == 2
+    assert repetition.movement.moved == ()
+    assert repetition.movement.rounding == repetition.movement.new == 0
+    assert repetition.movement.same > 150
+    assert repetition.bits and repetition.other == {}
+    assert repetition.exit_status == 0
+    assert contents(both) == before
+
+
+def test_out_keeps_the_repetition(half_plane, tmp_path):
+    again = tmp_path / "again"
+    rerun(half_plane, again)
+    assert set(contents(again)) == set(contents(half_plane))
+    assert json.loads((again / "record.json").read_text())["levels"] == 3
+
+
+def test_scratch_does_not_stay(half_plane, tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    rerun(half_plane)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("out", [".", "deeper/again"])
+def test_the_recorded_folder_is_not_written_to(half_plane, out):
+    with pytest.raises(InputError, match=r"--out: .* is in the recorded folder"):
+        rerun(half_plane, half_plane / out)
+
+
+def test_a_tampered_figure_is_found(own, capsys):
+    def alter(result):
+        result["models"]["half_plane"][0]["contact"]["peak_pressure"] *= 1.0 + 1e-3
+
+    change(own / "result.json", alter)
+    assert main(["rerun", str(own)]) == 1
+    printed = capsys.readouterr().out
+    rows = [line for line in printed.splitlines() if line.startswith("models.")]
+    assert len(rows) == 1
+    assert rows[0].startswith("models.half_plane[0].contact.peak_pressure")
+    assert "-9.99e-04" in rows[0]
+    assert "MOVED  1 figure moved by more than the stated uncertainty" in printed
+
+
+def test_within_its_uncertainty_it_is_shown_and_no_finding(own, capsys):
+    def alter(result):
+        result["models"]["half_plane"][0]["contact"]["peak_pressure"] *= 1.0 + 1e-5
+
+    change(own / "result.json", alter)
+    assert main(["rerun", str(own)]) == 0
+    printed = capsys.readouterr().out
+    assert "-1.00e-05" in printed and "3.49e-05" in printed
+    assert "1 figure moved, within the stated uncertainty" in printed
+
+
+def test_other_versions_are_named(own):
+    change(own / "record.json", lambda record: record["versions"].update(numpy="0.1"))
+    repetition = rerun(own)
+    assert repetition.other == {"numpy": ("0.1", versions()["numpy"])}
+    console = Console(width=120, file=io.StringIO(), record=True)
+    console.print(rerun_summary(repetition))
+    assert f"Other than recorded: numpy 0.1, now {versions()['numpy']}." in console.export_text()
+
+
+def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
+    """More than the scene begins with, and less than its open questions ask for."""
+    tables = SMOOTH | {
+        "tolerance": {"peak_pressure": 1e-9},
+        "budget": {"time": 1e-6},
+        "resolution": {"levels": 2, "pitch": 1e-4},
+    }
+    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+    folder = tmp_path / "out"
+    run(scene, folder, ("half_plane",))
+    record = json.loads((folder / "record.json").read_text())
+    assert record["levels"] == 1
+    assert rerun(folder).levels == (1, 1)
+    open_ended = tables | {"budget": {"time": 300.0}, "tolerance": {"peak_pressure": 2e-3}}
+    folder = recorded(tmp_path / "more", open_ended)
+    change(folder / "record.json", lambda record: record["scene"]["budget"].update(time=1e-6))
+    repetition = rerun(folder)
+    assert repetition.levels == (5, 5)
+    assert [row.path for row in repetition.movement.moved] == ["scene.budget.time"]
+
+
+class TestTrace:
+    @pytest.fixture
+    def folder(self, tmp_path):
+        x = np.linspace(0.0, 2400.0, 481)
+        height = 0.2 * np.cos(x / 32.0) + 0.1 * np.sin(x / 53.0) + 1e-3 * x + 3.0
+        np.savetxt(tmp_path / "trace.csv", np.column_stack([x, height]), delimiter=",")
+        (tmp_path / "scene.toml").write_text(TRACED)
+        run(load_scene(tmp_path / "scene.toml"), tmp_path / "out", ("half_plane",))
+        return tmp_path
+
+    @pytest.mark.parametrize("fate", ["gone", "changed"])
+    def test_its_file_is_not_needed(self, folder, fate):
+        trace = folder / "trace.csv"
+        trace.unlink() if fate == "gone" else trace.write_text("0,0\n1,1\n")
+        shutil.move(folder / "out", folder / "elsewhere")
+        repetition = rerun(folder / "elsewhere")
+        assert repetition.movement.moved == () and repetition.movement.rounding == 0
+        info = repetition.outcome.problem.scene.profile_info
+        assert info.form.slope == pytest.approx(1e-3, rel=0.2)
+        assert info.cutoff is not None and info.standard is not None
+
+    def test_a_sample_that_changed_in_the_record_is_refused(self, folder, capsys):
+        def alter(record):
+            record["profile"]["trace"]["height"][7] += 1e-9
+
+        change(folder / "out" / "record.json", alter)
+        assert main(["rerun", str(folder / "out")]) == 2
+        assert "profile.trace: has another SHA-256 than recorded" in capsys.readouterr().err
+
+
+def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
+    """Not made again: the generator of another numpy may give another one from the seed."""
+    tables = {name: SMOOTH[name] for name in ("roller", "body")} | {
+        "profile": {"kind": "self-affine", "hurst": 0.8, "rms_slope": 0.02, "samples": 1024}
+        | {"length": 2e-3, "seed": 3},
+        "load": {"per_length": 2e5},
+        "resolution": {"levels": 2},
+    }
+    folder = recorded(tmp_path / "out", tables)
+
+    def other(**parameters):
+        raise AssertionError("made again")
+
+    monkeypatch.setattr("comparisons.scenes.profile._MAKERS", {"self-affine": other})
+    assert rerun(folder).movement.moved == ()
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "words"),
+    [
+        ("record.json", None, "holds no record.json"),
+        ("result.json", None, "holds no result.json"),
+        ("record.json", "", "record.json: is not JSON"),
+        ("record.json", "{" * 100_000, "record.json: is not JSON"),
+        ("record.json", b"\xff\xfe", "record.json: is not JSON"),
+        ("record.json", "[]", "record.json: is no table"),
+        ("record.json", "{}", "record.json: schema: is missing; allowed is a whole number"),
+        ("record.json", '{"schema": "2"}', "record.json: schema: is str"),
+        ("record.json", '{"schema": 1}', "schema: is 1, which lacks .* run the scene again"),
+        ("record.json", '{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
+        ("record.json", '{"schema": 2}', "record.json: models: is missing"),
+        ("result.json", '{"schema": 1}', "result.json: figures are missing"),
+        ("result.json", '{"schema": 1, "models": {"half_plane": 3}, "scene": 4}', "result.json: "),
+    ],
+)
+def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, words):
+    path = own / file
+    if text is None:
+        path.unlink()
+    else:
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    before = contents(own)
+    assert main(["rerun", str(own)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1
+    assert len(err) < 400
+
+    assert re.search(words, err), err
+    assert contents(own) == before
+
+
+@pytest.mark.parametrize(
+    ("alter", "words"),
+    [
+        (lambda r: r.update(models=[]), r"models: is \[\]; allowed are half_plane"),
+        (lambda r: r.update(models=["fem"]), "models: is "),
+        (lambda r: r.update(levels=0), "levels: is 0; allowed is 1 or more"),
+        (lambda r: r.update(levels=True), "levels: is bool"),
+        (lambda r: r["scene"].pop("roller"), "record.json: roller: is missing"),
+        (lambda r: r["scene"]["load"].update(per_length=-1.0), "load.per_length: "),
+        (lambda r: r["scene"].update(profile={"kind": "sinusoid"}), "profile: is missing"),
+        (lambda r: r.pop("versions"), "versions: is missing; allowed is a table"),
+    ],
+)
+def test_a_record_that_cannot_be_is_refused(own, alter, words):
+    change(own / "record.json", alter)
+    with pytest.raises(InputError, match=words):
+        rerun(own)
+
+
+def test_no_such_folder(tmp_path, capsys):
+    assert main(["rerun", str(tmp_path / "none")]) == 2
+    assert "none: is no folder; allowed is the folder of a finished run" in capsys.readouterr().err

@@ -1,0 +1,271 @@
+"""Whole runs of both models: files, figures against exact values, repetition, pruning, refusals."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.finite_element import level as finite_element
+from comparisons.models.level_cache import Checkpoint
+from comparisons.models.plan import MODELS, make_plan, unpruned
+from comparisons.models.problem import problem_of
+from comparisons.runs.run import run, solve
+from comparisons.scenes.resolve import load_scene, resolve_tables
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SMOOTH = {
+    "title": "smooth",
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 3.55e6},
+    "stress": {"points": [120, 40]},
+    "budget": {"effects": False},
+}
+
+
+def scene_of(tables, name="scene", folder=Path(".")):
+    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
+
+
+def changed(tables, **sections):
+    """The tables with some sections' fields replaced."""
+    return {
+        **tables,
+        **{name: {**tables.get(name, {}), **fields} for name, fields in sections.items()},
+    }
+
+
+@pytest.fixture(scope="module")
+def smooth(tmp_path_factory):
+    return run(scene_of(SMOOTH), tmp_path_factory.mktemp("smooth") / "out", MODELS)
+
+
+def figures(outcome) -> dict:
+    """result.json without what may differ from run to run."""
+    result = json.loads(json.dumps(outcome.result))
+    for entries in result["models"].values():
+        for entry in entries:
+            del entry["cost"]["seconds"], entry["cost"]["peak_memory"]
+            for level in entry["cost"]["levels"]:
+                del level["seconds"]
+    if result["budget"]:
+        del result["budget"]["cost"]
+    return result
+
+
+class TestSmooth:
+    def test_agrees_but_is_not_judged_without_what_it_lacks(self, smooth):
+        assert smooth.exit_status == ExitStatus.DONE
+        assert {row.verdict for row in smooth.comparisons if row.tolerance} == {"agree"}
+        assert smooth.result["half_space"]["verdict"] == "undecided"
+        assert smooth.result["refinement"] == "every judged quantity is resolved"
+
+    @pytest.mark.parametrize(
+        ("model", "peak", "half_width", "tau1", "depth"),
+        [
+            ("half_plane", 1e-4, 1e-3, 1e-4, 1e-3),
+            ("finite_element", 1e-3, 2e-3, 1e-2, 1e-2),
+        ],
+    )
+    def test_meets_hertz(self, smooth, model, peak, half_width, tau1, depth):
+        hertz = smooth.problem.hertz
+        entry = smooth.result["models"][model][0]
+        contact, stress = entry["contact"], entry["stress"]
+        assert contact["peak_pressure"] == pytest.approx(hertz.peak_pressure, rel=peak)
+        assert contact["contact_length"] == pytest.approx(2 * hertz.half_width, rel=half_width)
+        assert contact["contact_ratio"] == pytest.approx(1.0, rel=half_width)
+        assert stress["tau1_max"] == pytest.approx(hertz.tau1_max, rel=tau1)
+        assert stress["tau1_max_at"][1] == pytest.approx(hertz.tau1_max_depth, rel=depth)
+        assert stress["txz_max_abs"] == pytest.approx(0.25 * hertz.peak_pressure, rel=tau1)
+
+    def test_stated_uncertainty_covers_the_error(self, smooth):
+        hertz = smooth.problem.hertz
+        exact = {
+            "peak_pressure": hertz.peak_pressure,
+            "contact_length": 2.0 * hertz.half_width,
+            "tau1_max": hertz.tau1_max,
+            "tau1_max_depth": hertz.tau1_max_depth,
+            "txz_max_abs": 0.25 * hertz.peak_pressure,
+        }
+        for model in MODELS:
+            entry = smooth.result["models"][model][0]
+            found = {
+                **{k: entry["contact"][k] for k in ("peak_pressure", "contact_length")},
+                "tau1_max": entry["stress"]["tau1_max"],
+                "tau1_max_depth": entry["stress"]["tau1_max_at"][1],
+                "txz_max_abs": entry["stress"]["txz_max_abs"],
+            }
+            for name, value in exact.items():
+                error = abs(found[name] / value - 1.0)
+                assert error <= 1.2 * entry["uncertainty"][name]["total"] + 1e-6, (model, name)
+
+    def test_checks_and_iterations(self, smooth):
+        for model in MODELS:
+            entry = smooth.result["models"][model][0]
+            assert entry["checks"]["converged"]
+            for name in ("load_balance", "complementarity", "penetration", "negative_pressure"):
+                assert entry["checks"][name] <= 1e-8
+        steps = [
+            level.solution.iterations["applications"]
+            for level in smooth.runs["finite_element"].levels
+        ]
+        assert all(3 <= count <= 8 for count in steps)
+
+    def test_files(self, smooth):
+        out = smooth.directory
+        assert json.loads((out / "result.json").read_text()) == smooth.result
+        record = json.loads((out / "record.json").read_text())
+        assert record["versions"]["fenics-dolfinx"]
+        assert "<html" in (out / "report.html").read_text()
+        for model in MODELS:
+            table = np.genfromtxt(out / model / "contact.csv", delimiter=",", names=True)
+            assert len(table.dtype.names) == 4
+            load = np.sum(table[table.dtype.names[1]]) * np.diff(table[table.dtype.names[0]])[0]
+            assert load == pytest.approx(3.55e6, rel=1e-9)
+        assert not (out / "half_plane" / "mesh.msh").exists()
+
+    @pytest.mark.parametrize("model", MODELS)
+    def test_stress_files_open_in_meshio_and_pyvista_with_equal_values(self, smooth, model):
+        import meshio
+        import pyvista
+
+        path = smooth.directory / model / "stress.vtu"
+        by_meshio, by_pyvista = meshio.read(path), pyvista.read(path)
+        names = {"sx", "sz", "sy", "txz", "tau1", "von_mises"}
+        assert set(by_meshio.point_data) == names == set(by_pyvista.point_data.keys())
+        for name in names:
+            assert np.array_equal(by_meshio.point_data[name], by_pyvista.point_data[name])
+        assert np.array_equal(by_meshio.points, by_pyvista.points)
+        assert not by_meshio.points[:, 1].any() and by_meshio.points[:, 2].min() >= 0.0
+        surface = by_meshio.points[:, 2] == 0.0
+        pressure = smooth.problem.hertz.pressure(by_meshio.points[surface, 0])
+        assert by_meshio.point_data["sz"][surface] == pytest.approx(
+            -pressure, abs=0.05 * pressure.max()
+        )
+
+    def test_mesh_file_opens_in_meshio(self, smooth):
+        import meshio
+
+        mesh = meshio.read(smooth.directory / "finite_element" / "mesh.msh", file_format="gmsh")
+        assert len(mesh.points) == len(smooth.runs["finite_element"].finest.mesh.points)
+
+    def test_the_same_scene_gives_the_same_figures(self, smooth, tmp_path):
+        again = run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+        assert figures(again) == figures(smooth)
+        assert again.record["hashes"] == smooth.record["hashes"]
+
+    def test_leaving_steps_out_changes_no_figure(self, smooth, tmp_path):
+        """The roller on a factorisation of its own, though the body's would do."""
+        whole = solve(smooth.problem, unpruned(smooth.plan), tmp_path / "out")
+        one, other = figures(smooth)["models"], figures(whole)["models"]
+        assert whole.runs["finite_element"].finest.unknowns == 2 * (
+            smooth.runs["finite_element"].finest.unknowns
+        )
+        for model in MODELS:
+            for part in ("contact", "stress"):
+                for name, value in one[model][0][part].items():
+                    if name != "approach_why" and value is not None:
+                        assert np.array(other[model][0][part][name]) == pytest.approx(
+                            np.array(value), rel=1e-7, abs=1e-12
+                        )
+
+
+def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
+    """The other model's presence changes nothing, and what one does not need is never loaded."""
+    path = tmp_path / "scene.toml"
+    path.write_text(
+        'roller = {radius = "7.5706 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'load = {per_length = "3.55 N/um"}\n'
+        "stress = {points = [120, 40]}\n"
+    )
+    code = (
+        "import sys; from comparisons.cli import main; "
+        f"status = main(['run', {str(path)!r}, '--out', {str(tmp_path / 'out')!r}, "
+        "'--models', 'half-plane']); "
+        "heavy = {'dolfinx', 'petsc4py', 'gmsh', 'pyvista'} & set(sys.modules); "
+        "sys.exit(f'loaded {heavy}' if heavy else status)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    result = json.loads((tmp_path / "out" / "result.json").read_text())
+    assert set(result["models"]) == {"half_plane"} and result["comparison"] == {}
+    alone, beside = result["models"]["half_plane"][0], smooth.result["models"]["half_plane"][0]
+    for part in ("contact", "stress", "uncertainty"):
+        assert alone[part] == beside[part]
+    assert {"step": "finite_element model", "because": "not asked for"} in result["skipped"]
+    assert not (tmp_path / "out" / "finite_element").exists()
+
+
+class TestSliding:
+    def test_friction_changes_stresses_and_not_the_contact(self, tmp_path, smooth):
+        outcome = run(
+            scene_of(changed(SMOOTH, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS
+        )
+        for model in MODELS:
+            still, sliding = outcome.result["models"][model]
+            assert still["contact"] == sliding["contact"]
+            peak = outcome.problem.hertz.peak_pressure
+            assert sliding["stress"]["tau1_max"] / peak == pytest.approx(0.304827336, rel=0.01)
+            assert sliding["stress"]["txz_max_abs"] / peak == pytest.approx(0.280567188, rel=0.01)
+        # what the still run alone finds, the run with both finds too
+        assert (
+            outcome.result["models"]["half_plane"][0]["stress"]
+            == smooth.result["models"]["half_plane"][0]["stress"]
+        )
+
+
+def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smooth, monkeypatch):
+    """Stopped in the second of its finite-element levels; the figures are those of one go."""
+    calls = []
+    original = finite_element.finite_element_level
+
+    def counted(problem, plan, refinement, *rest, **named):
+        calls.append(refinement)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return original(problem, plan, refinement, *rest, **named)
+
+    monkeypatch.setattr(finite_element, "finite_element_level", counted)
+    with pytest.raises(KeyboardInterrupt, match="goes on"):
+        run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+    assert [p.name for p in tmp_path.iterdir()] == [".out.unfinished"]
+    outcome = run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+    assert len(calls) == 3 + 2
+    assert figures(outcome) == figures(smooth)
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
+    plan, scene = smooth.plan, smooth.problem.scene
+    kept = Checkpoint(tmp_path / "out", scene, plan)
+    level = smooth.runs["finite_element"].levels[0]
+    kept.save("level", level)
+    again = kept.load("level")
+    assert np.array_equal(again.solution.pressure, level.solution.pressure)
+    assert again.solution.residuals == level.solution.residuals
+    assert np.array_equal(again.mesh.points, level.mesh.points)
+    assert again.stresses[0].extremes == level.stresses[0].extremes
+    other = scene_of(changed(SMOOTH, load={"per_length": 3.56e6}))
+    assert Checkpoint(tmp_path / "out", other, plan).load("level") is None
+    assert Checkpoint(tmp_path / "out", scene, unpruned(plan)).load("level") is None
+    path = tmp_path / ".out.unfinished" / "level.npz"
+    path.write_bytes(path.read_bytes()[:1000])
+    assert kept.load("level") is None
+    kept.discard()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_plan_says_what_it_leaves_out():
+    plan = make_plan(problem_of(load_scene("smooth")), MODELS)
+    steps = {s.step for s in plan.skipped}
+    assert {"refinement under asperities", "hardness cap"} <= steps
+    sliding = make_plan(problem_of(load_scene("ground-unrun")), MODELS)
+    assert sliding.tangential and not plan.tangential
+    assert "refinement under asperities" not in {s.step for s in sliding.skipped}

@@ -1,0 +1,83 @@
+"""A body that yields, through a scene: what flow does to the contact and what it leaves behind."""
+
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from comparisons.common.errors import SolverError
+from comparisons.common.exit_status import ExitStatus
+from comparisons.models.finite_element.cost import flow_increments
+from comparisons.models.plan import MODELS
+from comparisons.models.problem import problem_of
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import resolve_tables
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+YIELD_STRESS = 1e9
+TABLES = {
+    "roller": {"radius": 10e-3, "rigid": True},
+    "body": {**STEEL, "yield_stress": YIELD_STRESS, "hardening_modulus": 10e9, "hardness": 2e9},
+    "load": {"hertz_peak_pressure": 2.4e9},
+    "stress": {"depth": 2.0, "points": [21, 11]},
+    "resolution": {"pitch": "40 um", "levels": 2},
+    "finite_element": {"plastic": True, "block": 40},
+    "budget": {"time": 1e-6},
+}
+
+
+def scene_of(**sections: dict):
+    tables = {**TABLES, **{name: {**TABLES[name], **f} for name, f in sections.items()}}
+    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+
+
+@pytest.fixture(scope="module")
+def outcome(tmp_path_factory):
+    return run(scene_of(), tmp_path_factory.mktemp("yielding") / "out", MODELS)
+
+
+@pytest.fixture(scope="module")
+def mesh(outcome):
+    return meshio.read(outcome.directory / "finite_element" / "stress.vtu")
+
+
+def test_flow_and_not_the_hardness_limits_the_pressure(outcome):
+    """The half-plane is capped at 2 GPa; the body flows from 1.79 Y on and bears more."""
+    half_plane, finite_element = (outcome.runs[name].finest.solution for name in MODELS)
+    assert half_plane.pressure.max() == pytest.approx(2e9)
+    assert 2.05e9 < finite_element.pressure.max() < 2.25e9
+    assert outcome.exit_status != ExitStatus.NOT_CONVERGED
+
+
+def test_equivalent_stress_stays_at_what_the_metal_bears(outcome, mesh):
+    strain = mesh.point_data["equivalent_plastic_strain"]
+    bears = YIELD_STRESS + 10e9 * strain
+    assert 1e-3 < strain.max() < 2e-2
+    # nodal means lie a little beside what holds at the points of the elements
+    assert (mesh.point_data["von_mises"] / bears).max() < 1.15
+    [stress] = outcome.result["models"]["finite_element"]
+    assert stress["stress"]["von_mises_max"] < 1.15 * bears.max()
+
+
+def test_what_is_left_is_small_and_not_nothing(mesh):
+    residual = mesh.point_data["residual_von_mises"]
+    assert 0.02 * YIELD_STRESS < residual.max() < YIELD_STRESS
+    surface = np.abs(mesh.points[:, 2]) < 1e-12
+    # the roller is gone: nothing presses on the surface
+    assert np.abs(mesh.point_data["residual_sz"][surface]).max() < 0.1 * YIELD_STRESS
+
+
+def test_steps_of_the_load_double_from_level_to_level():
+    problem = problem_of(scene_of())
+    steps = [flow_increments(problem, problem.reference_pitch * 2.0**k) for k in (3, 2, 1, 0, -1)]
+    assert steps == [4, 4, 8, 16, 32]
+
+
+def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path):
+    scene = scene_of(body={"yield_stress": 3e8, "hardening_modulus": 0.0})
+    with pytest.raises(SolverError, match=r"made\.toml: .*a lighter load, a higher body\.yield"):
+        run(scene, tmp_path / "out", ("finite_element",))
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,225 @@
+"""The [finite_element] switches: what follows from others, what they refuse, and what is said."""
+
+import copy
+from pathlib import Path
+
+import pytest
+
+from comparisons.common.errors import SceneError
+from comparisons.models.assumptions import assumptions_of
+from comparisons.models.problem import problem_of
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import Yielding
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+ELASTIC = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6, "friction": 0.2},
+}
+RIGID = {**ELASTIC, "roller": {"radius": 8e-3, "rigid": True}}
+
+
+def scene_of(tables: dict, finite_element: dict | None = None, **sections: dict):
+    tables = copy.deepcopy(tables)
+    for name, fields in {**sections, "finite_element": finite_element or {}}.items():
+        merged = {**tables.get(name, {}), **fields}
+        tables[name] = {key: value for key, value in merged.items() if value is not None}
+    return resolve_tables(tables, name="mine", folder=Path("."), source="mine.toml")
+
+
+@pytest.mark.parametrize(
+    ("given", "follows"),
+    [
+        ({}, {"gap": "reference", "block": 400.0}),
+        ({"far_field": "half-plane"}, {"block": 20.0}),
+        ({"far_field": "half-plane", "block": 40}, {"block": 40.0}),
+    ],
+)
+def test_what_follows_from_other_fields(given, follows):
+    settings = scene_of(ELASTIC, given).finite_element
+    assert {name: getattr(settings, name) for name in follows} == follows
+
+
+@pytest.mark.parametrize(
+    ("ratio", "given", "element"),
+    [
+        (0.49, {}, "P2"),
+        (0.4901, {}, "P3"),
+        (0.4999, {"element": "P2"}, "P2"),
+        (0.4999, {"deformation": "finite", "coupled": True}, "P2"),
+    ],
+)
+def test_elements_are_cubic_near_incompressibility(ratio, given, element):
+    tables = {**RIGID, "body": {**STEEL, "poissons_ratio": ratio}}
+    assert scene_of(tables, given).finite_element.element == element
+
+
+WAVE = {"kind": "sinusoid", "wavelength": 5e-5, "amplitude": 1e-7}
+
+
+def test_a_rough_boundary_is_met_where_it_has_come_to():
+    assert scene_of(ELASTIC, {"geometry": "rough"}, profile=WAVE).finite_element.gap == "displaced"
+    kept = scene_of(ELASTIC, {"geometry": "rough", "gap": "reference"}, profile=WAVE)
+    assert kept.finite_element.gap == "reference"
+
+
+def test_a_body_that_yields():
+    steel = {"yield_stress": "2.5 GPa", "hardening_modulus": "1 GPa"}
+    scene = scene_of(RIGID, {"plastic": True, "coupled": True}, body=steel)
+    assert scene.yielding == Yielding(2.5e9, 1e9)
+
+
+@pytest.mark.parametrize("load", [False, True])
+@pytest.mark.parametrize("own", [None, False, True])
+def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
+    given = {} if own is None else {"coupled": own}
+    scene = scene_of(RIGID, given, load={"coupled": load})
+    assert scene.coupled == load
+    assert scene.finite_element.coupled == (load if own is None else own)
+
+
+@pytest.mark.parametrize(
+    ("tables", "given", "sections", "complaint"),
+    [
+        (RIGID, {"roller_body": "disc"}, {}, 'roller_body: is "disc", but the roller is rigid'),
+        (
+            ELASTIC,
+            {"far_field": "half-plane"},
+            {"body": {"thickness": 1e-3}},
+            'far_field: is "half-plane", but the body has a thickness',
+        ),
+        (
+            ELASTIC,
+            {"far_field": "half-plane"},
+            {"coating": {"thickness": 1e-5, **STEEL}},
+            'far_field: is "half-plane", but the body has a coating',
+        ),
+        (ELASTIC, {"plastic": True}, {}, "plastic: is true, but the body has no yield stress"),
+        (
+            RIGID,
+            {"plastic": True, "deformation": "finite"},
+            {"body": {"yield_stress": 1e9}},
+            'plastic: is true beside deformation = "finite"',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True, "element": "P3"},
+            {"body": {"yield_stress": 1e9}},
+            'element: is "P3" with plastic; allowed there is "P2"',
+        ),
+        (RIGID, {"deformation": "finite", "element": "P1"}, {}, 'element: is "P1" with'),
+        (
+            ELASTIC,
+            {"deformation": "finite"},
+            {},
+            'deformation: is "finite" with an elastic roller; allowed with roller.rigid = true',
+        ),
+        (
+            RIGID,
+            {"deformation": "finite"},
+            {"coating": {"thickness": 1e-5, **STEEL}},
+            'deformation: is "finite" for a coated body',
+        ),
+        (
+            RIGID,
+            {"deformation": "finite"},
+            {"profile": WAVE},
+            'geometry: is "flat" at finite deformation',
+        ),
+        (RIGID, {"deformation": "finite"}, {}, "coupled: is false at finite deformation"),
+        (ELASTIC, {"geometry": "rough"}, {}, 'geometry: is "rough" for a smooth body'),
+        (ELASTIC, {}, {"body": {"yield_stress": 1e9}}, "plastic: is false, but the body has a"),
+        (
+            RIGID,
+            {"deformation": "finite", "far_field": "half-plane"},
+            {},
+            'far_field: is "half-plane" for a body that is not linear',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True, "far_field": "half-plane"},
+            {"body": {"yield_stress": 1e9}},
+            'far_field: is "half-plane" for a body that is not linear',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True},
+            {"body": {"yield_stress": 1e9}, "load": {"friction": [0.0, 0.1]}},
+            "plastic: wants one friction coefficient, not 2",
+        ),
+        (
+            RIGID,
+            {"deformation": "finite"},
+            {"body": {"hardness": 1e9}},
+            'deformation: is "finite" for a body with a hardness',
+        ),
+        (
+            ELASTIC,
+            {"plastic": True},
+            {"body": {"yield_stress": 1e9}},
+            "coupled: is false for a body that yields",
+        ),
+        (
+            ELASTIC,
+            {"coupled": True},
+            {"load": {"friction": [0.1, 0.2]}},
+            "coupled: is true with 2 friction coefficients",
+        ),
+    ],
+)
+def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, complaint):
+    with pytest.raises(SceneError) as refused:
+        scene_of(tables, given, **sections)
+    message = str(refused.value)
+    assert message.startswith("mine.toml: finite_element.") and message.count("\n") == 0
+    assert complaint in message and "allowed" in message
+
+
+@pytest.mark.parametrize(
+    ("sections", "complaint"),
+    [
+        ({"body": {"hardening_modulus": 1e9}}, "body.hardening_modulus: is given for a body that"),
+        (
+            {
+                "body": {"thickness": 1e-3},
+                "load": {"per_length": None, "approach": 1e-6, "friction": 0.0},
+            },
+            "load.approach: has no meaning for an elastic roller",
+        ),
+        (
+            {"body": {"thickness": 1e-5}, "coating": {"thickness": 1e-5, **STEEL}},
+            "coating.thickness: is 1e-05 m on a body of 1e-05 m",
+        ),
+        ({"coating": {"thickness": 0.0, **STEEL}}, "coating.thickness: is 0"),
+    ],
+)
+def test_bodies_that_cannot_be(sections, complaint):
+    with pytest.raises(SceneError, match=complaint):
+        scene_of(ELASTIC, **sections)
+
+
+@pytest.mark.parametrize(
+    ("given", "said", "unsaid"),
+    [
+        ({}, "the gap is taken at the undeformed place", "finite elements:"),
+        ({"gap": "displaced"}, "the displaced one, and the pressure acts along the roller's", None),
+        ({"roller_shape": "circle"}, "finite elements: it is a circle", "disc"),
+        ({"roller_body": "disc"}, "finite elements: it is an elastic body of a disc's", None),
+        ({"coupled": True}, "finite elements: the sliding traction moves the surfaces", None),
+    ],
+)
+def test_assumptions_say_what_is_dropped(given, said, unsaid):
+    tables = {**ELASTIC, "body": {**STEEL, "poissons_ratio": 0.2}}
+    spoken = "\n".join(assumptions_of(problem_of(scene_of(tables, given))))
+    assert said in spoken
+    assert unsaid is None or unsaid not in spoken
+
+
+@pytest.mark.parametrize(("thickness", "exact"), [(None, True), (1e-3, False)])
+def test_friction_is_without_effect_on_half_planes_alone(thickness, exact):
+    """Of like bodies: a layer's surface is moved by it."""
+    body = STEEL if thickness is None else {**STEEL, "thickness": thickness}
+    tables = {**ELASTIC, "body": body, "load": {**ELASTIC["load"], "friction": 0.1}}
+    [spoken] = [s for s in assumptions_of(problem_of(scene_of(tables))) if "traction" in s]
+    assert ("Dundurs" in spoken) is exact

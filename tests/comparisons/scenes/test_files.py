@@ -1,0 +1,77 @@
+"""Finding scenes and reading them as TOML."""
+
+import os
+
+import pytest
+
+from comparisons.common.errors import SceneError
+from comparisons.scenes.files import SCENES, find_scene, read_toml, scene_names, scene_titles
+
+PROMISED = {
+    "smooth",
+    "smooth-sliding",
+    "ground-unrun",
+    "ground-run-in",
+    "ground-polished",
+    "self-affine",
+    "sinusoid",
+}
+
+
+def test_the_scenes_that_come_along():
+    assert set(scene_names()) >= PROMISED
+    assert scene_names() == sorted(scene_names())
+    titles = scene_titles()
+    assert list(titles) == scene_names()
+    assert len(set(titles.values())) == len(titles)
+
+
+@pytest.mark.parametrize("name", sorted(PROMISED))
+def test_a_name_finds_its_file(name):
+    assert find_scene(name) == SCENES / f"{name}.toml"
+
+
+def test_a_path_is_taken_as_it_is(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text("a = 1")
+    (tmp_path / "no_ending").write_text("a = 1")
+    assert os.fspath(find_scene("mine.toml")) == "mine.toml"
+    assert find_scene(tmp_path / "mine.toml") == tmp_path / "mine.toml"
+    assert os.fspath(find_scene("no_ending")) == "no_ending"
+
+
+def test_a_name_wins_over_a_file_called_the_same(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "smooth").write_text("a = 1")
+    assert find_scene("smooth") == SCENES / "smooth.toml"
+    assert find_scene("./smooth").samefile(tmp_path / "smooth")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "nearest"),
+    [("smoth", "smooth"), ("selfaffine", "self-affine"), ("ground_run_in", "ground-run-in")],
+)
+def test_an_unknown_name_is_answered_with_the_nearest(wrong, nearest):
+    with pytest.raises(SceneError, match=f"the nearest scene is {nearest}, all are") as caught:
+        find_scene(wrong)
+    assert all(name in str(caught.value) for name in PROMISED)
+
+
+def test_byte_order_mark_and_windows_lines(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_bytes("\ufefftitle = 'a'\r\n[load]\r\nfriction = 0.1\r\n".encode())
+    assert read_toml(path) == {"title": "a", "load": {"friction": 0.1}}
+
+
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    with pytest.raises(SceneError, match="is not a regular file"):
+        read_toml(tmp_path / "pipe.toml")
+
+
+def test_errors_keep_their_cause(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("a = = 1")
+    with pytest.raises(SceneError, match="line 1, column 5") as caught:
+        read_toml(path)
+    assert type(caught.value.__cause__).__name__ == "TOMLDecodeError"

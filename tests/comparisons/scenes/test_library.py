@@ -1,0 +1,220 @@
+"""The scenes that come with the project, and measured traces, through both models."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.grid import HatGrid
+from comparisons.assessment.comparison import figures
+from comparisons.assessment.uncertainty import grid_convergence
+from comparisons.common.exit_status import ExitStatus
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.bodies import BodyStore, bodies_of
+from comparisons.models.finite_element.contact import mutual_compliance
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.problem import problem_of
+from comparisons.runs.run import run
+from comparisons.scenes.files import scene_names
+from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import ResolvedScene
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
+
+
+@pytest.mark.parametrize(
+    ("name", "ratio", "peak"),
+    [
+        ("ground-unrun", 0.69, 2.72),
+        ("ground-run-in", 0.87, 1.66),
+        ("ground-polished", 0.987, 1.39),
+    ],
+)
+def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
+    """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
+    problem = problem_of(load_scene(name))
+    plan = make_plan(problem, ("half_plane",))
+    found = []
+    for refinement in range(5):
+        pitch = problem.pitches[0] / 2.0**refinement
+        found.append(figures(half_plane_level(problem, plan, pitch, None, Stages()), problem, 0.0))
+    ratios = grid_convergence([f["contact_ratio"] for f in found], 2.0)
+    peaks = grid_convergence([f["peak_pressure"] for f in found], 2.0)
+    assert ratios.uncertainty < 2e-3 and peaks.uncertainty < 2e-3 * peaks.value
+    assert ratios.limit == pytest.approx(ratio, abs=0.015)
+    assert peaks.limit / problem.hertz.peak_pressure == pytest.approx(peak, rel=0.02)
+
+
+def quick(name: str, effects: bool) -> ResolvedScene:
+    """A scene that comes along, with fewer points of the fields, which are not looked at here, and
+    no more levels of models and effects than it takes to tell."""
+    scene = load_scene(name)
+    return replace(
+        scene,
+        resolution=replace(scene.resolution, most=4),
+        stress=replace(scene.stress, points=(150, 60)),
+        budget=replace(scene.budget, effects=effects, levels=2),
+    )
+
+
+@pytest.fixture(scope="module")
+def unrun():
+    return run(quick("ground-unrun", effects=False), None, MODELS)
+
+
+class TestGroundUnrun:
+    def test_models_agree_but_share_what_a_flat_linear_body_lacks(self, unrun):
+        """At a/R = 0.07 and pressures of 0.05 E the agreement alone proves the numerics."""
+        assert unrun.exit_status == ExitStatus.DONE
+        half_space = unrun.result["half_space"]
+        assert half_space["verdict"] == "undecided"
+        for effect in ("displaced gap", "real boundary", "finite strain"):
+            assert effect in half_space["why"]
+        assert unrun.result["refinement"] == "every judged quantity is resolved"
+        assert len(unrun.runs["finite_element"].levels) == 4
+        assert all(row.verdict == "agree" for row in unrun.comparisons if row.tolerance)
+
+    def test_pressures_agree_on_the_same_hats(self, unrun):
+        pairs = zip(*(unrun.runs[name].levels for name in MODELS), strict=True)
+        differences = [
+            np.linalg.norm(one.solution.pressure - other.solution.pressure)
+            / np.linalg.norm(other.solution.pressure)
+            for one, other in pairs
+        ]
+        assert differences[-1] < 3e-3
+        assert differences[0] > differences[1] > differences[2]
+
+    def test_back_substitutions(self, unrun):
+        for level in unrun.runs["finite_element"].levels:
+            assert level.solution.converged
+            assert 3 <= level.solution.iterations["applications"] <= 8
+
+    def test_asperities_carry_at_least_twice_the_smooth_shear_near_the_surface(self, unrun):
+        """What Bailey and Sayles found on unrun ground surfaces, by both models."""
+        hertz = unrun.problem.hertz
+        for entries in unrun.result["models"].values():
+            stress = entries[0]["stress"]
+            assert stress["tau1_max"] > 2.0 * hertz.tau1_max
+            assert stress["tau1_max_at"][1] < 0.05 * hertz.half_width
+
+    def test_below_half_a_the_field_is_that_of_smooth_bodies(self, unrun):
+        from analytic.exact.hertz import hertz_stress
+
+        deep = unrun.window.z > 0.5 * unrun.problem.hertz.half_width
+        x, z = np.meshgrid(unrun.window.x, unrun.window.z[deep])
+        smooth = hertz_stress(unrun.problem.hertz, x, z).tau1
+        for model in unrun.runs.values():
+            rough = model.finest.stresses[0].field.tau1[deep]
+            assert np.linalg.norm(rough - smooth) / np.linalg.norm(smooth) < 0.05
+
+
+def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
+    """Our iteration on the compliance, and PETSc's variational inequality on the whole system."""
+    from analytic.contact.defect_correction import solve_with_model
+    from analytic.contact.patches import contact_patches
+    from analytic.operators.half_plane import HalfPlane
+    from fem.contact.variational_inequality import solve_variational_inequality
+
+    problem = problem_of(load_scene("sinusoid"))
+    plan = make_plan(problem, MODELS)
+    grid: HatGrid = problem.grid(problem.pitches[0])
+    average = grid.average(problem.gap, problem.knots)
+    refinement = Refinement(grid.pitch)
+    level = half_plane_level(problem, plan, grid.pitch, None, Stages())
+    patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
+    assert len(patches) >= 5
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyStore())
+    operator = mutual_compliance(problem, bodies, grid)
+    one = solve_with_model(
+        operator,
+        HalfPlane(grid.count, grid.pitch, problem.modulus),
+        average,
+        grid.weights,
+        problem.constraints(),
+        tolerance=1e-10,
+    )
+    # two equal blocks: the same body twice in one system
+    [part] = operator.parts
+    assert part.factor == 2.0
+    other = solve_variational_inequality(
+        [(bodies.rough, part.compliance.normal), (bodies.rough, part.compliance.normal)],
+        average,
+        grid.weights,
+        problem.hertz.load_per_length,
+    )
+    assert other.reason > 0
+    assert other.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
+    assert grid.weights @ other.pressure == pytest.approx(one.load, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["self-affine", "sinusoid", "smooth-sliding"])
+def test_other_scenes_agree(name, tmp_path):
+    outcome = run(quick(name, effects=False), tmp_path / "out", MODELS)
+    assert outcome.exit_status == ExitStatus.DONE
+    assert "agree" in {row.verdict for row in outcome.comparisons if row.tolerance}
+    assert "<html" in (tmp_path / "out" / "report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "verdict", "peak", "length"),
+    [
+        # what a thin incompressible layer, and a coating, do is none of the half-plane's
+        ("layer", "fails", -0.58, 1.08),
+        ("coated", "fails", -5.3e-3, 1.4e-2),
+        ("finite-strain", "holds", -5.2e-3, 5.5e-3),
+    ],
+)
+def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
+    outcome = run(quick(name, effects=True), None, MODELS)
+    assert outcome.result["half_space"]["verdict"] == verdict
+    found = {row.quantity: row.difference for row in outcome.comparisons}
+    assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)
+    assert found["contact_length"] == pytest.approx(length, rel=0.1)
+
+
+def test_every_scene_is_named_here():
+    assert set(scene_names()) == {
+        "coated",
+        "finite-strain",
+        "layer",
+        "yielding",
+        "ground-polished",
+        "ground-run-in",
+        "ground-running-in",
+        "ground-unrun",
+        "self-affine",
+        "sinusoid",
+        "smooth",
+        "smooth-sliding",
+    }
+
+
+@pytest.mark.parametrize(
+    ("trace", "load"),
+    [
+        ("real_stylus_mitutoyo", "3.55 N/um"),
+        ("real_confocal_lay_row", "0.5 N/um"),
+        ("real_stylus_dektak", "0.5 N/um"),
+    ],
+)
+def test_measured_traces_from_a_scene_of_five_lines(trace, load, tmp_path):
+    path = MEASURED / f"{trace}.csv"
+    if not path.exists():
+        pytest.skip(f"{path.name} is not there: measured by others, it does not come along")
+    scene = tmp_path / "trace.toml"
+    scene.write_text(
+        'roller = {radius = "7.5706 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        'body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}\n'
+        f'profile = {{file = "{path}", x_unit = "um", z_unit = "um"}}\n'
+        f'load = {{per_length = "{load}"}}\n'
+        "tolerance = {peak_pressure = 0.05, contact_length = 0.05}\n"
+        "budget = {effects = false}\n"
+    )
+    outcome = run(load_scene(scene), tmp_path / "out", MODELS)
+    assert outcome.exit_status == ExitStatus.DONE
+    assert {row.verdict for row in outcome.comparisons if row.tolerance} == {"agree"}

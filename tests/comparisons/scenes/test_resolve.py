@@ -1,0 +1,313 @@
+"""Scenes as resolved: one meaning in any units, defaults, and tables that give the scene again."""
+
+import copy
+import datetime
+import json
+from decimal import Decimal
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from analytic.material import Material
+from comparisons.common.errors import SceneError
+from comparisons.common.quantities import QUANTITIES
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.scenes.scene import (
+    Budget,
+    Coated,
+    Extent,
+    FiniteElementSettings,
+    Load,
+    Resolution,
+    RunningIn,
+)
+from comparisons.scenes.schema.scene import SECTIONS, ToleranceTable
+
+STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
+BARE = {
+    "roller": {"radius": "8.2 mm", **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": "3.85 N/um"},
+}
+FULL = {
+    "title": "All of it",
+    "roller": {"radius": "8.2 mm", **STEEL},
+    "body": {
+        **STEEL,
+        "hardness": "7 GPa",
+        "thickness": "5 mm",
+        "width": "40 mm",
+        "base": "bonded",
+    },
+    "coating": {"thickness": "2 um", "youngs_modulus": "400 GPa", "poissons_ratio": 0.2},
+    "profile": {
+        "kind": "self-affine",
+        "hurst": 0.8,
+        "rms_height": "0.4 um",
+        "samples": 513,
+        "length": "2 mm",
+        "seed": 7,
+        "shortest_wavelength": "40 um",
+        "longest_wavelength": "1 mm",
+    },
+    "load": {"hertz_peak_pressure": "2 GPa", "friction": [0, 0.1], "position": "0.1 mm"},
+    "running_in": {
+        "hardness": "6 GPa",
+        "load": "3 N/um",
+        "positions": ["-0.2 mm", 3e-4],
+        "sweeps": 3,
+    },
+    "stress": {"depth": "512.3456789 um", "half_range": 1.5, "points": [30, 20]},
+    "tolerance": {"peak_pressure": 0.01, "tau1_field_deep": "5 %"},
+    "finite_element": {
+        "geometry": "rough",
+        "gap": "reference",
+        "roller_shape": "circle",
+        "roller_body": "disc",
+        "element": "P3",
+        "block": 200,
+        "growth": 0.1,
+    },
+    "resolution": {"pitch": "1 um", "levels": 4},
+    "budget": {"time": "10 min", "memory": "2 GiB"},
+}
+
+
+def resolved(tables: dict, folder: Path = Path(".")):
+    return resolve_tables(tables, name="mine", folder=folder, source="mine.toml")
+
+
+def changed(tables: dict, section: str, **fields) -> dict:
+    """The tables with fields of one section replaced, None taking one away."""
+    new = copy.deepcopy(tables)
+    table = {**new.get(section, {}), **fields}
+    new[section] = {name: value for name, value in table.items() if value is not None}
+    return new
+
+
+def test_a_bare_scene_has_the_defaults():
+    scene = resolved(BARE)
+    assert (scene.name, scene.title) == ("mine", "mine")
+    assert scene.roller == scene.body == Material(207e9, 0.3)
+    assert scene.roller_radius == 0.0082
+    assert scene.load == Load("load_per_length", 3.85e6)
+    assert scene.friction == (0.0,)
+    assert (scene.profile, scene.profile_info, scene.stress) == (None, None, None)
+    assert (scene.hardness, scene.thickness, scene.width, scene.base) == (None,) * 4
+    assert scene.tolerance == {"peak_pressure": 0.02, "contact_length": 0.02, "tau1_max": 0.02}
+    assert scene.finite_element == FiniteElementSettings(
+        geometry="flat",
+        gap="reference",
+        roller_shape="parabola",
+        roller_body="half-plane",
+        coupled=False,
+        deformation="linear",
+        plastic=False,
+        element="P2",
+        far_field="held",
+        block=400.0,
+        growth=0.2,
+    )
+    assert (scene.yielding, scene.coating) == (None, None)
+    assert scene.resolution == Resolution(None, 3)
+    assert scene.budget == Budget(300.0, 8e9)
+
+
+def test_everything_that_can_be_said():
+    scene = resolved(FULL)
+    assert scene.title == "All of it"
+    assert (scene.hardness, scene.thickness, scene.width) == (7e9, 0.005, 0.04)
+    assert scene.load == Load("hertz_peak_pressure", 2e9)
+    assert scene.friction == (0.0, 0.1)
+    assert scene.position == 1e-4
+    assert scene.running_in == RunningIn(6e9, 3e6, (-2e-4, 3e-4), 3)
+    assert scene.stress.depth == Extent(512.3456789e-6, in_half_widths=False)
+    assert scene.stress.half_range == Extent(1.5, in_half_widths=True)
+    assert scene.stress.points == (30, 20)
+    assert scene.tolerance == {
+        "peak_pressure": 0.01,
+        "contact_length": 0.02,
+        "tau1_max": 0.02,
+        "tau1_field_deep": 0.05,
+    }
+    assert scene.coating == Coated(Material(400e9, 0.2), 2e-6)
+    assert scene.finite_element == FiniteElementSettings(
+        geometry="rough",
+        gap="reference",
+        roller_shape="circle",
+        roller_body="disc",
+        coupled=False,
+        deformation="linear",
+        plastic=False,
+        element="P3",
+        far_field="held",
+        block=200.0,
+        growth=0.1,
+    )
+    assert scene.resolution == Resolution(1e-6, 4)
+    assert scene.budget == Budget(600.0, 2.0**31)
+
+
+def test_every_compared_quantity_can_be_judged():
+    assert set(ToleranceTable.model_fields) == set(QUANTITIES)
+
+
+def test_extent_in_metres():
+    assert Extent(1.5, in_half_widths=True).metres(2e-4) == pytest.approx(3e-4, rel=1e-15)
+    assert Extent(1.5, in_half_widths=False).metres(2e-4) == 1.5
+
+
+def test_a_rigid_roller_has_no_material():
+    scene = resolved({**BARE, "roller": {"radius": "8.2 mm", "rigid": True}})
+    assert scene.roller is None
+
+
+def test_a_layer_is_bonded_unless_it_says_otherwise():
+    layer = resolved(changed(BARE, "body", thickness="5 mm"))
+    assert layer.base == layer.as_dict()["body"]["base"] == "bonded"
+    loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
+    assert resolved(loose).base == "frictionless"
+
+
+def test_a_layer_may_be_given_an_approach():
+    layer = changed(BARE, "body", thickness="5 mm")
+    layer["roller"] = {"radius": "8.2 mm", "rigid": True}
+    scene = resolved(changed(layer, "load", per_length=None, approach="2 um"))
+    assert scene.load == Load("approach", 2e-6)
+
+
+def test_a_loose_base_carries_friction_where_the_body_has_no_end():
+    loose = changed(BARE, "body", thickness="5 mm", base="frictionless")
+    assert resolved(changed(loose, "load", friction=0.1)).friction == (0.1,)
+    ended = changed(loose, "body", width="40 mm")
+    assert resolved(changed(ended, "load", friction=0)).friction == (0.0,)
+    with pytest.raises(SceneError, match=r"load\.friction: is 0\.1 on a body of finite width"):
+        resolved(changed(ended, "load", friction=[0, 0.1]))
+
+
+IN_SI = {
+    ("roller", "radius"): (Decimal("0.0082"), {"m": 0, "mm": -3, "um": -6, "cm": -2, "nm": -9}),
+    ("roller", "youngs_modulus"): (
+        Decimal("207e9"),
+        {"Pa": 0, "GPa": 9, "N/mm^2": 6, "kN/mm^2": 9, "N/um**2": 12},
+    ),
+    ("body", "hardness"): (Decimal("7e9"), {"GPa": 9, "MPa": 6, "bar": 5, "N/m^2": 0}),
+    ("load", "hertz_peak_pressure"): (Decimal("2e9"), {"GPa": 9, "kPa": 3, "hPa": 2}),
+    ("load", "position"): (Decimal("1e-4"), {"mm": -3, "micron": -6, "m": 0, "km": 3}),
+    ("profile", "length"): (Decimal("0.002"), {"mm": -3, "um": -6, "dm": -1}),
+    ("profile", "rms_height"): (Decimal("4e-7"), {"um": -6, "nm": -9, "angstrom": -10}),
+    ("stress", "depth"): (Decimal("512.3456789e-6"), {"um": -6, "mm": -3, "m": 0}),
+    ("resolution", "pitch"): (Decimal("1e-6"), {"um": -6, "nm": -9}),
+    ("budget", "memory"): (Decimal(2**31), {"byte": 0, "kB": 3, "GB": 9}),
+}
+CHOICES = st.fixed_dictionaries(
+    {field: st.sampled_from(sorted(units)) for field, (_, units) in IN_SI.items()}
+)
+
+
+IN_NUMBERS = resolved(FULL)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(CHOICES)
+def test_units_do_not_matter(units):
+    """Not even in the last bit: quantities are converted as decimals."""
+    tables = copy.deepcopy(FULL)
+    for (section, name), (value, powers) in IN_SI.items():
+        unit = units[section, name]
+        tables[section][name] = f"{value.scaleb(-powers[unit])} {unit}"
+    scene = resolved(tables)
+    assert scene == IN_NUMBERS
+    assert np.array_equal(scene.profile.height, IN_NUMBERS.profile.height)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(st.floats(1e-12, 1e3), st.sampled_from(["mm", "um", "km", "inch", "thou", "ft"]))
+def test_any_length_in_any_unit(value, unit):
+    in_metres = {"mm": 1e-3, "um": 1e-6, "km": 1e3, "inch": 0.0254, "thou": 2.54e-5, "ft": 0.3048}
+    scene = resolved(changed(BARE, "roller", radius=f"{value!r} {unit}"))
+    assert scene.roller_radius == pytest.approx(value * in_metres[unit], rel=1e-15, abs=0.0)
+
+
+def test_a_number_is_si_and_equals_its_string():
+    in_numbers = {
+        "roller": {"radius": 0.0082, "youngs_modulus": 207e9, "poissons_ratio": 0.3},
+        "body": {"youngs_modulus": 207000000000, "poissons_ratio": 0.3},
+        "load": {"per_length": 3.85e6},
+    }
+    assert resolved(in_numbers) == resolved(BARE)
+
+
+@pytest.mark.parametrize("tables", [BARE, FULL], ids=["bare", "full"])
+def test_written_out_tables_give_the_scene_again(tables):
+    scene = resolved(tables)
+    again = resolved(json.loads(json.dumps(scene.tables)))
+    assert again == scene
+    assert again.tables == scene.tables
+
+
+def test_tolerances_of_stresses_are_written_out_with_stress_alone():
+    tolerances = resolved(BARE).tables["tolerance"]
+    assert tolerances == {"peak_pressure": 0.02, "contact_length": 0.02}
+    with_stress = resolved({**BARE, "stress": {}}).tables["tolerance"]
+    assert with_stress == {**tolerances, "tau1_max": 0.02}
+    with pytest.raises(SceneError, match=r"tolerance\.tau1_max: needs a \[stress\] section"):
+        resolved({**BARE, "tolerance": {"tau1_max": 0.02}})
+
+
+def test_as_dict_is_a_copy():
+    scene = resolved(BARE)
+    scene.as_dict()["load"]["friction"].append(0.5)
+    assert scene.as_dict()["load"]["friction"] == [0.0]
+
+
+TOML_VALUES = st.recursive(
+    st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text(max_size=20)
+    | st.sampled_from(["8.2 mm", "2 GPa", "3 N/um", "1 s", "1 GB", "bonded", "line", "sinusoid"])
+    | st.dates()
+    | st.just(datetime.time(1, 2)),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=8), inner),
+    max_leaves=5,
+)
+PLACES = [(section, name) for section, table in SECTIONS.items() for name in table.model_fields]
+
+
+@settings(max_examples=400, deadline=None, derandomize=True)
+@given(st.sampled_from([*PLACES, *((s, None) for s in [*SECTIONS, "title"])]), TOML_VALUES)
+def test_any_value_is_taken_or_refused_in_one_line(place, value):
+    section, name = place
+    tables = copy.deepcopy(FULL)
+    if name is None:
+        tables[section] = value
+    else:
+        tables[section][name] = value
+    try:
+        resolved(tables)
+    except SceneError as error:
+        line = str(error)
+        assert line.startswith(f"mine.toml: {section}") or section == "profile"
+        assert "allowed" in line or "must" in line or "nearest" in line or " is " in line
+        assert "\n" not in line and "pydantic" not in line and "Value error" not in line
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(st.sampled_from([None, *SECTIONS]), st.text(min_size=1, max_size=30))
+def test_any_unknown_name_is_answered_with_a_known_one(section, name):
+    known = {"title", *SECTIONS, *(field for _, field in PLACES)}
+    tables = copy.deepcopy(FULL)
+    place = tables if section is None else tables.setdefault(section, {})
+    if name in known:
+        return
+    place[name] = 1
+    with pytest.raises(SceneError, match="is no known field; the nearest is ") as caught:
+        resolved(tables)
+    nearest = str(caught.value).rsplit(" ", 1)[1]
+    assert (
+        nearest == "title" or nearest.strip("[]") in SECTIONS or tuple(nearest.split(".")) in PLACES
+    )

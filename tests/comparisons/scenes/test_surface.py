@@ -1,0 +1,290 @@
+"""Surfaces of scenes: lines of maps, cut-offs, turned profiles, and what is said of them."""
+
+import copy
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from analytic.surface.filters import filtered
+from analytic.surface.roughness import roughness
+from analytic.surface.roughness_standard import standard_roughness
+from analytic.surface.turned import turned, turned_height
+from comparisons.common.errors import SceneError
+from comparisons.report.tables.problem import filter_text, problem_sheet
+from comparisons.report.terminal import summary, surface_text
+from comparisons.scenes.resolve import resolve_tables
+
+STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
+BARE = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 1e6},
+}
+ROUGH = {"kind": "self-affine", "hurst": 0.8, "rms_height": 3e-6, "samples": 2001, "length": 4e-3}
+TURNED = {"kind": "turned", "feed": "0.1 mm", "nose_radius": "0.8 mm", "length": "4 mm"}
+HEIGHTS = np.random.default_rng(2).standard_normal((6, 41))  # nm, columns 1 um and rows 2 um apart
+
+
+def with_profile(folder: Path = Path("."), **profile):
+    tables = copy.deepcopy(BARE)
+    tables["profile"] = profile
+    return resolve_tables(tables, name="mine", folder=folder, source="mine.toml")
+
+
+@pytest.fixture
+def mapped(tmp_path):
+    """A folder with a map: `map.sdf`."""
+    header = (
+        f"aISO-1.0\nNumPoints = {HEIGHTS.shape[1]}\nNumProfiles = {HEIGHTS.shape[0]}\n"
+        "Xscale = 1e-6\nYscale = 2e-6\nZscale = 1e-9\nDataType = 7\n*\n"
+    )
+    rows = "\n".join(" ".join(map(repr, row)) for row in HEIGHTS.tolist())
+    (tmp_path / "map.sdf").write_text(f"{header}{rows}\n*\n")
+    return tmp_path
+
+
+def complaint(*folder, **profile) -> str:
+    with pytest.raises(SceneError) as caught:
+        with_profile(*folder, **profile)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+class TestMaps:
+    def test_a_row(self, mapped):
+        scene = with_profile(mapped, file="map.sdf", row=3, form="none")
+        wanted = 1e-9 * HEIGHTS[3]
+        found = scene.profile.height
+        np.testing.assert_allclose(found - found[0], wanted - wanted[0], rtol=0.0, atol=1e-20)
+        assert scene.profile_info.place == "row 3 of 6 rows and 41 columns, 4e-05 m by 1e-05 m"
+        assert scene.profile_info.format == "SDF (ISO 25178-71)"
+
+    def test_a_line_between_two_points(self, mapped):
+        line = [["0 um", "4 um"], ["40 um", "4 um"]]
+        along = with_profile(mapped, file="map.sdf", line=line)
+        row = with_profile(mapped, file="map.sdf", row=2)
+        np.testing.assert_allclose(along.profile.height, row.profile.height, rtol=0.0, atol=1e-20)
+
+    def test_the_choice_survives_a_record(self, mapped):
+        line = [["0 um", "1 um"], ["40 um", "9 um"]]
+        scene = with_profile(mapped, file="map.sdf", line=line)
+        tables = json.loads(json.dumps(scene.tables))
+        assert tables == scene.tables
+        again = resolve_tables(tables, name="mine", folder=mapped, source="mine.toml")
+        assert again == scene
+        assert np.array_equal(again.profile.height, scene.profile.height)
+
+    @pytest.mark.parametrize(
+        ("given", "words"),
+        [
+            ({}, "is a map of 6 rows and 41 columns, 4e-05 m by 1e-05 m, and a profile is one li"),
+            ({"row": 6}, "has no row 6 (a map of 6 rows and 41 columns"),
+            ({"line": [[0, 0], ["50 um", 0]]}, "line leaves the map"),
+            ({"row": 1, "z_unit": "um"}, "counts in units of 1 m and not of 1e-06 m, as z_unit"),
+            ({"row": 1, "spacing": "1 um"}, "gives its own size"),
+        ],
+    )
+    def test_choices_that_the_file_does_not_allow(self, mapped, given, words):
+        message = complaint(mapped, file="map.sdf", **given)
+        assert message.startswith(f"mine.toml: profile.file: {mapped / 'map.sdf'}: {words}")
+
+    def test_a_line_scan_has_no_rows(self, tmp_path):
+        (tmp_path / "trace.csv").write_text("0,1\n1,2\n2,0\n3,1\n4,1\n")
+        message = complaint(tmp_path, file="trace.csv", x_unit="um", z_unit="um", row=0)
+        assert message.endswith("is a line scan, which has no rows; allowed is to leave out row")
+
+    def test_what_text_does_not_say_is_asked_for(self, tmp_path):
+        (tmp_path / "trace.csv").write_text("0,1\n1,2\n2,0\n3,1\n4,1\n")
+        assert complaint(tmp_path, file="trace.csv", x_unit="um") == (
+            'mine.toml: profile.z_unit: is missing; allowed is a unit of length as a string, such '
+            'as "um" (trace.csv is text, which names no unit)'
+        )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"row": 1, "column": 2}, "profile.column: is given beside row; allowed is exactly one of"),
+        ({"row": -1}, "profile.row: is -1; allowed is a whole number from 0"),
+        ({"row": 1.0}, "profile.row: is 1.0; allowed is a whole number"),
+        ({"line": 3}, "profile.line: holds 3; allowed is two points, such as"),
+        ({"line": [[0, 0]]}, "profile.line: holds a list of 1; allowed is two points"),
+        ({"line": [[0, 0, 0], [1, 1]]}, "profile.line: holds a list of 3; allowed is two points"),
+        ({"line": [[0, "a"], [1, 1]]}, 'profile.line: holds a place that is "a", which is not a'),
+        ({"line": [[0, 0], [-1, 1]]}, "profile.line: holds a place that is -1; allowed is two"),
+        ({"line": [[1, 1], [1, 1]]}, "profile.line: starts where it ends; allowed is two points"),
+        ({"cutoff": "0.8"}, 'profile.cutoff: is "0.8", which has no unit; allowed is a length abo'),
+        ({"cutoff": "automatic"}, 'profile.cutoff: is "automatic", which is not a number and'),
+        ({"cutoff": 0}, "profile.cutoff: is 0; allowed is a length above 0"),
+        ({"short_cutoff": "auto"}, 'profile.short_cutoff: is "auto", which is not a number'),
+    ],
+)
+def test_fields_that_make_no_sense(given, message):
+    assert complaint(file="map.sdf", **given).startswith(f"mine.toml: {message}")
+
+
+class TestFilter:
+    def test_a_cutoff_takes_the_long_waves_off(self):
+        plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
+        wanted = filtered(plain.profile, 0.8e-3)
+        assert np.array_equal(found.profile.height, wanted.height)
+        assert found.profile_info.cutoff == 0.8e-3
+        assert found.profile_info.roughness.rq < 0.6 * plain.profile_info.roughness.rq
+        assert found.profile_info.roughness == roughness(wanted)
+
+    def test_both_cutoffs(self):
+        plain = with_profile(**ROUGH)
+        found = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um")
+        wanted = filtered(plain.profile, 0.8e-3, 25e-6)
+        assert np.array_equal(found.profile.height, wanted.height)
+        slope = found.profile_info.roughness.rms_slope
+        assert slope < 0.7 * plain.profile_info.roughness.rms_slope
+        assert found.profile_info.standard == standard_roughness(plain.profile, 0.8e-3, 25e-6)
+
+    def test_an_automatic_cutoff_is_written_out(self):
+        found = with_profile(**ROUGH, cutoff="auto")
+        assert found.tables["profile"]["cutoff"] == found.profile_info.cutoff == 0.8e-3
+        assert found == with_profile(**ROUGH, cutoff="0.8 mm")
+
+    def test_the_standards_figures_do_not_hang_on_what_is_pressed(self):
+        plain, found = with_profile(**ROUGH), with_profile(**ROUGH, cutoff="0.8 mm")
+        assert plain.profile_info.cutoff is None
+        assert plain.profile_info.standard == found.profile_info.standard
+        assert plain.profile_info.standard.cutoff == 0.8e-3
+        assert plain.profile_info.standard.short_cutoff is None  # samples 2 um apart
+
+    def test_a_trace_too_short_for_the_standard_says_so(self):
+        info = with_profile(**ROUGH | {"length": 1e-3}).profile_info
+        assert info.standard is None
+        assert info.standard_why == (
+            "the trace of 0.001 m is too short for the standard's cut-off of 0.0008 m, which its "
+            "roughness asks for"
+        )
+        assert complaint(**ROUGH | {"length": 1e-3}, cutoff="auto").startswith(
+            "mine.toml: profile.cutoff: the trace of 0.001 m is too short for the standard's cut"
+        )
+
+    @pytest.mark.parametrize(
+        ("given", "message"),
+        [
+            (
+                {"cutoff": "3 mm"},
+                "cutoff: a cut-off of 0.003 m does not suit the trace; allowed is",
+            ),
+            ({"cutoff": "1 um"}, "cutoff: a cut-off of 1e-06 m does not suit the trace"),
+            ({"short_cutoff": "1 um"}, "short_cutoff: a cut-off of 1e-06 m does not suit"),
+            (
+                {"cutoff": "0.1 mm", "short_cutoff": "0.2 mm"},
+                "cutoff: the short cut-off of 0.0002 m must lie below the cut-off of 0.0001 m",
+            ),
+        ],
+    )
+    def test_cutoffs_that_do_not_suit(self, given, message):
+        assert complaint(**ROUGH, **given).startswith(f"mine.toml: profile.{message}")
+
+    def test_it_is_told(self):
+        info = with_profile(**ROUGH, cutoff="0.8 mm", short_cutoff="25 um").profile_info
+        words = "waves longer than 0.8 mm removed, waves shorter than 25 µm removed"
+        assert filter_text(info) == words
+        assert filter_text(with_profile(**ROUGH).profile_info) == "none"
+        ra = 1e9 * info.standard.ra
+        assert surface_text(info).endswith(f" as pressed, {ra:.3g} nm at the cut-off 0.8 mm")
+        short = with_profile(**ROUGH | {"length": 1e-3}).profile_info
+        assert surface_text(short).endswith(" as pressed")
+
+    def test_figures_for_json(self):
+        info = with_profile(**ROUGH, cutoff="0.8 mm").profile_info
+        found = json.loads(json.dumps(info.surface(), allow_nan=False))
+        assert found["pressed"]["ra"] == info.roughness.ra
+        assert found["standard"]["rz"] == info.standard.rz
+        assert (found["cutoff"], found["short_cutoff"], found["standard_why"]) == (8e-4, None, None)
+
+
+class TestTurned:
+    def test_it_is_what_the_tool_leaves(self):
+        scene = with_profile(**TURNED, phase=0.25)
+        wanted = turned(feed=1e-4, nose_radius=8e-4, length=4e-3, phase=0.25)
+        assert np.array_equal(scene.profile.height, wanted.height)
+        figures = scene.profile_info.roughness
+        assert figures.rt == pytest.approx(turned_height(1e-4, 8e-4, 8e-5), rel=1e-3)
+        assert scene.profile_info.standard.rsm == pytest.approx(1e-4, rel=1e-3)
+        assert scene.tables["profile"]["seed"] == 0
+
+    def test_noise_is_that_of_its_seed(self):
+        given = {**TURNED, "noise": "50 nm", "noise_wavelength": "10 um"}
+        one, same, other = (with_profile(**given, seed=seed) for seed in (1, 1, 2))
+        assert np.array_equal(one.profile.height, same.profile.height)
+        assert np.std(one.profile.height - other.profile.height) > 5e-8
+
+    @pytest.mark.parametrize(
+        ("given", "message"),
+        [
+            ({"feed": "1 mm"}, "profile: feed 0.001 m must be at most nose_radius, 0.0008 m"),
+            (
+                {"phase": 1},
+                "profile.phase: is 1; allowed is a number without unit at least 0 and b",
+            ),
+            ({"samples_per_feed": 16}, "profile: samples_per_feed must be at least 132"),
+            ({"noise_wavelength": "5 um"}, "profile: noise_wavelength is given without noise"),
+            (
+                {"hurst": 0.8},
+                'profile.hurst: does not belong to kind = "turned"; allowed there are',
+            ),
+            ({"length": None}, "profile.length: is missing; allowed is a length above 0"),
+        ],
+    )
+    def test_parameters_that_make_no_sense(self, given, message):
+        tables = {name: value for name, value in {**TURNED, **given}.items() if value is not None}
+        assert complaint(**tables).startswith(f"mine.toml: {message}")
+
+
+@pytest.fixture(scope="module")
+def outcome(finish):
+    tables = copy.deepcopy(BARE)
+    tables["load"] = {"hertz_peak_pressure": 1e9}
+    tables["profile"] = {**TURNED, "cutoff": "0.8 mm"}
+    return finish(tables, ("half_plane",))
+
+
+class TestResults:
+    def test_result_has_the_surface_as_pressed_and_by_the_standard(self, outcome):
+        found = outcome.result["profile"]
+        info = outcome.problem.scene.profile_info
+        assert found == info.surface()
+        assert found["pressed"]["rq"] == roughness(outcome.problem.scene.profile).rq
+        assert found["standard"]["cutoff"] == found["cutoff"] == 0.8e-3
+
+    def test_result_of_a_smooth_body_has_none(self, finish):
+        tables = {**copy.deepcopy(BARE), "load": {"hertz_peak_pressure": 1e9}}
+        smooth = finish(tables, ("half_plane",))
+        assert smooth.result["profile"] is None
+        assert "Roughness (ISO 21920-2)" not in dict(problem_sheet(smooth))
+        assert "surface " not in printed(smooth)
+
+    def test_sheet_has_one_short_table(self, outcome):
+        rows = dict(dict(problem_sheet(outcome))["Roughness (ISO 21920-2)"])
+        standard = outcome.problem.scene.profile_info.standard
+        assert rows["cut-offs λc, λs"] == "0.8 mm, 2.5 µm"
+        assert rows["section lengths"] == "4"
+        assert rows["Ra, Rq"].startswith(f"{1e9 * standard.ra:#.4g} nm, ")
+        assert rows["Rz, Rt"].startswith(f"{1e6 * standard.rz:#.4g} µm, ")
+        assert rows["Rdq, RSm"].endswith(", 100.0 µm")
+        assert len(rows) == 6
+        geometry = dict(dict(problem_sheet(outcome))["Geometry"])
+        assert geometry["filter"] == "waves longer than 0.8 mm removed"
+
+    def test_terminal_has_one_line(self, outcome):
+        lines = [line for line in printed(outcome).splitlines() if line.startswith("surface ")]
+        ra = outcome.problem.scene.profile_info.standard.ra
+        assert len(lines) == 1
+        assert lines[0].endswith(f" as pressed, {1e9 * ra:.3g} nm at the cut-off 0.8 mm")
+
+
+def printed(outcome) -> str:
+    stream = io.StringIO()
+    Console(file=stream, width=80).print(summary(outcome))
+    return stream.getvalue()

@@ -1,0 +1,65 @@
+"""Another tolerance for every judged figure: where it is taken, and where the ladder ends."""
+
+import sys
+import types
+from pathlib import Path
+
+import pytest
+
+from comparisons.cli import main
+from comparisons.common.exit_status import ExitStatus
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.tolerance import with_tolerance
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+SMOOTH = {
+    "title": "Smooth",
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 3.55e6},
+}
+
+
+def scene(tables, **sections):
+    tables = tables | {name: tables.get(name, {}) | more for name, more in sections.items()}
+    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+
+
+class TestTolerance:
+    def test_it_replaces_each_that_the_scene_has(self):
+        found = with_tolerance(load_scene("smooth"), 0.005)
+        assert found.tolerance == dict.fromkeys(
+            ("peak_pressure", "contact_length", "tau1_max"), 5e-3
+        )
+        assert found.tables["tolerance"] == found.tolerance
+
+    @pytest.mark.parametrize("wrong", ["0", "1", "-0.1", "nan"])
+    def test_not_every_number_is_one(self, wrong, capsys):
+        assert main(["run", "smooth", "--tolerance", wrong]) == 2
+        assert "--tolerance: is " in capsys.readouterr().err
+
+    def test_the_ladder_stops_where_it_is_met(self, tmp_path, monkeypatch):
+        monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")
+        coarse = scene(SMOOTH, resolution={"pitch": 1e-4})
+        levels = {}
+        for tolerance in (0.2, 2e-3):
+            given = with_tolerance(coarse, tolerance)
+            outcome = run(given, tmp_path / f"{tolerance}", ("half_plane",))
+            assert outcome.result["refinement"] == "every judged quantity is resolved"
+            levels[tolerance] = len(outcome.runs["half_plane"].levels)
+        assert levels[0.2] == 3 < levels[2e-3]
+
+    def test_the_command_hands_it_on(self, monkeypatch, tmp_path):
+        given = []
+
+        def stand_in(scene, out, models, *rest):
+            given.append(scene.tolerance)
+            raise KeyboardInterrupt
+
+        monkeypatch.setitem(
+            sys.modules, "comparisons.runs.run", types.SimpleNamespace(run=stand_in)
+        )
+        command = ["run", "smooth", "--json", "--out", str(tmp_path / "out")]
+        assert main([*command, "--tolerance", "0.01"]) == ExitStatus.INTERRUPTED
+        assert set(given[0].values()) == {0.01}

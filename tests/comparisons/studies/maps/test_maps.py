@@ -1,0 +1,202 @@
+"""Maps: groups take their values, the own error is the exact one, rules and pictures say so."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analytic.exact.layer_references import layer_references
+from analytic.exact.sliding import sliding_from_load
+from comparisons.common.errors import SceneError
+from comparisons.models.problem import problem_of
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.studies.maps.groups import GROUPS, Origin, tables_with
+from comparisons.studies.maps.model_error import OwnError
+from comparisons.studies.maps.point import FAILED, SOLVED, is_open, solve_point
+from comparisons.studies.maps.request import Asked
+
+HERE = Origin("made.toml", Path("."))
+RIGID = {
+    "roller": {"radius": 0.01, "rigid": True},
+    "body": {"youngs_modulus": 2e11, "poissons_ratio": 0.3},
+    "load": {"hertz_peak_pressure": 1e9},
+}
+ELASTIC = RIGID | {"roller": {"radius": 0.01, "youngs_modulus": 7e10, "poissons_ratio": 0.2}}
+WAVES = {
+    "sinusoid": {"kind": "sinusoid", "wavelength": 4e-5, "amplitude": 1e-7},
+    "self-affine": {
+        "kind": "self-affine",
+        "hurst": 0.8,
+        "samples": 512,
+        "length": 1e-3,
+        "rms_height": 2e-7,
+    },
+    "ground": {
+        "kind": "ground",
+        "rms_height": 2e-7,
+        "samples": 1024,
+        "length": 2e-3,
+        "shortest_wavelength": 2e-5,
+        "roll_off_wavelength": 2e-4,
+        "longest_wavelength": 2e-3,
+    },
+}
+
+
+def set_to(tables: dict, **values: float):
+    """The problem of a scene whose groups have these values."""
+    return problem_of(resolve_tables(tables_with(tables, values, HERE), name="m", **vars(HERE)))
+
+
+def solved(tables: dict) -> dict:
+    answer = solve_point(Asked(0.0, 0.0, "peak_pressure", tables, HERE.folder, "m", None, "key"))
+    assert answer["found"]["status"] == SOLVED, answer
+    return answer["found"]["quantities"]
+
+
+class TestGroups:
+    @pytest.mark.parametrize("name", ["a_over_thickness", "a_over_width"])
+    def test_sizes_of_the_body_follow_the_half_width_that_the_curvature_gives(self, name):
+        problem = set_to(RIGID, **{name: 0.25}, a_over_radius=0.02)
+        size = getattr(problem.scene, name.removeprefix("a_over_"))
+        assert problem.hertz.half_width == pytest.approx(0.02 * 0.01, rel=1e-12)
+        assert problem.hertz.half_width / size == pytest.approx(0.25, rel=1e-12)
+        settings = problem.scene.finite_element
+        assert (settings.deformation, settings.roller_shape) == ("finite", "circle")
+
+    def test_friction_moves_the_surfaces_of_the_finite_elements_alone(self):
+        problem = set_to(
+            ELASTIC | {"load": {"per_length": 1e5, "coupled": True}},
+            **{"friction_dundurs": 0.05, "a_over_thickness": 1.0},
+        )
+        assert problem.scene.friction[0] * abs(problem.dundurs_beta) == pytest.approx(0.05)
+        assert problem.scene.finite_element.coupled and not problem.scene.coupled
+        assert problem.hertz.load_per_length == pytest.approx(1e5)
+
+    def test_materials_take_their_constants(self):
+        scene = set_to(ELASTIC, poissons_ratio=0.42, modulus_ratio=3.0).scene
+        assert scene.body.poissons_ratio == 0.42
+        assert scene.roller.youngs_modulus == pytest.approx(3.0 * scene.body.youngs_modulus)
+        assert scene.roller.poissons_ratio == 0.2
+
+    def test_hardness_and_yield_stress_keep_their_ratio(self):
+        body = RIGID["body"] | {"hardness": 3e9, "yield_stress": 1e9}
+        tables = RIGID | {"body": body}
+        problem = set_to(tables, peak_pressure_over_hardness=0.8, poissons_ratio=0.2)
+        scene = problem.scene
+        assert problem.hertz.peak_pressure / scene.hardness == pytest.approx(0.8)
+        assert scene.hardness / scene.yielding.stress == pytest.approx(3.0)
+        assert scene.finite_element.plastic
+
+    @pytest.mark.parametrize("kind", WAVES)
+    def test_waves_take_length_and_slope(self, kind):
+        tables = RIGID | {"profile": WAVES[kind], "load": {"hertz_peak_pressure": 5e8}}
+        values = {"wavelength_over_a": 0.5, "a_over_radius": 0.004}
+        for slope in (None, 0.03):
+            asked = values | ({} if slope is None else {"rms_slope": slope})
+            problem = set_to(tables, **asked)
+            own = problem.scene.tables["profile"]
+            name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
+            length = own.get(name, 4.0 * own["length"] / (own.get("samples", 2) - 1))
+            assert length / problem.hertz.half_width == pytest.approx(0.5)
+            if slope is None:  # a likeness
+                plain = resolve_tables(tables, name="m", **vars(HERE))
+                slope = plain.profile_info.roughness.rms_slope
+            found = problem.scene.profile_info.roughness.rms_slope
+            assert found == pytest.approx(slope, rel=0.02 if kind == "sinusoid" else 1e-9)
+            assert problem.scene.finite_element.geometry == "rough"
+            assert problem.scene.finite_element.gap == "displaced"
+
+    def test_a_held_far_boundary_gives_way_to_the_bodys_own(self):
+        tables = RIGID | {"finite_element": {"far_field": "half-plane"}}
+        assert set_to(tables, a_over_thickness=1.0).scene.finite_element.far_field == "held"
+
+    @pytest.mark.parametrize(
+        ("tables", "group", "what"),
+        [
+            (RIGID, "rms_slope", "profile:"),
+            (RIGID, "modulus_ratio", "roller.rigid:"),
+            (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
+            (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
+            (
+                ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]},
+                "friction_dundurs",
+                "body:",
+            ),
+            (
+                {
+                    **RIGID,
+                    "body": {**RIGID["body"], "thickness": 1e-3},
+                    "load": {"approach": 1e-6},
+                },
+                "a_over_thickness",
+                "load.approach:",
+            ),
+        ],
+        ids=lambda value: value if isinstance(value, str) else "",
+    )
+    def test_what_a_scene_lacks_is_named(self, tables, group, what):
+        with pytest.raises(SceneError, match=what):
+            set_to(tables, **{group: 0.1})
+
+
+class TestOwnError:
+    LAYERS = tuple(
+        case
+        for case in layer_references()
+        if (case.half_width, case.poissons_ratio, case.base)
+        in (
+            (0.1, 0.3, "bonded"),
+            (0.25, 0.45, "bonded"),
+            (1.0, None, "frictionless"),
+            (4.0, 0.3, "bonded"),
+        )
+    )
+
+    @pytest.mark.parametrize("case", LAYERS, ids=lambda case: f"{case.base}-{case.half_width}")
+    def test_on_a_layer_is_the_exact_one(self, case):
+        """Hertz's figures under the load that gives an exact contact, over that contact's."""
+        smooth = 2.0 * np.sqrt(case.load / np.pi)  # a/t
+        nu = 0.3 if case.poissons_ratio is None else case.poissons_ratio
+        body = RIGID["body"] | {"poissons_ratio": nu, "thickness": 1.0, "base": case.base}
+        found = solved(tables_with(RIGID | {"body": body}, {"a_over_thickness": smooth}, HERE))
+        exact = {
+            "peak_pressure": 0.5 * smooth / case.peak_pressure - 1.0,
+            "contact_length": smooth / case.half_width - 1.0,
+        }
+        for name, most in (("peak_pressure", 2e-4), ("contact_length", 4e-3)):
+            own = found[name]
+            assert abs(own["difference"] - exact[name]) <= own["uncertainty"] <= most
+            assert abs(exact[name]) > own["uncertainty"]  # it is told
+
+    def test_of_friction_that_moves_the_surfaces_is_the_exact_one(self):
+        problem = set_to(RIGID, friction_dundurs=0.25)
+        moved = sliding_from_load(
+            problem.hertz.load_per_length,
+            0.01,
+            problem.modulus,
+            problem.scene.friction[0],
+            problem.dundurs_beta,
+        )
+        own = solved(problem.scene.tables)["peak_pressure"]
+        exact = problem.hertz.peak_pressure / moved.peak_pressure - 1.0
+        assert abs(own["difference"] - exact) <= own["uncertainty"] < 0.1 * abs(exact)
+
+    def test_levels_are_added_while_it_is_not_told(self):
+        def one(difference: float, uncertainty: float | None) -> OwnError:
+            return OwnError(1.0, 1.0, difference, uncertainty)
+
+        assert is_open(one(-0.3, 0.11)) and not is_open(one(-0.3, 0.09))
+        assert is_open(one(0.0, 0.004)) and not is_open(one(0.0, 0.003))
+        assert is_open(one(0.1, None))
+
+    def test_what_cannot_be_solved_is_an_answer(self):
+        tables = tables_with(RIGID, {"a_over_width": 1.0}, HERE)
+        answer = solve_point(Asked(1.0, 1.0, "peak_pressure", tables, HERE.folder, "m", None, "k"))
+        assert answer["found"]["status"] == FAILED
+        assert "reaches the end of the body" in answer["found"]["why"]
+
+
+def test_every_group_has_words_and_a_span():
+    for group in GROUPS.values():
+        assert group.symbol and group.label and group.span[0] < group.span[1]

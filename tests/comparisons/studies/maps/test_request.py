@@ -1,0 +1,78 @@
+"""Maps: what may be asked for, and by what a point is known."""
+
+import pytest
+
+from comparisons.common.errors import InputError, SceneError
+from comparisons.studies.maps.axes import axis_of, counts_of
+from comparisons.studies.maps.request import request_of
+
+
+class TestAsked:
+    def test_axes(self):
+        axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
+        assert (axis.group, axis.values, axis.logarithmic) == (
+            "a_over_thickness",
+            (0.1, 1.0, 10.0),
+            True,
+        )
+        assert str(axis) == "a_over_thickness=0.1:10"
+        axis = axis_of("poissons_ratio", 3, "--x")
+        assert (axis.values, axis.logarithmic) == ((0.0, 0.245, 0.49), False)
+        assert counts_of("3x12") == (3, 12)
+
+    @pytest.mark.parametrize(
+        ("given", "what"),
+        [
+            ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
+            ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
+            ("rms_slope=a:b", "--x: the range is a:b"),
+            ("rms_slope=0:1", "--x: rms_slope begins at 0"),
+            ("rms_slope=1", "--x: is 'rms_slope=1'"),
+        ],
+    )
+    def test_wrong_axes(self, given, what):
+        with pytest.raises(InputError, match=f"^{what}"):
+            axis_of(given, 3, "--x")
+
+    @pytest.mark.parametrize("given", ["3", "1x3", "3x201", "x", "3x-2"])
+    def test_wrong_points(self, given):
+        with pytest.raises(InputError, match=r"^--points: is"):
+            counts_of(given)
+
+    def test_usual_axes_are_what_the_scene_has(self):
+        assert [
+            axis.group
+            for axis in vars(request_of("sinusoid", "2x2")).values()
+            if hasattr(axis, "group")
+        ] == ["wavelength_over_a", "rms_slope"]
+
+    @pytest.mark.parametrize(
+        ("arguments", "what"),
+        [
+            ({"x": "a_over_width", "y": "a_over_width"}, "--y: is a_over_width, as --x"),
+            ({"quantity": "peak"}, "--quantity: there is no peak"),
+            ({"quantity": "tau1_max", "scene": "thickness-friction"}, "--quantity: tau1_max needs"),
+            ({"scene": "nothing"}, "nothing: is neither a file nor a scene"),
+        ],
+    )
+    def test_wrong_requests(self, arguments, what):
+        with pytest.raises(InputError, match=f"^{what}"):
+            request_of(**{"scene": "smooth", "points": "2x2"} | arguments)
+
+    def test_a_point_is_known_by_all_that_shapes_it(self):
+        def keys(*arguments: str) -> list[str]:
+            return [point.key for point in request_of(*arguments).points]
+
+        axes = ("2x2", "a_over_thickness=1:2", "friction_dundurs=0.1:0.2")
+        one = keys("thickness-friction", *axes)
+        assert len(set(one)) == 4
+        assert keys("thickness-friction", *axes) == one
+        wider = keys("thickness-friction", "3x2", "a_over_thickness=1:4", axes[2])
+        assert set(one) & set(wider) == {one[0], one[2], one[1], one[3]} & set(wider)
+        assert len(set(one) & set(wider)) == 4  # 1 and 2 are points of both
+        assert not set(one) & set(keys("thickness-friction", *axes, "contact_length"))
+        assert not set(one) & set(keys("curvature-thickness", *axes))
+
+    def test_a_map_without_any_point_is_refused(self):
+        with pytest.raises(SceneError, match="which takes finite deformation"):
+            _ = request_of("smooth", "2x2", "a_over_radius", "a_over_thickness").points
