@@ -22,10 +22,11 @@ from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import OWN_FILES
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
 from comparisons.report.figures.style import drawing

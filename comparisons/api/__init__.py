@@ -40,8 +40,8 @@ from typing import TYPE_CHECKING
 
 from comparisons.api.results import CostStudy, Figures, Map, Run
 from comparisons.common.errors import InputError
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Listener, silent
-from comparisons.models.plan import MODELS
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.scenes.resolve import load_scene, resolve_tables
 from comparisons.scenes.scene import ResolvedScene

@@ -11,7 +11,7 @@ from comparisons.common.errors import InputError
 from comparisons.report.plots import Plots
 from comparisons.results.flat_table import Row, rows_of
 from comparisons.results.outcome import Outcome
-from comparisons.studies.cost.cost import Cost
+from comparisons.studies.cost.result import Cost
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

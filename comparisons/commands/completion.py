@@ -34,9 +34,10 @@ def quantities(incomplete: str) -> list[str]:
 
 def models(incomplete: str) -> list[str]:
     """Models, and both of them."""
-    from comparisons.commands.run import MODELS
+    from comparisons.common.model_names import HYPHENATED
 
-    return _beginning([*MODELS, ",".join(MODELS)], incomplete)
+    names = HYPHENATED.values()
+    return _beginning([*names, ",".join(names)], incomplete)
 
 
 def _beginning(names: object, incomplete: str) -> list[str]:

@@ -12,11 +12,12 @@ from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, say, show, show_json
 from comparisons.common.errors import InputError, SceneError
+from comparisons.common.model_names import HYPHENATED
 from comparisons.common.mpi import from_first, is_first
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
-MODELS = {"half-plane": "half_plane", "finite-element": "finite_element"}
+NAMES = {words: model for model, words in HYPHENATED.items()}  # of models, as options have them
 
 
 def run(
@@ -29,7 +30,7 @@ def run(
         typer.Option(
             help="Models to solve with, separated by commas.", autocompletion=completion.models
         ),
-    ] = ",".join(MODELS),
+    ] = ",".join(NAMES),
     tolerance: Annotated[
         float | None,
         typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
@@ -108,15 +109,15 @@ def _print(directory: Path) -> None:
 
 
 def _models(given: str) -> tuple[str, ...]:
-    """The models' names in results, in the order of `MODELS`."""
+    """The models' names in results, in the order of `NAMES`."""
     named = [name.strip() for name in given.split(",") if name.strip()]
     for name in named:
-        if name not in MODELS:
-            near = difflib.get_close_matches(name, MODELS, n=1, cutoff=0.0)[0]
+        if name not in NAMES:
+            near = difflib.get_close_matches(name, NAMES, n=1, cutoff=0.0)[0]
             raise InputError(
                 f"--models: there is no model {name}; the nearest is {near}; "
-                f"allowed are {', '.join(MODELS)}"
+                f"allowed are {', '.join(NAMES)}"
             )
     if not named:
-        raise InputError(f"--models: is empty; allowed are {', '.join(MODELS)}")
-    return tuple(MODELS[name] for name in MODELS if name in named)
+        raise InputError(f"--models: is empty; allowed are {', '.join(NAMES)}")
+    return tuple(NAMES[name] for name in NAMES if name in named)

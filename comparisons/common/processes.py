@@ -5,20 +5,22 @@ large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is
 """
 
 import multiprocessing
+import os
 import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import contextmanager
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 from threading import Lock, Thread
 from typing import TypeVar
-
-from comparisons.studies.maps.executors import ONE_THREAD, begin, environment
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 Call = Callable[..., Result]  # call(work, *given): work(*given) there
 
+ONE_THREAD = {"OMP_NUM_THREADS": "1"}
 _starting = Lock()  # two that start at once would mistake each other's environment for their own
 
 
@@ -117,3 +119,50 @@ def _interrupts_later() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Executor]:
+    """A pool of fresh processes; what ends the block, or this process, ends them at once."""
+    context = multiprocessing.get_context("spawn")
+    alive, held = context.Pipe(duplex=False)
+    others = multiprocessing.active_children()
+    with environment(ONE_THREAD), alive, held:
+        pool = ProcessPoolExecutor(count, context, initializer=begin, initargs=(alive,))
+        try:
+            yield pool
+        except BaseException:
+            held.close()
+            for process in multiprocessing.active_children():
+                if process not in others:
+                    process.kill()  # within a long factorisation it hears of nothing else
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def begin(alive: Connection) -> None:
+    """Leave Ctrl-C to the process that started this one, and end with it or when it says so."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+
+    def watch() -> None:
+        wait([alive, parent.sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+@contextmanager
+def environment(wanted: dict[str, str]) -> Iterator[None]:
+    """Variables for processes that are started inside: numpy reads them as it is imported."""
+    before = {name: os.environ.get(name) for name in wanted}
+    os.environ.update(wanted)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

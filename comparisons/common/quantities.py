@@ -1,4 +1,4 @@
-"""The figures that are compared, by the names that result.json uses.
+"""The models and the figures that are compared: their names in result.json, and in words.
 
 Figures of one model are numbers per level; figures of a pair are relative L2 norms of the
 difference of two fields on the same points, with the finite elements as the reference.
@@ -75,6 +75,11 @@ QUANTITIES: dict[str, Quantity] = {
     ),
 }
 
+_SYMBOLS = {
+    "tau1_max": "largest principal shear stress τ₁",
+    "tau1_max_depth": "depth of the largest τ₁",
+    "txz_max_abs": "largest orthogonal shear stress |τxz|",
+}
 NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
 
 
@@ -93,3 +98,10 @@ def relative_l2(
 def layer_thickness(depths: np.ndarray) -> np.ndarray:
     """Thickness (m,) [m] that each of the ascending depths (m,) [m] stands for in an integral."""
     return np.gradient(depths) if len(depths) > 1 else np.ones(1)
+
+
+def label(quantity: str) -> str:
+    """A quantity of result.json in words; a name that is none stays as it is."""
+    if quantity not in QUANTITIES:
+        return quantity.replace("_", " ")
+    return _SYMBOLS.get(quantity, QUANTITIES[quantity].label.replace("tau1", "τ₁"))

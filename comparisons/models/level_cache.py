@@ -18,6 +18,7 @@ from analytic.stress_state import Extremum, PlaneStress
 from comparisons.common.cache import keep, kept
 from comparisons.common.files import unfinished
 from comparisons.common.mpi import from_first, is_first
+from comparisons.common.provenance import digest, versions
 from comparisons.models.finite_element.compliance_check import (
     Column,
     Differences,
@@ -26,7 +27,6 @@ from comparisons.models.finite_element.compliance_check import (
 )
 from comparisons.models.level import Level, MeshField, StressResult
 from comparisons.models.plan import Plan
-from comparisons.results.record import digest, versions
 from comparisons.scenes.scene import ResolvedScene
 from meshes.block import BlockMesh, BlockSpec
 

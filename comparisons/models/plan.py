@@ -6,12 +6,11 @@ leaves nothing out, for the test of that.
 
 from dataclasses import dataclass, replace
 
+from comparisons.common.model_names import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_difference import no_check
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
-
-MODELS = ("half_plane", "finite_element")
 
 
 @dataclass(frozen=True)

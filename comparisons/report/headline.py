@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from comparisons.assessment.verdict import Standing, half_space_verdict
+from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (
     given_percent,
     percent,
@@ -13,8 +14,7 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import LABELS, MODELS, label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.results.outcome import Outcome
 
 Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
@@ -117,7 +117,7 @@ def _one_model(outcome: Outcome) -> str:
     [(name, run)] = outcome.runs.items()
     peak, p0 = float(run.finest.solution.pressure.max()), outcome.problem.hertz.peak_pressure
     return (
-        f"Only the {MODELS[name]} model was run: peak pressure {with_unit(peak, 'Pa')}, "
+        f"Only the {HYPHENATED[name]} model was run: peak pressure {with_unit(peak, 'Pa')}, "
         f"{significant(peak / p0)} times Hertz, contact length "
         f"{with_unit(run.finest.contact_length, 'm')}; nothing was compared."
     )

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from comparisons.common.words import MODELS
+from comparisons.common.model_names import HYPHENATED
 from comparisons.report.field_values import look_of
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.report.headline import headline
@@ -51,7 +51,7 @@ def render(outcome: Outcome) -> str:
         look=look_of(outcome),
         scene=outcome.problem.scene,
         headline=headline(outcome),
-        models=[MODELS[name] for name in outcome.runs],
+        models=[HYPHENATED[name] for name in outcome.runs],
         comparisons=comparison_rows(outcome),
         figures=[] if outcome.plan.compares else figure_rows(outcome),
         sheet=problem_sheet(outcome),

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import with_unit
-from comparisons.common.words import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.budget import budget_rows, left_out_line

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, percent, plain, significant, with_unit
-from comparisons.common.words import LABELS
 from comparisons.report.figures.field_layout import colour_bar, cross, fill, round_bands
 from comparisons.report.figures.style import DIFFERENCE, LINES, REFERENCE, drawing, figure
 from comparisons.report.figures.surfaces_under_load import draw_surfaces
@@ -66,7 +66,7 @@ def save(outcome: Outcome, path: Path) -> None:
 
 def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
     """Run a scene and write its picture."""
-    from comparisons.models.plan import MODELS
+    from comparisons.common.model_names import MODELS
     from comparisons.runs.run import run
     from comparisons.scenes.resolve import load_scene
 

@@ -13,9 +13,9 @@ from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import Listener, silent
+from comparisons.common.provenance import as_json
 from comparisons.results.changes import Movement, movement
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import as_json
 from comparisons.results.recorded_run import Record, read_record
 from comparisons.runs.run import run
 

@@ -10,6 +10,7 @@ from comparisons.assessment.refinement import refined
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import Listener, Stages, silent, within
+from comparisons.common.provenance import digest
 from comparisons.models.level_cache import Checkpoint
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -17,7 +18,7 @@ from comparisons.models.running_in import run_in_scene
 from comparisons.models.window import window_of
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import digest, record_of
+from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
 from comparisons.runs.write import write_files
 from comparisons.scenes.scene import ResolvedScene

@@ -7,12 +7,12 @@ import numpy as np
 from comparisons.common.files import published
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import Listener, Step
+from comparisons.common.provenance import as_json
 from comparisons.models.deformed import deformed_height
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import as_json
 from comparisons.scenes.scene import ResolvedScene
 from meshes.block import BlockMesh
 

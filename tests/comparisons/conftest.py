@@ -25,7 +25,9 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, PlaneStress
 from comparisons.assessment.comparison import compared, pair_histories
 from comparisons.assessment.effects.budget import error_budget
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import silent
+from comparisons.common.provenance import digest
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult, Window
 from comparisons.models.level_cache import Checkpoint
 from comparisons.models.plan import make_plan
@@ -33,13 +35,12 @@ from comparisons.models.problem import Problem, problem_of
 from comparisons.report.figures.style import Picture
 from comparisons.report.page import Pictures
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import digest, record_of
+from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
 from comparisons.scenes.resolve import resolve_tables
 from meshes.block import BlockMesh, BlockSpec
 
 PROJECT = Path(__file__).resolve().parents[2]
-MODELS = ("half_plane", "finite_element")
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

@@ -17,12 +17,13 @@ from comparisons.assessment.effects.effects import contained, is_taken_apart
 from comparisons.assessment.effects.quantities_of_interest import Answer, answer_of
 from comparisons.assessment.effects.variants import Body, problem_with
 from comparisons.common.errors import InputError, one_line
+from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
 from comparisons.common.progress import Listener, Stages, Step, machine_memory
 from comparisons.models.level import Level, ModelRun, Window
 from comparisons.models.level_cache import Checkpoint
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from fem.solver.mumps import FemError
 from meshes.errors import MeshError

@@ -7,8 +7,7 @@ import numpy as np
 
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.common.numbers import given_percent, percent, plain
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.report.figures.style import WIDE, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 

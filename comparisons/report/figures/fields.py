@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import Extremum, PlaneStress
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.common.words import LABELS
 from comparisons.report.figures.field_layout import (
     COVERED,
     WIDTH,

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import scale_of, with_unit
-from comparisons.common.words import LABELS
 from comparisons.report.figures.style import (
     BODY,
     COLUMN,

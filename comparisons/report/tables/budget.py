@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 from comparisons.assessment.effects.model_error import OwnError
 from comparisons.common.numbers import given_percent, percent, plain
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.results.outcome import Outcome
 
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed

@@ -6,8 +6,7 @@ from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
 

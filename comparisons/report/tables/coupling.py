@@ -2,8 +2,7 @@
 
 from comparisons.assessment.coupling import SHIFT, Change, Coupling
 from comparisons.common.numbers import percent, plain, scale_of, with_unit
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.report.tables.evidence import Table
 from comparisons.results.outcome import Outcome
 

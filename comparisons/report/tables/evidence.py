@@ -11,6 +11,7 @@ from comparisons.assessment.comparison import (
     uncertainties,
 )
 from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (
     integer,
     percent,
@@ -19,8 +20,7 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.common.quantities import QUANTITIES
-from comparisons.common.words import LABELS, MODELS, label
+from comparisons.common.quantities import QUANTITIES, label
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
@@ -217,7 +217,7 @@ def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
 
 def _hashed(name: str) -> str:
     """What a hash of the record is of: a model's pressures, or another array."""
-    for model, words in MODELS.items():
+    for model, words in HYPHENATED.items():
         if name.startswith(f"{model}_"):
             return f"the {words} model's {name.removeprefix(f'{model}_').replace('_', ' ')}"
     return name.replace("_", " ")

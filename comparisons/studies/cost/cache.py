@@ -8,8 +8,8 @@ import re
 from pathlib import Path
 
 from comparisons.common.cache import keep, kept, tidy
+from comparisons.common.provenance import machine
 from comparisons.models.level_cache import KINDS, key_of
-from comparisons.results.record import machine
 from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.cost.measure import Measured, Task
 from comparisons.studies.cost.solve import Answer

@@ -2,12 +2,12 @@
 
 from html import escape
 
-from comparisons.common.words import label
+from comparisons.common.quantities import label
 from comparisons.report.figures.style import drawing
 from comparisons.report.html import FOLDER
 from comparisons.studies.cost.choice import followed
-from comparisons.studies.cost.cost import Cost
 from comparisons.studies.cost.picture import cost_picture
+from comparisons.studies.cost.result import Cost
 from comparisons.studies.cost.table import NEEDLESS, cells, notes_of, refusals, shown
 
 CSS = FOLDER / "page.css"

@@ -3,11 +3,11 @@
 import math
 
 from comparisons.common.numbers import given_percent, percent, with_unit
-from comparisons.common.words import label
+from comparisons.common.quantities import label
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.studies.cost.choice import needs_stress
-from comparisons.studies.cost.cost import Cost
 from comparisons.studies.cost.methods import METHODS
+from comparisons.studies.cost.result import Cost
 from comparisons.studies.cost.study import OK
 
 # Okabe and Ito's colours, a line style and a mark of its own for each.

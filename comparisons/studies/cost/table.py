@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from comparisons.common.numbers import integer, percent, with_unit
 from comparisons.report.terminal import PLAIN, SHORT, STYLES
 from comparisons.studies.cost.choice import Assessed
-from comparisons.studies.cost.cost import Cost
+from comparisons.studies.cost.result import Cost
 from comparisons.studies.cost.study import FAILED, OK
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from comparisons.results.record import as_json
+from comparisons.common.provenance import as_json
 
 FOLDER = "map_points"
 PART = ".part"

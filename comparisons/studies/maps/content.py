@@ -1,6 +1,6 @@
 """The content of map.json: all that a map shows, and nothing of when or where it was computed."""
 
-from comparisons.results.record import versions
+from comparisons.common.provenance import versions
 from comparisons.studies.maps.axes import Axis
 from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.groups import GROUPS

@@ -6,11 +6,12 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from comparisons.common.files import check_writable
+from comparisons.common.processes import processes
 from comparisons.common.progress import Listener, silent
-from comparisons.results.record import as_json
+from comparisons.common.provenance import as_json
 from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.content import map_content
-from comparisons.studies.maps.executors import Workers, processes
+from comparisons.studies.maps.executors import Workers
 from comparisons.studies.maps.request import MapRequest
 from comparisons.studies.maps.sweep import sweep
 

@@ -9,9 +9,10 @@ from dataclasses import asdict
 from time import perf_counter
 
 from comparisons.common.errors import one_line
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.level import Level, ModelRun, Window
-from comparisons.models.plan import MODELS, Plan, make_plan
+from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.resolve import resolve_tables

@@ -8,9 +8,9 @@ from functools import cached_property
 from pathlib import Path
 
 from comparisons.common.errors import InputError, SceneError
+from comparisons.common.provenance import digest, versions
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level_cache import program_code
-from comparisons.results.record import digest, versions
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.axes import Axis, axis_of, counts_of, usual_axes

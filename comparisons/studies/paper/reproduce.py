@@ -9,8 +9,8 @@ from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import Listener, Step, silent, within
+from comparisons.common.provenance import as_json, versions
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import as_json, versions
 from comparisons.studies.paper.claims.claim_list import claims
 from comparisons.studies.paper.claims.claims import OUTCOMES, Judged, judge
 from comparisons.studies.paper.page import paper_page

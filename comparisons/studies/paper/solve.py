@@ -8,9 +8,10 @@ from analytic.contact.problem import ContactError
 from comparisons.assessment.comparison import compare
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import SolverError
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Listener, Step, silent, within
 from comparisons.models.level_cache import Checkpoint
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
 from comparisons.results.outcome import Outcome

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from math import isfinite
 
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import MINUS, UNKNOWN, significant
-from comparisons.common.words import LABELS
 from comparisons.studies.paper.claims.claims import CONFIRMED, DENIED, UNTOLD, Judged
 from comparisons.studies.paper.claims.views import Measured
 

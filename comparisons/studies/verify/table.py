@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.words import LABELS
+from comparisons.common.model_names import LABELS
 from comparisons.studies.verify.pairs import Coverage, Pair
 from comparisons.studies.verify.result import Verification
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 COLUMNS = ("figures", "that tell", "covered", "median width", "90 %")
-MODELS = {**LABELS, "layer": "analytic layer"}
+NAMES = {**LABELS, "layer": "analytic layer"}
 STYLE = """
 body { font: 15px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 70em; padding: 0 1em }
 table { border-collapse: collapse; margin: 1em 0 }
@@ -42,7 +42,7 @@ def verify_summary(found: Verification) -> "RenderableType":
     for name in COLUMNS:
         table.add_column(name, justify="right", overflow="fold")
     for (model, quantity), group in found.groups.items():
-        table.add_row(MODELS[model], quantity, *_cells(group))
+        table.add_row(NAMES[model], quantity, *_cells(group))
     table.add_section()
     table.add_row("all", "", *_cells(found.coverage))
     checks = [Text(_check_line(found, group)) for group in _groups(found)]
@@ -55,7 +55,7 @@ def verify_summary(found: Verification) -> "RenderableType":
 def verify_page(found: Verification) -> str:
     """One self-contained page: the same table, every check and every figure."""
     groups = [
-        [MODELS[model], quantity, *_cells(group)]
+        [NAMES[model], quantity, *_cells(group)]
         for (model, quantity), group in found.groups.items()
     ]
     checks = [
@@ -101,7 +101,7 @@ def _cells(group: Coverage) -> tuple[str, ...]:
 def _pair_cells(pair: Pair) -> list[str]:
     width = "" if pair.width is None else f"{pair.width:.2f}"
     return [
-        MODELS[pair.model],
+        NAMES[pair.model],
         pair.case,
         pair.quantity,
         f"{pair.exact:.6g}",

@@ -13,7 +13,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import Listener, Stages, Step, silent
-from comparisons.results.record import as_json
+from comparisons.common.provenance import as_json
 from comparisons.studies.verify.checks import Check
 from comparisons.studies.verify.junit import junit
 from comparisons.studies.verify.operators import OperatorCase, operator_cases, operator_pairs

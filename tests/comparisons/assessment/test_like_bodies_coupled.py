@@ -7,11 +7,12 @@ import pytest
 
 from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
 from comparisons.assessment.effects.selection import choose
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
 

@@ -6,9 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.assessment.refinement import refined
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import silent
 from comparisons.models.level_cache import Checkpoint
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 

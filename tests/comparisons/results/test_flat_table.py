@@ -8,8 +8,8 @@ import sys
 import pytest
 
 from comparisons.cli import main
+from comparisons.common.provenance import as_json
 from comparisons.results.flat_table import COLUMNS, EFFECT_COLUMNS, GROUPS, tidy_rows, write_table
-from comparisons.results.record import as_json
 
 
 @pytest.fixture(scope="module")

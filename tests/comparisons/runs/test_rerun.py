@@ -12,8 +12,8 @@ from rich.console import Console
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.models.plan import MODELS
-from comparisons.results.record import versions
+from comparisons.common.model_names import MODELS
+from comparisons.common.provenance import versions
 from comparisons.runs.rerun import rerun
 from comparisons.runs.rerun_table import rerun_summary
 from comparisons.runs.run import run

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from comparisons.common.exit_status import ExitStatus
+from comparisons.common.model_names import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.level_cache import Checkpoint
-from comparisons.models.plan import MODELS, make_plan, unpruned
+from comparisons.models.plan import make_plan, unpruned
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run, solve
 from comparisons.scenes.resolve import load_scene, resolve_tables

@@ -8,8 +8,8 @@ import pytest
 
 from comparisons.common.errors import SolverError
 from comparisons.common.exit_status import ExitStatus
+from comparisons.common.model_names import MODELS
 from comparisons.models.finite_element.cost import flow_increments
-from comparisons.models.plan import MODELS
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables

@@ -10,12 +10,13 @@ from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures
 from comparisons.assessment.uncertainty import grid_convergence
 from comparisons.common.exit_status import ExitStatus
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run
 from comparisons.scenes.files import scene_names

@@ -9,8 +9,8 @@ made to show it.
 from dataclasses import dataclass
 from math import inf, isfinite
 
+from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import plain, significant
-from comparisons.common.words import LABELS
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.claims.views import Measured, Reading, measured
 

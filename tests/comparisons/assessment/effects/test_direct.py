@@ -12,11 +12,12 @@ import pytest
 from comparisons.assessment.comparison import figures, norms
 from comparisons.assessment.effects.effects import contained
 from comparisons.assessment.effects.model_error import OwnError
+from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run

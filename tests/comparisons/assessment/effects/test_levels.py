@@ -15,10 +15,11 @@ from comparisons.assessment.effects.levels import Bodies, NotComputedError, proc
 from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.variants import Body
 from comparisons.assessment.refinement import refined
+from comparisons.common.model_names import MODELS
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import silent
 from comparisons.models.level_cache import Checkpoint
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
 CHOICE = Choice(frozenset(), frozenset({"displaced gap", "finite strain"}), {}, {}, {})

@@ -12,7 +12,7 @@ from analytic.exact.layer_references import TABLE
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.verdict import half_space_verdict
 from comparisons.common.exit_status import ExitStatus
-from comparisons.models.plan import MODELS
+from comparisons.common.model_names import MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables

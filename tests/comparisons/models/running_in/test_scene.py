@@ -10,7 +10,8 @@ import pytest
 from comparisons.cli import main
 from comparisons.common.errors import SceneError
 from comparisons.common.exit_status import ExitStatus
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.common.model_names import MODELS
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.running_in import run_in_scene
 from comparisons.scenes.resolve import resolve_tables

@@ -9,7 +9,8 @@ import pytest
 
 import comparisons.models.running_in
 from comparisons.common.exit_status import ExitStatus
-from comparisons.models.plan import MODELS, make_plan
+from comparisons.common.model_names import MODELS
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.report.figures.running_in import running_in_in_words, running_in_picture
 from comparisons.report.headline import headline

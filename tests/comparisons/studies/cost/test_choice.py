@@ -14,7 +14,7 @@ from comparisons.models.problem import problem_of
 from comparisons.report.figures.style import Picture
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost.choice import Assessed, choices, pareto
-from comparisons.studies.cost.cost import content_of, judged
+from comparisons.studies.cost.cost import judged
 from comparisons.studies.cost.measure import Measured, Refused
 from comparisons.studies.cost.methods import (
     ADAPTED,
@@ -22,6 +22,7 @@ from comparisons.studies.cost.methods import (
     METHODS,
 )
 from comparisons.studies.cost.page import cost_page
+from comparisons.studies.cost.result import content_of
 from comparisons.studies.cost.solve import Answer
 from comparisons.studies.cost.study import FAILED, OK, SKIPPED, Row, Study, _asked, _series
 from comparisons.studies.cost.table import cells, notes_of, refusals, shown

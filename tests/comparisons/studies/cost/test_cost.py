@@ -15,11 +15,12 @@ from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import methods as cost_methods
 from comparisons.studies.cost.cache import FOLDER
 from comparisons.studies.cost.choice import followed
-from comparisons.studies.cost.cost import content_of, cost
+from comparisons.studies.cost.cost import cost
 from comparisons.studies.cost.methods import (
     FINEST,
     METHODS,
 )
+from comparisons.studies.cost.result import content_of
 from comparisons.studies.cost.study import OK
 from comparisons.studies.cost.table import cost_summary
 

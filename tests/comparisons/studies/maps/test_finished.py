@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from comparisons.results.record import versions
+from comparisons.common.provenance import versions
 from comparisons.studies.maps.content import described
 from comparisons.studies.maps.make import read_map
 from comparisons.studies.maps.picture import map_picture

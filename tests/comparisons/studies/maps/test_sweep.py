@@ -15,10 +15,11 @@ from rich.console import Console
 
 from comparisons.cli import main
 from comparisons.common.exit_status import ExitStatus
+from comparisons.common.processes import processes
 from comparisons.studies.maps import sweep as sweeping
 from comparisons.studies.maps.cache import FOLDER, PointStore
 from comparisons.studies.maps.command import exit_status
-from comparisons.studies.maps.executors import Workers, processes
+from comparisons.studies.maps.executors import Workers
 from comparisons.studies.maps.make import MAP, PICTURE, TIMES, make_map
 from comparisons.studies.maps.point import NOT_CONVERGED, solve_point
 from comparisons.studies.maps.request import Asked, request_of

@@ -13,7 +13,7 @@ from analytic.exact.hertz import hertz_stress
 from comparisons import cli
 from comparisons.common.errors import InputError
 from comparisons.common.exit_status import ExitStatus
-from comparisons.common.words import LABELS
+from comparisons.common.model_names import LABELS
 from comparisons.studies.paper import reproduce
 from comparisons.studies.paper.claims.claim_list import claims
 from comparisons.studies.paper.claims.claims import OUTCOMES
