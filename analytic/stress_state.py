@@ -14,7 +14,7 @@ import numpy as np
 
 
 @dataclass(frozen=True)
-class PlaneStress:
+class StressState:
     """`sx`, `sz` and `txz` [Pa]: arrays of one shape, one value a point."""
 
     sx: np.ndarray
@@ -53,7 +53,7 @@ class PlaneStress:
         return np.hypot(np.sqrt(3.0) * self.tau1, (1.0 - 2.0 * poissons_ratio) * mean)
 
 
-def von_mises(stress: PlaneStress, sy: np.ndarray) -> np.ndarray:
+def von_mises(stress: StressState, sy: np.ndarray) -> np.ndarray:
     """Equivalent stress of von Mises [Pa] with any stress `sy` [Pa] across the plane."""
     normal = (stress.sx - stress.sz) ** 2 + (stress.sz - sy) ** 2 + (sy - stress.sx) ** 2
     return np.sqrt(0.5 * normal + 3.0 * stress.txz**2)

@@ -67,7 +67,7 @@ class TestVerdict:
         assert [word.strip("`").lower() for word, _ in rows("verdict", "verdict")] == [
             "holds",
             "fails",
-            "undecided",
+            "inconclusive",
         ]
 
 

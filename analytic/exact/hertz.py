@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import root
 
 from analytic.numerics import check_positive
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 
 _OfShear = Callable[[np.ndarray], np.ndarray]
 _OfSlope = Callable[[complex, np.ndarray], np.ndarray]
@@ -101,7 +101,7 @@ def hertz_from_peak_pressure(
 
 def hertz_stress(
     hertz: HertzContact, x: ArrayLike, z: ArrayLike, friction: float = 0.0
-) -> PlaneStress:
+) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, under p and q = friction p in +x.
 
     On the surface sz = -p and txz = -friction p; at the very edge x = -a, a the limit from the
@@ -128,7 +128,7 @@ def hertz_stress(
     stretch = (2.0 * n**2 + big_a * (2.0 * m + depth)) / np.where(edge, 1.0, modulus)
     sx_traction = -big_b * np.where(edge, 2.0, stretch) * side
     p0 = hertz.peak_pressure
-    return PlaneStress(
+    return StressState(
         sx=p0 * (sx + friction * sx_traction),
         sz=p0 * (sz + friction * txz),
         txz=p0 * (txz + friction * sx),

@@ -39,7 +39,7 @@ from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
 from analytic.material import Material
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 _FAR = 3.0  # distance from the middle in a, from which Gauss's points stand for the load
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)  # (3 + sqrt 8)^-48 is left out there
@@ -56,7 +56,7 @@ class SurfaceDisplacement:
     into: np.ndarray
 
 
-def line_load_stress(normal: float, tangential: float, x: ArrayLike, z: ArrayLike) -> PlaneStress:
+def line_load_stress(normal: float, tangential: float, x: ArrayLike, z: ArrayLike) -> StressState:
     """Stresses [Pa] at x, z [m], z >= 0, under P and Q [N/m] at x = 0, where all are infinite.
 
     Raises ValueError for z < 0 and at the load itself.
@@ -69,7 +69,7 @@ def line_load_stress(normal: float, tangential: float, x: ArrayLike, z: ArrayLik
 
 def strip_load_stress(
     half_width: float, normal: float, tangential: float, x: ArrayLike, z: ArrayLike
-) -> PlaneStress:
+) -> StressState:
     """Stresses [Pa] at x, z [m], z >= 0, under p and q [Pa] on |x| < half_width a [m].
 
     On the surface the ends belong half to the strip, and sx under q is infinite there.
@@ -82,7 +82,7 @@ def strip_load_stress(
 
 def triangle_load_stress(
     half_width: float, normal: float, tangential: float, x: ArrayLike, z: ArrayLike
-) -> PlaneStress:
+) -> StressState:
     """Stresses [Pa] at x, z [m], z >= 0, under p and q [Pa] at x = 0, zero from half_width a on.
 
     Finite everywhere. Raises ValueError for z < 0.
@@ -173,12 +173,12 @@ def _displacement(
     )
 
 
-def _combined(parts: np.ndarray, normal: float, tangential: float) -> PlaneStress:
+def _combined(parts: np.ndarray, normal: float, tangential: float) -> StressState:
     """From sx, sz, txz under a unit pressure and sx under a unit traction."""
     sx, sz, txz, sx_traction = parts
     if tangential == 0.0:  # the traction's sx may be infinite
-        return PlaneStress(normal * sx, normal * sz, normal * txz)
-    return PlaneStress(
+        return StressState(normal * sx, normal * sz, normal * txz)
+    return StressState(
         sx=normal * sx + tangential * sx_traction,
         sz=normal * sz + tangential * txz,
         txz=normal * txz + tangential * sx,

@@ -35,7 +35,7 @@ from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi
 
 from analytic.numerics import check_positive
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 # Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
 # points the remainder is below (2 - sqrt 3)^64.
@@ -121,7 +121,7 @@ def sliding_from_load(
     )
 
 
-def sliding_stress(contact: SlidingContact, x: ArrayLike, z: ArrayLike) -> PlaneStress:
+def sliding_stress(contact: SlidingContact, x: ArrayLike, z: ArrayLike) -> StressState:
     """Stresses [Pa] in the half-plane at x, z [m] (broadcast together), z >= 0.
 
     Right to rounding of the pressure's potential near the contact, of each component far away.
@@ -138,7 +138,7 @@ def sliding_stress(contact: SlidingContact, x: ArrayLike, z: ArrayLike) -> Plane
     parts[:, near] = _closed(contact, (x[near] - left) / h, (x[near] - right) / h, z[near] / h)
     sx, sz, txz, sx_traction = parts
     mu = contact.friction
-    return PlaneStress(sx=sx + mu * sx_traction, sz=sz + mu * txz, txz=txz + mu * sx)
+    return StressState(sx=sx + mu * sx_traction, sz=sz + mu * txz, txz=txz + mu * sx)
 
 
 def _closed(

@@ -11,9 +11,9 @@ from analytic.exact.point_and_strip import (
     strip_load_stress,
     triangle_load_stress,
 )
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
-Field = Callable[[np.ndarray, np.ndarray], PlaneStress]
+Field = Callable[[np.ndarray, np.ndarray], StressState]
 Curve = Callable[[np.ndarray], np.ndarray]
 
 SOURCE = "Johnson 1985, sections 2.2 to 2.5"

@@ -34,7 +34,7 @@ from numpy.typing import ArrayLike
 
 from analytic.exact.differences import sinh_minus_argument
 from analytic.numerics import check_positive
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 # Depth pi z/lambda from which nothing of the wave is left and its hyperbolic functions overflow.
 _DEEP = 300.0
@@ -178,7 +178,7 @@ def westergaard_stress(
     z: ArrayLike,
     friction: float = 0.0,
     mean_sx: float | None = None,
-) -> PlaneStress:
+) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, under p and q = friction p in +x.
 
     mean_sx  average of sx over a wavelength [Pa], the same at every depth, which the loads leave
@@ -201,7 +201,7 @@ def westergaard_stress(
     sx, sz, txz = potential.imag + along, potential.imag - along, -across
     sx_traction = side * (stretch.imag - 2.0 * potential.real)
     offset = 0.0 if mean_sx is None else mean_sx + contact.mean_pressure
-    return PlaneStress(
+    return StressState(
         sx=sx + friction * sx_traction + offset,
         sz=sz + friction * txz,
         txz=txz + friction * sx,

@@ -18,7 +18,7 @@ from analytic.layers.kernel import finest_scale, wave_panels
 from analytic.layers.layered import LayeredBody, added_stress
 from analytic.stress.field import StressField, friction_field
 from analytic.stress.grid import uniform_pitch
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 _FADED = 45.0  # w (2 - z/t) from which nothing is added: e^-45 45^2 is 6e-17
 _FORGOTTEN = 55.0  # distance over t from which a rigid base leaves nothing
@@ -32,8 +32,8 @@ class LayerField:
 
     x: np.ndarray
     z: np.ndarray
-    normal: PlaneStress
-    traction: PlaneStress
+    normal: StressState
+    traction: StressState
 
     def at(self, friction: float) -> StressField:
         """The field under p and q = friction * p in +x."""
@@ -41,7 +41,7 @@ class LayerField:
         return StressField(
             self.x,
             self.z,
-            PlaneStress(
+            StressState(
                 sx=normal.sx + friction * traction.sx,
                 sz=normal.sz + friction * traction.sz,
                 txz=normal.txz + friction * traction.txz,
@@ -97,8 +97,8 @@ def layer_field(
     return LayerField(
         field.x,
         field.z,
-        PlaneStress(normal.sx + added[0], normal.sz + added[1], normal.txz + added[2]),
-        PlaneStress(traction.sx + added[3], traction.sz + added[4], traction.txz + added[5]),
+        StressState(normal.sx + added[0], normal.sz + added[1], normal.txz + added[2]),
+        StressState(traction.sx + added[3], traction.sz + added[4], traction.txz + added[5]),
     )
 
 

@@ -20,7 +20,7 @@ from scipy.special import xlogy
 
 from analytic.exact.differences import angle_minus_sine
 from analytic.stress.multipoles import NEAREST, hat_multipoles
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 
 @dataclass(frozen=True)
@@ -31,15 +31,15 @@ class FrictionStress:
     traction_sx  sx under q = p in +x, which is sx a unit of friction
     """
 
-    normal: PlaneStress
+    normal: StressState
     traction_sx: np.ndarray
 
     @property
-    def traction(self) -> PlaneStress:
+    def traction(self) -> StressState:
         """Under q = p in +x alone."""
-        return PlaneStress(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
+        return StressState(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
 
-    def at(self, friction: float, besides: "FrictionStress | None" = None) -> PlaneStress:
+    def at(self, friction: float, besides: "FrictionStress | None" = None) -> StressState:
         """Under p and q = friction * p + t together, `besides` being those of t as a pressure."""
         stress = self.normal
         if friction != 0.0:
@@ -47,8 +47,8 @@ class FrictionStress:
         return stress if besides is None else _sum(stress, 1.0, besides.traction)
 
 
-def _sum(stress: PlaneStress, factor: float, other: PlaneStress) -> PlaneStress:
-    return PlaneStress(
+def _sum(stress: StressState, factor: float, other: StressState) -> StressState:
+    return StressState(
         sx=stress.sx + factor * other.sx,
         sz=stress.sz + factor * other.sz,
         txz=stress.txz + factor * other.txz,
@@ -89,7 +89,7 @@ def strip_between(
     flat = np.where(steep, 0.5 * sine_sum / np.where(steep, upright, 1.0), np.cos(half))
     rest = np.where(end, 0.5 * np.pi, angle_minus_sine(angle))
     return FrictionStress(
-        normal=PlaneStress(
+        normal=StressState(
             sx=-(rest + 2.0 * sine * flat**2) / np.pi,
             sz=-(rest + 2.0 * sine * upright**2) / np.pi,
             txz=-side * sine_sum * sine / np.pi,
@@ -113,7 +113,7 @@ def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     near = np.hypot(x, z) < NEAREST
     parts[:, near] = _hat_closed(x[near], z[near])
     parts[:, ~near] = hat_multipoles(x[~near], z[~near])
-    return FrictionStress(PlaneStress(*parts[:3]), parts[3])
+    return FrictionStress(StressState(*parts[:3]), parts[3])
 
 
 def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:

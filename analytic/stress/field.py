@@ -17,7 +17,7 @@ from analytic.stress.grid import check_element, uniform_pitch
 from analytic.stress.kernels import circle
 from analytic.stress.potential import Element
 from analytic.stress.ring import ring
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class StressField:
 
     x: np.ndarray
     z: np.ndarray
-    stress: PlaneStress
+    stress: StressState
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def stress_field(
             parts[2, 0] = -friction * on_surface[0]
             if friction == 0.0:
                 parts[0, 0] = -on_surface[0]
-    return StressField(grid.x, grid.z, PlaneStress(*parts))
+    return StressField(grid.x, grid.z, StressState(*parts))
 
 
 def friction_field(
@@ -105,7 +105,7 @@ def friction_field(
     parts, on_surface = _fields(grid, load[None], EACH, periodic)
     if on_surface is not None:
         parts[:2, 0] = -on_surface[0]
-    return FrictionField(grid.x, grid.z, FrictionStress(PlaneStress(*parts[:3]), parts[3]))
+    return FrictionField(grid.x, grid.z, FrictionStress(StressState(*parts[:3]), parts[3]))
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from scipy.ndimage import maximum_filter, minimum_filter
 from analytic.stress.field import StressField
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 
-Quantity = Callable[[PlaneStress], np.ndarray]
+Quantity = Callable[[StressState], np.ndarray]
 
 # The search around a point of the grid: nine points, half a cell apart at first; the parabola
 # through them gives the next centre. The spacing shrinks when that lies among them or nothing
@@ -90,7 +90,7 @@ def field_maxima(
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):
             mine = owner == index
-            value[mine] = quantity(PlaneStress(stress.sx[mine], stress.sz[mine], stress.txz[mine]))
+            value[mine] = quantity(StressState(stress.sx[mine], stress.sz[mine], stress.txz[mine]))
         return value
 
     top, place = _climb(evaluate, field, rows, columns, owner)

@@ -23,7 +23,7 @@ from analytic.stress.grid import check_element, uniform_pitch
 from analytic.stress.line import line_stress
 from analytic.stress.periodic import periodic_stress
 from analytic.stress.potential import Element
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 
 def stress_at(
@@ -36,7 +36,7 @@ def stress_at(
     *,
     traction: np.ndarray | None = None,
     periodic: bool = False,
-) -> PlaneStress:
+) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, tension positive.
 
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
@@ -73,4 +73,4 @@ def friction_stress_at(
     sum_up = periodic_stress if periodic else line_stress
     parts = sum_up(x_nodes, pressure, pitch, x.ravel(), z.ravel(), element)
     parts = parts.reshape(4, *x.shape)
-    return FrictionStress(PlaneStress(*parts[:3]), parts[3])
+    return FrictionStress(StressState(*parts[:3]), parts[3])

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 
 @dataclass(frozen=True)
@@ -21,9 +21,9 @@ class StressSection:
     z: np.ndarray
     along: np.ndarray
     direction: tuple[float, float]
-    stress: PlaneStress
+    stress: StressState
 
-    def turned(self) -> PlaneStress:
+    def turned(self) -> StressState:
         """The stresses [Pa] in axes along the section and across it, the latter a quarter turn on.
 
         sx is then the stress along the section, sz that across it, and txz the shear on it, in
@@ -32,7 +32,7 @@ class StressSection:
         c, s = self.direction
         given = self.stress
         mixed = 2.0 * c * s * given.txz
-        return PlaneStress(
+        return StressState(
             sx=c * c * given.sx + s * s * given.sz + mixed,
             sz=s * s * given.sx + c * c * given.sz - mixed,
             txz=c * s * (given.sz - given.sx) + (c * c - s * s) * given.txz,

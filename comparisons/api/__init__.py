@@ -41,7 +41,7 @@ from typing import TYPE_CHECKING
 from comparisons.api.results import CostStudy, Figures, Map, Run
 from comparisons.common.errors import InputError
 from comparisons.common.model_names import MODELS
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.scenes.resolve import load_scene, resolve_tables
 from comparisons.scenes.scene import ResolvedScene
@@ -86,7 +86,7 @@ def run(
     tolerance: float | None = None,
     out: str | os.PathLike | None = None,
     fields: str = AUTOMATIC,
-    progress: Listener = silent,
+    progress: ProgressCallback = no_progress,
 ) -> Run:
     """Solve a scene, compare the models, judge: what `crosscheck run` does.
 
@@ -158,7 +158,7 @@ def cost(
     *,
     repeats: int = 3,
     out: str | os.PathLike | None = None,
-    progress: Listener = silent,
+    progress: ProgressCallback = no_progress,
 ) -> CostStudy:
     """Error against run time of every method that applies: what `crosscheck cost` does.
 
@@ -180,7 +180,7 @@ def map(
     quantity: str = "peak_pressure",
     workers: "Workers | int | None" = None,
     out: str | os.PathLike | None = None,
-    progress: Listener = silent,
+    progress: ProgressCallback = no_progress,
 ) -> Map:
     """The half-plane's own error over two dimensionless groups: what `crosscheck map` does.
 

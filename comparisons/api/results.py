@@ -59,8 +59,8 @@ class Run(Printed):
 
     @property
     def verdict(self) -> str:
-        """Of the half-plane here: holds, fails or undecided."""
-        return self.result["half_space"]["verdict"]
+        """Of the half-plane here: holds, fails or inconclusive."""
+        return self.result["validity"]["verdict"]
 
     @property
     def rows(self) -> list[Row]:
@@ -112,7 +112,7 @@ class Figures(Printed):
         for row in self.rows:
             values = (row["half_plane"], row["finite_element"])
             cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]
-            own = row["own_error"]
+            own = row["model_error"]
             cells.append("" if own is None else percent(own, signed=True))
             head = (row["title"], SHORT[row["quantity"]], f"{row['friction']:g}")
             table.add_row(*(cell.translate(PLAIN) for cell in (*head, *cells)))

@@ -13,7 +13,7 @@ import numpy as np
 from analytic.contact.patches import CLEAR
 from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures, norms
-from comparisons.common.progress import Listener, Stages
+from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun, Window
 from comparisons.models.plan import no_coupling
@@ -70,14 +70,14 @@ class Coupling:
 
 
 def couplings(
-    problem: Problem, run: ModelRun, window: Window | None, listener: Listener
+    problem: Problem, run: ModelRun, window: Window | None, callback: ProgressCallback
 ) -> tuple[Coupling, ...]:
     """One for each friction coefficient of the scene, from the finished half-plane."""
     found = []
     for friction in problem.scene.friction:
         why = no_coupling(problem, friction)
         found.append(
-            _coupling(problem, run.finest, friction, window, listener)
+            _coupling(problem, run.finest, friction, window, callback)
             if why is None
             else Coupling(friction, {}, why=why)
         )
@@ -85,9 +85,9 @@ def couplings(
 
 
 def _coupling(
-    problem: Problem, own: Level, friction: float, window: Window | None, listener: Listener
+    problem: Problem, own: Level, friction: float, window: Window | None, callback: ProgressCallback
 ) -> Coupling:
-    stages = Stages(lambda _: listener("half-plane: surfaces moved by friction"))
+    stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
     size = friction * problem.dundurs_beta
     # of the level's own answer and of the other one, the one with the surfaces moved
     other_size = 0.0 if problem.coupling else size

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from comparisons.assessment.comparison import discretisations
 from comparisons.common.mpi import from_first
-from comparisons.common.progress import Listener, Stages, Step, machine_memory, silent
+from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory, no_progress
 from comparisons.models.level import Level, ModelRun, Window
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 
@@ -44,8 +44,8 @@ def refined(
     problem: Problem,
     plan: Plan,
     window: Window | None,
-    checkpoint: Checkpoint,
-    listener: Listener,
+    checkpoint: LevelCache,
+    callback: ProgressCallback,
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.
 
@@ -56,7 +56,7 @@ def refined(
     halved: Level | None = None
     bodies = CurrentBodies()
 
-    def solved(name: str, kept: str, pitch: float, tell: Listener, **how: bool) -> Level:
+    def solved(name: str, kept: str, pitch: float, tell: ProgressCallback, **how: bool) -> Level:
         level = checkpoint.load(kept)
         if level is None:
             level = _solve(name, problem, plan, pitch, window, tell, bodies, **how)
@@ -65,11 +65,11 @@ def refined(
 
     begin = perf_counter()
 
-    def tell(number: int) -> Listener:
-        """A listener for a level."""
+    def tell(number: int) -> ProgressCallback:
+        """A callback for a level."""
         spent = perf_counter() - begin
         behind = spent / (spent + _expected(levels, len(problem.pitches)))
-        return _numbered(listener, number, behind)
+        return _numbered(callback, number, behind)
 
     open_questions: dict[str, float] = {}
     if "half_plane" in levels:  # first, while nothing else is in memory
@@ -83,8 +83,8 @@ def refined(
             if len(done) < number:
                 done.append(solved(name, f"{name}-{number}", pitch, tell(number)))
         if number == 1 and plan.domain_check:
-            listener("finite elements: far boundary at half the distance")
-            halved = solved("finite_element", HALVED, pitch, silent, halved=True)
+            callback("finite elements: far boundary at half the distance")
+            halved = solved("finite_element", HALVED, pitch, no_progress, halved=True)
         runs = {
             name: ModelRun(name, tuple(done[:number]), halved if name == "finite_element" else None)
             for name, done in levels.items()
@@ -112,13 +112,13 @@ def _expected(levels: dict[str, list[Level]], planned: int) -> float:
     return sum(last * USUAL_GROWTH**k for k in range(1, max(planned - len(done), 1) + 1))
 
 
-def _numbered(listener: Listener, number: int, behind: float) -> Listener:
+def _numbered(callback: ProgressCallback, number: int, behind: float) -> ProgressCallback:
     """Adds to stages the number of their level, and to the first how much lies behind."""
     names = count()
 
     def told(stage: str) -> None:
         words = f"{stage}, level {number}"
-        listener(words if next(names) else Step(words, behind))
+        callback(words if next(names) else Step(words, behind))
 
     return told
 
@@ -181,7 +181,7 @@ def _solve(
     plan: Plan,
     pitch: float,
     window: Window | None,
-    listener: Listener,
+    callback: ProgressCallback,
     bodies: CurrentBodies,
     halved: bool = False,
 ) -> Level:
@@ -189,12 +189,12 @@ def _solve(
     if name == "half_plane":
         from comparisons.models.half_plane import half_plane_level
 
-        stages = Stages(listener)
+        stages = Stages(callback)
         return from_first(lambda: half_plane_level(problem, plan, pitch, window, stages))
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    refinement, stages, store = Refinement(pitch, halved), Stages(listener), bodies.of(pitch)
+    refinement, stages, store = Refinement(pitch, halved), Stages(callback), bodies.of(pitch)
     return finite_element_level(
         problem, plan, refinement, window, stages, store=store, check=not halved
     )

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-Verdict = Literal["agree", "differ", "indistinct"]
+Verdict = Literal["agree", "differ", "inconclusive"]
 
 
 @dataclass(frozen=True)
@@ -33,34 +33,34 @@ class Comparison:
 def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
     """Verdict on a relative difference.
 
-    `indistinct` when the difference is smaller than an uncertainty that exceeds the tolerance:
+    `inconclusive` when the difference is smaller than an uncertainty that exceeds the tolerance:
     the numerics cannot tell, refine before you conclude. Otherwise the tolerance decides.
     """
     if abs(difference) < uncertainty and uncertainty > tolerance:
-        return "indistinct"
+        return "inconclusive"
     return "agree" if abs(difference) <= tolerance else "differ"
 
 
 @dataclass(frozen=True)
-class Standing:
+class ToleranceCheck:
     """Where the half-plane stands in a judged quantity; all relative.
 
     value        its own error: half-plane against finite elements with every effect that matters
     uncertainty  numerical, of that
-    unshown      by name, estimates of the effects that no model has; independent of each other
+    not_modelled      by name, estimates of the effects that no model has; independent of each other
     """
 
     quantity: str
     friction: float
     value: float
     uncertainty: float
-    unshown: dict[str, float]
+    not_modelled: dict[str, float]
     tolerance: float
 
     @property
     def doubt(self) -> float:
         """Uncertainty with what no model shows, which is added as squares."""
-        return self.uncertainty + math.hypot(*self.unshown.values())
+        return self.uncertainty + math.hypot(*self.not_modelled.values())
 
     @property
     def is_inside(self) -> bool:
@@ -78,45 +78,45 @@ class Standing:
         return self.uncertainty >= abs(abs(self.value) - self.tolerance)
 
 
-HalfSpace = Literal["holds", "fails", "undecided"]
+Validity = Literal["holds", "fails", "inconclusive"]
 
 
-def half_space_verdict(standings: Sequence[Standing]) -> tuple[HalfSpace, str]:
+def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
     """Whether the half-plane's assumption holds in a scene, and which figures decide it.
 
     An error within the tolerance, or outside it, counts only where no doubt could move it across.
     """
-    if not standings:
-        return "undecided", "no quantity was judged against a tolerance"
-    outside = [s for s in standings if s.is_outside]
+    if not checks:
+        return "inconclusive", "no quantity was judged against a tolerance"
+    outside = [s for s in checks if s.is_outside]
     if outside:
         return "fails", f"outside the tolerance: {_named(outside)}"
-    unclear = [s for s in standings if not s.is_inside]
+    unclear = [s for s in checks if not s.is_inside]
     if not unclear:
-        worst = max(standings, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+        worst = max(checks, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
         return "holds", f"every judged error is within its tolerance; nearest: {_named([worst])}"
     numerical = [s for s in unclear if s.is_blurred]
     if numerical:
-        return "undecided", f"an error cannot be told from its tolerance: {_named(numerical)}"
-    return "undecided", (
+        return "inconclusive", f"an error cannot be told from its tolerance: {_named(numerical)}"
+    return "inconclusive", (
         f"what no model of this run contains may move an error across its tolerance: "
         f"{_named(unclear)}, by {_effects(unclear)}"
     )
 
 
-def _named(standings: Sequence[Standing]) -> str:
+def _named(checks: Sequence[ToleranceCheck]) -> str:
     return ", ".join(
         f"{s.quantity} {s.value:+.2%} +- {s.uncertainty:.2%} at friction {s.friction:g} "
         f"(tolerance {s.tolerance:.2g})"
-        for s in standings
+        for s in checks
     )
 
 
-def _effects(standings: Sequence[Standing]) -> str:
+def _effects(checks: Sequence[ToleranceCheck]) -> str:
     """The largest estimate of each effect."""
     largest: dict[str, float] = {}
-    for standing in standings:
-        for name, size in standing.unshown.items():
+    for check in checks:
+        for name, size in check.not_modelled.items():
             largest[name] = max(size, largest.get(name, 0.0))
     by_size = sorted(largest.items(), key=lambda item: -item[1])
     return ", ".join(f"{name} {size:.1%}" for name, size in by_size)

@@ -31,8 +31,8 @@ def _cost(scene: str, out: Path | None, repeats: int, as_json: bool) -> int:
 
     resolved = load_scene(scene)
     directory = out or RESULTS / f"{resolved.name}-cost"
-    with progress() as listener:
-        found = measured_cost(resolved, directory, repeats, listener)
+    with progress() as callback:
+        found = measured_cost(resolved, directory, repeats, callback)
     if as_json:
         show_file(directory / "cost.json")
         return ExitStatus.DONE

@@ -18,8 +18,8 @@ def _doctor(as_json: bool) -> int:
     from comparisons.commands.doctor_checks import doctor as examined
     from comparisons.commands.doctor_checks import doctor_table
 
-    with progress() as listener:
-        checks = examined(listener)
+    with progress() as callback:
+        checks = examined(callback)
     if as_json:
         show_json([asdict(check) for check in checks])
     else:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.commands.doctor_trials import OPTIONAL, TRIALS, Trial
-from comparisons.common.progress import Listener, Step, silent
+from comparisons.common.progress import ProgressCallback, Step, no_progress
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -50,13 +50,13 @@ class Check:
     remedy: str
 
 
-def doctor(listener: Listener = silent) -> list[Check]:
+def doctor(callback: ProgressCallback = no_progress) -> list[Check]:
     """Try everything that crosscheck uses; one check an item, Python first."""
     trials, checks = (*TRIALS, *OPTIONAL), [_python()]
     with ThreadPoolExecutor(AT_ONCE) as pool:
         found = pool.map(attempt, trials)
         for number, trial in enumerate(trials):
-            listener(Step(f"trying {trial.name}", number / len(trials)))
+            callback(Step(f"trying {trial.name}", number / len(trials)))
             checks.append(next(found))
     return checks
 

@@ -52,8 +52,8 @@ def _map(
     directory = out or RESULTS / request.name
     from comparisons.studies.maps.command import exit_status, mapped
 
-    with progress() as listener:
-        content = mapped(request, directory, workers, listener)
+    with progress() as callback:
+        content = mapped(request, directory, workers, callback)
     if content is None:  # it worked for the first process
         return ExitStatus.DONE
     if as_json:

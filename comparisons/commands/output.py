@@ -8,21 +8,21 @@ from pathlib import Path
 
 from comparisons.common.errors import one_line
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 
 
 @contextmanager
-def progress() -> Iterator[Listener]:
-    """A listener that shows the stage at work and the time left, if anybody watches."""
+def progress() -> Iterator[ProgressCallback]:
+    """A callback that shows the stage at work and the time left, if anybody watches."""
     if not sys.stderr.isatty():
-        yield silent
+        yield no_progress
         return
     from comparisons.common.progress_bar import progress_bar
 
-    with progress_bar() as listener:
-        yield listener
+    with progress_bar() as callback:
+        yield callback
 
 
 def is_watched() -> bool:

@@ -23,8 +23,8 @@ def paper(
 def _paper(out: Path | None, as_json: bool) -> int:
     from comparisons.studies.paper.reproduce import paper as reproduced
 
-    with progress() as listener:
-        found = reproduced(out or RESULTS / "paper", listener=listener)
+    with progress() as callback:
+        found = reproduced(out or RESULTS / "paper", callback=callback)
     if as_json:
         show_json(found.as_dict())
     else:

@@ -34,8 +34,8 @@ def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool)
     from comparisons.common.exit_status import ExitStatus
     from comparisons.report.redraw import draw_again, reports_content, reports_table
 
-    with progress() as listener:
-        reports = from_first(lambda: draw_again(folders, summary, pdf, listener))
+    with progress() as callback:
+        reports = from_first(lambda: draw_again(folders, summary, pdf, callback))
     if as_json:
         show_json(reports_content(reports, summary))
     else:

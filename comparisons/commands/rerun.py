@@ -23,8 +23,8 @@ def _rerun(folder: Path, out: Path | None, as_json: bool) -> int:
     from comparisons.runs.rerun import rerun as repeat
     from comparisons.runs.rerun_table import rerun_summary
 
-    with progress() as listener:
-        repetition = repeat(folder, out, listener)
+    with progress() as callback:
+        repetition = repeat(folder, out, callback)
     if as_json:
         show_json(repetition.as_dict())
     else:

@@ -71,13 +71,13 @@ def _run(
     doubts = doubts_about(resolved)
     if sys.stderr.isatty():  # whoever waits need not wait for that
         _say_doubts(doubts)
-    with progress() as listener:
+    with progress() as callback:
         try:
-            outcome = run_scene(resolved, directory, chosen, listener, fields)
+            outcome = run_scene(resolved, directory, chosen, callback, fields)
         except SceneError as error:
             raise SceneError("; ".join([str(error), *doubts])) from error
         if pdf and is_first():
-            listener("printing the report")
+            callback("printing the report")
             _print(directory)
     if as_json:
         show_json(outcome.result)

@@ -24,8 +24,8 @@ def _stability(out: Path | None, as_json: bool) -> int:
     from comparisons.studies.robustness.run import run_stability
     from comparisons.studies.robustness.table import stability_table
 
-    with progress() as listener:
-        result = run_stability(out or RESULTS / "stability", listener)
+    with progress() as callback:
+        result = run_stability(out or RESULTS / "stability", callback)
     if as_json:
         show_json(result.as_dict())
     else:

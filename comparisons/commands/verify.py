@@ -26,8 +26,8 @@ def _verify(out: Path | None, report: Path | None, as_json: bool) -> int:
     from comparisons.studies.verify.verify import verify as verify_all
 
     directory = out or RESULTS / "verify"
-    with progress() as listener:
-        found = verify_all(directory, report, listener)
+    with progress() as callback:
+        found = verify_all(directory, report, callback)
     if as_json:
         show_file(directory / "verify.json")
     else:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
-Listener = Callable[[str], None]
+ProgressCallback = Callable[[str], None]
 
 
 def peak_memory() -> int:
@@ -32,8 +32,8 @@ def machine_memory() -> float:
     return 1024.0 * float(kilobytes)
 
 
-def silent(stage: str) -> None:
-    """A listener that says nothing."""
+def no_progress(stage: str) -> None:
+    """A callback that says nothing."""
 
 
 class Step(str):
@@ -47,28 +47,28 @@ class Step(str):
         return step
 
 
-def within(listener: Listener, start: float, stop: float) -> Listener:
+def within(callback: ProgressCallback, start: float, stop: float) -> ProgressCallback:
     """What to hand to a part of a task, which takes it from the share `start` to `stop`."""
 
     def told(stage: str) -> None:
         if isinstance(stage, Step):
             stage = Step(stage, start + (stop - start) * stage.behind)
-        listener(stage)
+        callback(stage)
 
     return told
 
 
 @dataclass
 class Stages:
-    """Collects seconds by stage; `listener` is told the name of each stage as it begins."""
+    """Collects seconds by stage; `callback` is told the name of each stage as it begins."""
 
-    listener: Listener = silent
+    callback: ProgressCallback = no_progress
     seconds: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
     def stage(self, name: str, announce: str | None = None) -> Iterator[None]:
         """Time what runs inside under `name`; repeated stages add up."""
-        self.listener(announce or name)
+        self.callback(announce or name)
         begin = perf_counter()
         try:
             yield

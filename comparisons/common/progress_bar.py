@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from comparisons.common.progress import Listener, Step
+from comparisons.common.progress import ProgressCallback, Step
 
 if TYPE_CHECKING:
     from rich.progress import ProgressColumn, Task
@@ -56,8 +56,8 @@ class Outlook:
 
 
 @contextmanager
-def progress_bar() -> Iterator[Listener]:
-    """A listener that shows on standard error what it is told; nothing stays there."""
+def progress_bar() -> Iterator[ProgressCallback]:
+    """A callback that shows on standard error what it is told; nothing stays there."""
     from rich.console import Console
     from rich.progress import Progress
 

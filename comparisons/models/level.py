@@ -6,7 +6,7 @@ import numpy as np
 
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.models.finite_element.compliance_check import OperatorCheck
 from meshes.block import BlockMesh
 
@@ -46,7 +46,7 @@ class StressResult:
 
     friction: float
     extremes: dict[str, Extremum]
-    field: PlaneStress
+    field: StressState
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class MeshField:
 
     points: np.ndarray
     triangles: np.ndarray
-    stresses: dict[float, PlaneStress]
+    stresses: dict[float, StressState]
     poissons_ratio: np.ndarray
     others: dict[str, np.ndarray] = field(default_factory=dict)
 

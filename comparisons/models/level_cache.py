@@ -14,7 +14,7 @@ from types import CodeType
 
 from analytic.contact.problem import ContactSolution, Residuals
 from analytic.grid import HatGrid
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.common.cache import keep, kept
 from comparisons.common.files import unfinished
 from comparisons.common.mpi import from_first, is_first
@@ -37,7 +37,7 @@ KINDS = (
     Residuals,
     StressResult,
     Extremum,
-    PlaneStress,
+    StressState,
     MeshField,
     BlockMesh,
     BlockSpec,
@@ -50,7 +50,7 @@ SOURCES = Path(__file__).resolve().parents[2]
 PACKAGES = ("analytic", "meshes", "fem", "comparisons")
 
 
-class Checkpoint:
+class LevelCache:
     """Levels of the run that carries out `plan` for `scene` and writes `out`; keeps nothing for a
     run that writes nothing (None)."""
 

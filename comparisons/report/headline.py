@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.assessment.verdict import Standing, half_space_verdict
+from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (
     given_percent,
@@ -17,7 +17,7 @@ from comparisons.common.numbers import (
 from comparisons.common.quantities import QUANTITIES, label
 from comparisons.results.outcome import Outcome
 
-Kind = Literal["holds", "fails", "undecided", "not compared", "not converged"]
+Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
 
 
 @dataclass(frozen=True)
@@ -38,74 +38,74 @@ def headline(outcome: Outcome) -> Headline:
         )
     if not outcome.plan.compares:
         return Headline("not compared", _one_model(outcome))
-    standings = outcome.budget.standings(outcome.problem.scene.tolerance)
-    verdict, _ = half_space_verdict(standings)
-    if not standings:
+    checks = outcome.budget.tolerance_checks(outcome.problem.scene.tolerance)
+    verdict, _ = validity_verdict(checks)
+    if not checks:
         return Headline(
-            "undecided", "The half-plane cannot be judged here: no figure has a tolerance."
+            "inconclusive", "The half-plane cannot be judged here: no figure has a tolerance."
         )
     several = len(outcome.problem.scene.friction) > 1
     if verdict == "holds":
         return Headline(
             "holds",
-            f"The half-plane holds here: {_all_judged(standings)}; nearest to its tolerance, "
-            f"{_said(_nearest(standings), several)}.",
+            f"The half-plane holds here: {_all_judged(checks)}; nearest to its tolerance, "
+            f"{_said(_nearest(checks), several)}.",
         )
     if verdict == "fails":
-        outside = [s for s in standings if s.is_outside]
+        outside = [s for s in checks if s.is_outside]
         more = len(outside) - 1
         are = "are" if more > 1 else "is"
-        others = f"; {more} more of {len(standings)} judged errors {are} outside" if more else ""
+        others = f"; {more} more of {len(checks)} judged errors {are} outside" if more else ""
         return Headline(
             "fails",
             f"The half-plane fails here: {_said(_nearest(outside), several)}"
             f"{_made_of(outcome, _nearest(outside))}{others}.",
         )
-    unclear = [s for s in standings if not s.is_inside]
+    unclear = [s for s in checks if not s.is_inside]
     numerical = [s for s in unclear if s.is_blurred]
     worst = _nearest(numerical or unclear)
     if numerical:
         return Headline(
-            "undecided",
+            "inconclusive",
             f"The half-plane cannot be judged here: {_said(worst, several)}, an uncertainty that "
             "reaches across the tolerance.",
         )
-    missing = max(worst.unshown, key=lambda name: worst.unshown[name])
+    missing = max(worst.not_modelled, key=lambda name: worst.not_modelled[name])
     return Headline(
-        "undecided",
+        "inconclusive",
         f"The half-plane cannot be judged here: {_said(worst, several)}, but what no model of this "
-        f"run contains may move it by {percent(math.hypot(*worst.unshown.values()))}, "
+        f"run contains may move it by {percent(math.hypot(*worst.not_modelled.values()))}, "
         f"{missing} most.",
     )
 
 
-def _all_judged(standings: list[Standing]) -> str:
-    if len(standings) == 1:
+def _all_judged(checks: list[ToleranceCheck]) -> str:
+    if len(checks) == 1:
         return "the one judged error is within its tolerance"
-    several = "both" if len(standings) == 2 else f"all {len(standings)}"
+    several = "both" if len(checks) == 2 else f"all {len(checks)}"
     return f"{several} judged errors are within their tolerances"
 
 
-def _nearest(standings: Iterable[Standing]) -> Standing:
+def _nearest(checks: Iterable[ToleranceCheck]) -> ToleranceCheck:
     """The one farthest outside, or nearest to, its tolerance, its doubt included."""
-    return max(standings, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+    return max(checks, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
 
 
-def _said(standing: Standing, several: bool) -> str:
+def _said(check: ToleranceCheck, several: bool) -> str:
     """An error of the half-plane as a clause: what, how much, tolerance, uncertainty."""
-    quantity = QUANTITIES[standing.quantity]
-    where = f" at friction {plain(standing.friction)}" if several and quantity.needs_stress else ""
-    doubt = standing.uncertainty
-    size = percent(standing.value, signed=not quantity.of_pair, uncertainty=doubt)
+    quantity = QUANTITIES[check.quantity]
+    where = f" at friction {plain(check.friction)}" if several and quantity.needs_stress else ""
+    doubt = check.uncertainty
+    size = percent(check.value, signed=not quantity.of_pair, uncertainty=doubt)
     return (
-        f"its own error in the {label(standing.quantity)}{where} is {size} "
-        f"(tolerance {given_percent(standing.tolerance)}, uncertainty {percent(doubt)})"
+        f"its own error in the {label(check.quantity)}{where} is {size} "
+        f"(tolerance {given_percent(check.tolerance)}, uncertainty {percent(doubt)})"
     )
 
 
-def _made_of(outcome: Outcome, standing: Standing) -> str:
+def _made_of(outcome: Outcome, check: ToleranceCheck) -> str:
     """The effect that makes most of an error, if one makes more than half."""
-    own = outcome.budget.of(standing.quantity, standing.friction)
+    own = outcome.budget.of(check.quantity, check.friction)
     if not own.effects:
         return ""
     name = max(own.effects, key=lambda name: abs(own.effects[name].value))

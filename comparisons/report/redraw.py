@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, write_whole
-from comparisons.common.progress import Listener
+from comparisons.common.progress import ProgressCallback
 from comparisons.report.page import render
 from comparisons.report.pdf import NoPdfError, print_report
 from comparisons.report.saved import read_outcome
@@ -32,7 +32,7 @@ class Report:
 
 
 def draw_again(
-    folders: Sequence[Path], summary: Path | None, pdf: bool, listener: Listener
+    folders: Sequence[Path], summary: Path | None, pdf: bool, callback: ProgressCallback
 ) -> list[Report]:
     """Write report.html of each folder anew, and the summary if a place for it is given.
 
@@ -40,7 +40,7 @@ def draw_again(
     or whose place cannot be written.
     """
     for folder in folders:
-        listener(f"{folder}: reading")
+        callback(f"{folder}: reading")
         read_outcome(folder, with_mesh=False)
         check_writable(folder)
     if summary is not None:
@@ -49,13 +49,13 @@ def draw_again(
             raise InputError(f"--summary: {summary} is a folder; allowed is a file")
     reports = []
     for folder in folders:
-        listener(f"{folder}: drawing the report")
+        callback(f"{folder}: drawing the report")
         content, row = _drawn(folder)  # one at a time in memory
         page = folder / "report.html"
         write_whole(page, content)
         report = Report(page, row)
         if pdf:
-            listener(f"{folder}: printing the report")
+            callback(f"{folder}: printing the report")
             report = _printed(report)
         reports.append(report)
     if summary is not None:

@@ -36,7 +36,7 @@ REMADE = ("gap", "knots")
 
 @dataclass(frozen=True)
 class ShownField:
-    """The components (m, k) [Pa] of a PlaneStress that pictures show."""
+    """The components (m, k) [Pa] of a StressState that pictures show."""
 
     tau1: np.ndarray
     txz: np.ndarray

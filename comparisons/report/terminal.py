@@ -35,7 +35,7 @@ SHORT = {
 STYLES = {
     "agree": "cyan",
     "differ": "bold red",
-    "indistinct": "yellow",
+    "inconclusive": "yellow",
     "holds": "bold cyan",
     "fails": "bold red",
     "not converged": "bold red",

@@ -23,7 +23,7 @@ ROUNDING = KKT_TOLERANCE
 # Observed orders jump where a sequence is not regular, the machine's memory may decide how many
 # levels there are, and estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
-NO_FIGURES |= {"estimate", "unshown", "shared_effects"}
+NO_FIGURES |= {"estimate", "not_modelled", "shared_effects"}
 HANGS_ON = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",
@@ -199,8 +199,8 @@ def _in_budget(entry: dict, place: Path, value: Value | list) -> Stated:
             return Stated(doubt * abs(value), "itself", abs(value) or 1.0)
         case ("effects", effect, "value"):
             return Stated(_number(entry["effects"][effect]["uncertainty"]), "itself", 1.0)
-        case ("own_error", "value") | ("interaction",):
-            return Stated(_number(entry["own_error"]["uncertainty"]), "own_error", 1.0)
+        case ("model_error", "value") | ("interaction",):
+            return Stated(_number(entry["model_error"]["uncertainty"]), "model_error", 1.0)
     return Stated(abs(value), "itself", 1.0)
 
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from comparisons.models.level import ModelRun
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
@@ -80,7 +80,7 @@ def field_of(outcome: Outcome, run: ModelRun) -> FieldFile:
         x, z = np.meshgrid(outcome.window.x, outcome.window.z)
         plane = np.column_stack([x.ravel(), z.ravel()])
         stresses = {
-            s.friction: PlaneStress(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
+            s.friction: StressState(s.field.sx.ravel(), s.field.sz.ravel(), s.field.txz.ravel())
             for s in level.stresses
         }
         rows, columns = x.shape
@@ -103,7 +103,7 @@ def field_of(outcome: Outcome, run: ModelRun) -> FieldFile:
     )
 
 
-def _arrays(stresses: Mapping[float, PlaneStress], nu: float | np.ndarray) -> dict:
+def _arrays(stresses: Mapping[float, StressState], nu: float | np.ndarray) -> dict:
     found = {}
     for index, (friction, stress) in enumerate(stresses.items()):
         suffix = "" if index == 0 else f" (friction {friction:g})"

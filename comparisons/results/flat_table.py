@@ -6,9 +6,9 @@ Columns
   unit                   of the next two, SI; empty for ratios
   half_plane, finite_element   the figure by each model, empty where it is of a pair
   difference, uncertainty, tolerance   relative, as result.json has them
-  verdict                of the row; half_space: of the run
-  own_error, own_error_uncertainty     of the half-plane, relative
-  effect_…               what of own_error is due to each assumption, relative, with the signs
+  verdict                of the row; validity: of the run
+  model_error, own_error_uncertainty     of the half-plane, relative
+  effect_…               what of model_error is due to each assumption, relative, with the signs
                          of the report; empty where not computed
   a_over_radius, …       the run's dimensionless groups
 
@@ -38,7 +38,7 @@ GROUPS = (
     "peak_pressure_over_hardness",
 )
 EFFECT_COLUMNS = {name: f"effect_{name.replace(' ', '_')}" for name in EFFECTS}
-TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "half_space")
+TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity")
 COLUMNS = (
     "run",
     "scene",
@@ -52,8 +52,8 @@ COLUMNS = (
     "uncertainty",
     "tolerance",
     "verdict",
-    "half_space",
-    "own_error",
+    "validity",
+    "model_error",
     "own_error_uncertainty",
     *EFFECT_COLUMNS.values(),
     *GROUPS,
@@ -137,7 +137,7 @@ def rows_of(result: Mapping, run: str) -> list[Row]:
         "run": run,
         "scene": result["scene"]["name"],
         "title": result["scene"]["title"],
-        "half_space": result["half_space"]["verdict"],
+        "validity": result["validity"]["verdict"],
         **result["groups"],
     }
     rows = _compared(result) if result.get("comparison") else _of_one_model(result)
@@ -169,7 +169,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
         parts = {row["friction"]: row for row in budget.get(quantity, ())}
         for row in rows:
             own = parts.get(row["friction"], {})
-            error = own.get("own_error") or {}
+            error = own.get("model_error") or {}
             # an effect that raises the finite elements' figure makes the half-plane's too low
             sign = 1.0 if QUANTITIES[quantity].of_pair else -1.0
             effects = own.get("effects") or {}
@@ -177,7 +177,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 **row,
                 "quantity": quantity,
                 "unit": QUANTITIES[quantity].unit,
-                "own_error": error.get("value"),
+                "model_error": error.get("value"),
                 "own_error_uncertainty": error.get("uncertainty"),
                 **{EFFECT_COLUMNS[name]: sign * share["value"] for name, share in effects.items()},
             }

@@ -4,7 +4,7 @@ from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.coupling import Coupling
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.effects.content import budget_content
-from comparisons.assessment.verdict import Comparison, half_space_verdict
+from comparisons.assessment.verdict import Comparison, validity_verdict
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.plan import Plan, no_coupling
@@ -31,8 +31,8 @@ def result_of(
     """
     hertz = problem.hertz
     groups = _groups(problem, runs)
-    standings = [] if budget is None else budget.standings(problem.scene.tolerance)
-    verdict, why = half_space_verdict(standings)
+    tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
+    verdict, why = validity_verdict(tolerance_checks)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
         by_quantity[row.quantity].append(
@@ -65,7 +65,7 @@ def result_of(
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
         "budget": None if budget is None else budget_content(problem, runs, comparisons, budget),
-        "half_space": {"verdict": verdict, "why": why},
+        "validity": {"verdict": verdict, "why": why},
         "refinement": refinement,
         "assumptions": list(plan.assumptions),
         "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],

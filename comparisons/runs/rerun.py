@@ -12,7 +12,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.results.changes import Movement, movement
 from comparisons.results.outcome import Outcome
@@ -60,7 +60,9 @@ class Repetition:
         }
 
 
-def rerun(folder: Path, out: Path | None = None, listener: Listener = silent) -> Repetition:
+def rerun(
+    folder: Path, out: Path | None = None, callback: ProgressCallback = no_progress
+) -> Repetition:
     """Repeat the run in a folder, which is only read; `out` keeps the repetition.
 
     Raises InputError for a folder without a record, with a broken one, or one that may not be
@@ -68,7 +70,7 @@ def rerun(folder: Path, out: Path | None = None, listener: Listener = silent) ->
     """
     record = from_first(lambda: read_record(folder))
     with _place(folder, out) as place:
-        outcome = run(record.scene, place, record.models, listener)
+        outcome = run(record.scene, place, record.models, callback)
     now = outcome.record
     return Repetition(
         record=record,

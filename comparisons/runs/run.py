@@ -9,9 +9,9 @@ from comparisons.assessment.effects.budget import error_budget
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import Listener, Stages, silent, within
+from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.running_in import run_in_scene
@@ -35,26 +35,26 @@ def run(
     scene: ResolvedScene,
     out: Path | None,
     models: tuple[str, ...],
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
     models    of half_plane, finite_element
-    listener  is told each stage as it begins
+    callback  is told each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution; nothing is written then.
     """
-    stages = Stages(listener)
+    stages = Stages(callback)
     _check_processes(scene, models)
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
                 scene = run_in_scene(scene)
         with stages.stage("set-up", "finding the reach of the contact"):
-            problem = _problem(scene, models, listener)
-        return solve(problem, make_plan(problem, models), out, listener, fields)
+            problem = _problem(scene, models, callback)
+        return solve(problem, make_plan(problem, models), out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except FemError as error:
@@ -83,7 +83,7 @@ def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
             )
 
 
-def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) -> Problem:
+def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCallback) -> Problem:
     if scene.load.kind != "approach":
         return problem_of(scene)
     if "finite_element" not in models:
@@ -93,27 +93,27 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], listener: Listener) 
         )
     from comparisons.models.finite_element.load_at_approach import problem_of_approach
 
-    return problem_of_approach(scene, listener)
+    return problem_of_approach(scene, callback)
 
 
 def solve(
     problem: Problem,
     plan: Plan,
     out: Path | None,
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
 ) -> Outcome:
     """Carry out a plan; `run` with a plan of one's own."""
     window = window_of(problem) if plan.stress else None
-    checkpoint = Checkpoint(out, problem.scene, plan)
+    checkpoint = LevelCache(out, problem.scene, plan)
     levels, solved = WITH_EFFECTS if plan.compares and plan.effects else ALONE
     try:
-        runs, stop = refined(problem, plan, window, checkpoint, within(listener, 0.0, levels))
-        moved = couplings(problem, runs["half_plane"], window, listener) if plan.coupling else ()
+        runs, stop = refined(problem, plan, window, checkpoint, within(callback, 0.0, levels))
+        moved = couplings(problem, runs["half_plane"], window, callback) if plan.coupling else ()
         rows = compared(problem, runs, window) if plan.compares else ()
         budget = None
         if plan.compares:
-            part = within(listener, levels, solved)
+            part = within(callback, levels, solved)
             budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, part)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
@@ -143,7 +143,7 @@ def solve(
     )
     try:
         if out is not None:
-            write_files(outcome, within(listener, solved, 1.0), fields)
+            write_files(outcome, within(callback, solved, 1.0), fields)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     checkpoint.discard()

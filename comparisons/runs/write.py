@@ -6,7 +6,7 @@ import numpy as np
 
 from comparisons.common.files import published
 from comparisons.common.mpi import is_first
-from comparisons.common.progress import Listener, Step
+from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.models.deformed import deformed_height
 from comparisons.models.level import Level
@@ -17,7 +17,7 @@ from comparisons.scenes.scene import ResolvedScene
 from meshes.block import BlockMesh
 
 
-def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -> None:
+def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
     """Write everything into the run's folder; whole files, all at the end, by one process.
 
     fields   format of the stress fields: one of comparisons.results.field_files.FORMATS, or by
@@ -25,7 +25,7 @@ def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -
     """
     if not is_first():
         return
-    listener(Step("writing results", 0.0))
+    callback(Step("writing results", 0.0))
     with published(outcome.directory) as folder:
         for name, run in outcome.runs.items():
             (folder / name).mkdir()
@@ -38,7 +38,7 @@ def write_files(outcome: Outcome, listener: Listener, fields: str = AUTOMATIC) -
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
-        listener("drawing the report")
+        callback("drawing the report")
         from comparisons.report.page import render
         from comparisons.report.saved import FILE, keep_shown
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from fem import compat
 from fem.body.elasticity import ElasticBody, quadrature_degree
 from fem.body.triangle import gradients, reference_nodes
@@ -141,7 +141,7 @@ def nodal_cauchy_stress(
     )
     stress = recovered_stress(body, displacement, matched) + beyond
     stress[top] = on_surface(stress)
-    nodal = at_mesh_points(body, PlaneStress(*stress.T))
+    nodal = at_mesh_points(body, StressState(*stress.T))
     return replace(nodal, kinks=matched.kinks)
 
 

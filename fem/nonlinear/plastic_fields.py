@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.stress_state import PlaneStress, von_mises
+from analytic.stress_state import StressState, von_mises
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.nonlinear.plasticity import PlasticBody
 from fem.nonlinear.press_plastic import PlasticContact
@@ -31,7 +31,7 @@ class PlasticFields:
     equivalent_strain    equivalent plastic strain (n,), zero where the metal has not flowed
     """
 
-    stress: PlaneStress
+    stress: StressState
     sy: np.ndarray
     equivalent_strain: np.ndarray
 
@@ -46,7 +46,7 @@ def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
     sx, sz, txz, sy, strain = _at_points(body, sampled).T
-    return PlasticFields(PlaneStress(sx, sz, txz), sy, np.maximum(strain, 0.0))
+    return PlasticFields(StressState(sx, sz, txz), sy, np.maximum(strain, 0.0))
 
 
 def _at_points(body: PlasticBody, sampled: np.ndarray) -> np.ndarray:

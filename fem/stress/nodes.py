@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from fem.body.elasticity import ElasticBody
 
 
@@ -27,7 +27,7 @@ class StressNodes:
 
 
 @dataclass(frozen=True)
-class MaterialStress(PlaneStress):
+class MaterialStress(StressState):
     """Stresses [Pa] with Poisson's ratio of the material at each point."""
 
     poissons_ratio: np.ndarray

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import Direction, straight_down
 from fem.body.triangle import shapes
@@ -62,7 +62,7 @@ def nodal_stress(
     return NodalStress(stress, nodes, load.kinks)
 
 
-def at_mesh_points(body: ElasticBody, stress: PlaneStress) -> NodalStress:
+def at_mesh_points(body: ElasticBody, stress: StressState) -> NodalStress:
     """Stresses at the mesh's points of a plain body (n,), with polynomials between them."""
     if body.coated.any():
         raise ValueError("a coated body has two stresses at the points of its interface")
@@ -71,14 +71,14 @@ def at_mesh_points(body: ElasticBody, stress: PlaneStress) -> NodalStress:
     return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes)
 
 
-def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> PlaneStress:
+def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> StressState:
     """Stresses [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
     inside = element >= 0
     found = np.full((3, x.size), np.nan)
     found[:, inside] = within(body, nodal, element[inside], at[inside, None])[:, 0].T
-    return PlaneStress(*found.reshape(3, *x.shape))
+    return StressState(*found.reshape(3, *x.shape))
 
 
 def within(

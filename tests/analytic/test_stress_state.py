@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 
-def tensors(stress: PlaneStress, poissons_ratio: float) -> np.ndarray:
+def tensors(stress: StressState, poissons_ratio: float) -> np.ndarray:
     tensor = np.zeros((stress.sx.size, 3, 3))
     tensor[:, 0, 0], tensor[:, 1, 1], tensor[:, 2, 2] = stress.sx, stress.sz, stress.sy(0.0)
     tensor[:, 0, 1] = tensor[:, 1, 0] = stress.txz
@@ -17,7 +17,7 @@ def tensors(stress: PlaneStress, poissons_ratio: float) -> np.ndarray:
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
 def test_scalars_of_random_tensors(nu):
     rng = np.random.default_rng(11)
-    stress = PlaneStress(*rng.standard_normal((3, 50)) * 1e9)
+    stress = StressState(*rng.standard_normal((3, 50)) * 1e9)
     tensor = tensors(stress, nu)
     in_plane = np.linalg.eigvalsh(tensor[:, :2, :2])
     s1, s2 = stress.principal
@@ -32,4 +32,4 @@ def test_scalars_of_random_tensors(nu):
 
 def test_shapes_must_agree():
     with pytest.raises(ValueError, match="equal shape"):
-        PlaneStress(np.zeros(3), np.zeros(3), np.zeros(2))
+        StressState(np.zeros(3), np.zeros(3), np.zeros(2))

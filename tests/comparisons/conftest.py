@@ -22,14 +22,14 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators.half_plane import HalfPlane
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.assessment.comparison import compared, pair_histories
 from comparisons.assessment.effects.budget import error_budget
 from comparisons.common.model_names import MODELS
-from comparisons.common.progress import silent
+from comparisons.common.progress import no_progress
 from comparisons.common.provenance import digest
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult, Window
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.report.figures.style import Picture
@@ -107,7 +107,7 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     mesh_field = None
     if mesh is not None and window is not None:
         zero = np.zeros(len(mesh.points))
-        nodal = {friction: PlaneStress(zero, zero, zero) for friction in problem.scene.friction}
+        nodal = {friction: StressState(zero, zero, zero) for friction in problem.scene.friction}
         mesh_field = MeshField(mesh.points, mesh.triangles, nodal, np.full(len(mesh.points), 0.3))
     return Level(
         grid=grid,
@@ -148,10 +148,10 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
     if plan.compares:
         plan = replace(plan, effects=False)  # there are no finite elements to show any
         comparisons = compared(problem, runs, window)
-        kept = Checkpoint(Path("results/made"), scene, plan)
+        kept = LevelCache(Path("results/made"), scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
         with patch("comparisons.assessment.effects.budget.sampling_changes", lambda *_: rows):
-            budget = error_budget(problem, plan, window, runs, comparisons, (), kept, silent)
+            budget = error_budget(problem, plan, window, runs, comparisons, (), kept, no_progress)
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()
     }

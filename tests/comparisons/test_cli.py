@@ -204,7 +204,7 @@ def test_scenes_are_listed_with_their_titles(capsys):
 def test_doctor_shows_its_table(capsys, monkeypatch, works, status):
     checks = [types.SimpleNamespace(ok=True), types.SimpleNamespace(ok=works)]
     module = types.SimpleNamespace(
-        doctor=lambda listener: checks, doctor_table=lambda shown: f"{len(shown)} checks"
+        doctor=lambda callback: checks, doctor_table=lambda shown: f"{len(shown)} checks"
     )
     monkeypatch.setitem(sys.modules, "comparisons.commands.doctor_checks", module)
     assert main(["doctor"]) == status

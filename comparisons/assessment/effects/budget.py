@@ -5,16 +5,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from comparisons.assessment.coupling import Coupling
-from comparisons.assessment.effects.contributions import Parts, bodies_for, parts_of
+from comparisons.assessment.effects.contributions import EffectContributions, bodies_for, parts_of
 from comparisons.assessment.effects.levels import Bodies, NotComputedError, processes_beside
-from comparisons.assessment.effects.model_error import OwnError, own_errors
+from comparisons.assessment.effects.model_error import ModelError, model_errors
 from comparisons.assessment.effects.sampling import sampling_changes
 from comparisons.assessment.effects.selection import NONLINEAR, Choice, choose
-from comparisons.assessment.verdict import Comparison, Standing
+from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.mpi import from_first
-from comparisons.common.progress import Listener
+from comparisons.common.progress import ProgressCallback
 from comparisons.models.level import ModelRun, Window
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 
@@ -38,23 +38,23 @@ class ErrorBudget:
     choice: Choice
     levels: int
     unsplit: str | None
-    own: tuple[OwnError, ...]
+    own: tuple[ModelError, ...]
     sampling: dict[float, dict[str, float]]
     seconds: float
 
-    def of(self, quantity: str, friction: float) -> OwnError:
+    def of(self, quantity: str, friction: float) -> ModelError:
         """Of one quantity."""
         return next(o for o in self.own if (o.quantity, o.friction) == (quantity, friction))
 
-    def standings(self, tolerance: Mapping[str, float]) -> list[Standing]:
+    def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
         """Where the half-plane stands in every quantity that has a tolerance."""
         return [
-            Standing(
+            ToleranceCheck(
                 own.quantity,
                 own.friction,
                 own.value,
                 own.uncertainty,
-                self.choice.unshown(own.quantity),
+                self.choice.not_modelled(own.quantity),
                 tolerance[own.quantity],
             )
             for own in self.own
@@ -69,8 +69,8 @@ def error_budget(
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
     couplings: tuple[Coupling, ...],
-    checkpoint: Checkpoint,
-    listener: Listener,
+    checkpoint: LevelCache,
+    callback: ProgressCallback,
 ) -> ErrorBudget:
     """Choose the effects that may matter, solve them, and split the difference of the models.
 
@@ -83,7 +83,7 @@ def error_budget(
         choice = choice.without(asked, "not asked for (budget.effects)")
     unsplit = None
     with processes_beside() as beside:
-        bodies = Bodies(problem, window, runs["finite_element"], checkpoint, listener, beside)
+        bodies = Bodies(problem, window, runs["finite_element"], checkpoint, callback, beside)
         while True:
             try:
                 levels, own = _refined(problem, window, runs, rows, choice, bodies)
@@ -96,7 +96,7 @@ def error_budget(
                 choice = choice.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
-        listener("error budget: sampling of the trace")
+        callback("error budget: sampling of the trace")
         sampling = from_first(
             lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
         )
@@ -110,13 +110,13 @@ def _refined(
     rows: tuple[Comparison, ...],
     choice: Choice,
     bodies: Bodies,
-) -> tuple[int, list[OwnError]]:
+) -> tuple[int, list[ModelError]]:
     """The half-plane's own errors, and the level that the effects were taken to for them.
 
     Raises NotComputedError where an effect has no answer on the least levels.
     """
-    history: dict[float, list[Parts]] = {mu: [] for mu in problem.scene.friction}
-    own: list[OwnError] = []
+    history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
+    own: list[ModelError] = []
     asked = problem.scene.budget.levels or MOST_LEVELS
     most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
@@ -132,7 +132,7 @@ def _refined(
         own = [
             error
             for friction, parts in history.items()
-            for error in own_errors(
+            for error in model_errors(
                 problem,
                 window,
                 runs,
@@ -157,10 +157,10 @@ def _is_beyond(problem: Problem, runs: dict[str, ModelRun], bodies: Bodies, numb
     return spent + finer > problem.scene.budget.time
 
 
-def _unsplit(rows: tuple[Comparison, ...]) -> list[OwnError]:
+def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:
     """The models' differences as they are."""
     return [
-        OwnError(
+        ModelError(
             row.quantity,
             row.friction,
             {},
@@ -172,7 +172,7 @@ def _unsplit(rows: tuple[Comparison, ...]) -> list[OwnError]:
     ]
 
 
-def _settled(rows: tuple[Comparison, ...], own: list[OwnError]) -> bool:
+def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
     """Whether the effects add little to the uncertainty of every judged figure."""
     found = {(e.quantity, e.friction): e.uncertainty - e.stand_in for e in own}
     return all(

@@ -5,7 +5,7 @@ import math
 from comparisons.assessment.comparison import Uncertainty, uncertainties
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.effects.effects import EFFECTS
-from comparisons.assessment.effects.model_error import OwnError, Share
+from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.verdict import Comparison
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
@@ -33,7 +33,7 @@ def budget_content(
             | ({} if row.half_plane is None else {"numerical": numerical})
             | {"input": budget.sampling.get(row.friction, {}).get(row.quantity)}
             | _own(budget.of(row.quantity, row.friction))
-            | {"unshown": budget.choice.unshown(row.quantity)}
+            | {"not_modelled": budget.choice.not_modelled(row.quantity)}
         )
     return {
         "effects": {name: _effect(name, budget) for name in EFFECTS},
@@ -75,15 +75,15 @@ def _numerical(doubt: Uncertainty | None) -> dict | None:
     }
 
 
-def _own(own: OwnError) -> dict:
+def _own(own: ModelError) -> dict:
     return {
         "effects": {name: _share(share) for name, share in own.effects.items()},
         "interaction": own.interaction,
-        "own_error": {"value": own.value, "uncertainty": _known(own.uncertainty)},
+        "model_error": {"value": own.value, "uncertainty": _known(own.uncertainty)},
     }
 
 
-def _share(share: Share) -> dict:
+def _share(share: Estimate) -> dict:
     return {"value": share.value, "uncertainty": _known(share.uncertainty)}
 
 

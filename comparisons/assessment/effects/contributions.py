@@ -17,7 +17,7 @@ from typing import Protocol
 
 import numpy as np
 
-from comparisons.assessment.effects.quantities_of_interest import Answer
+from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest
 from comparisons.assessment.effects.selection import NONLINEAR, Choice
 from comparisons.assessment.effects.variants import Body, strain_share
 from comparisons.models.problem import Problem
@@ -26,7 +26,7 @@ COUPLED = "coupling"
 
 
 @dataclass(frozen=True)
-class Parts:
+class EffectContributions:
     """At one friction coefficient, on one level.
 
     effects      by name, as far as they apply at this friction
@@ -35,19 +35,19 @@ class Parts:
     own          the scene's own finite elements
     """
 
-    effects: dict[str, Answer]
-    interaction: Answer
-    lacking: Answer
-    own: Answer
+    effects: dict[str, QuantitiesOfInterest]
+    interaction: QuantitiesOfInterest
+    lacking: QuantitiesOfInterest
+    own: QuantitiesOfInterest
 
 
 class Bodies(Protocol):
     """Who answers."""
 
-    def own_answer(self, number: int, friction: float) -> Answer:
+    def own_answer(self, number: int, friction: float) -> QuantitiesOfInterest:
         """Of the scene's own finite elements on a level."""
 
-    def answer(self, body: Body, number: int, friction: float) -> Answer:
+    def answer(self, body: Body, number: int, friction: float) -> QuantitiesOfInterest:
         """Of a body on a level."""
 
 
@@ -57,10 +57,10 @@ class _Listed:
     def __init__(self) -> None:
         self.asked: dict[Body, None] = {}
 
-    def own_answer(self, number: int, friction: float) -> Answer:
-        return Answer({}, np.zeros(0), None)
+    def own_answer(self, number: int, friction: float) -> QuantitiesOfInterest:
+        return QuantitiesOfInterest({}, np.zeros(0), None)
 
-    def answer(self, body: Body, number: int, friction: float) -> Answer:
+    def answer(self, body: Body, number: int, friction: float) -> QuantitiesOfInterest:
         self.asked[body] = None
         return self.own_answer(number, friction)
 
@@ -75,7 +75,7 @@ def bodies_for(problem: Problem, choice: Choice) -> list[Body]:
 
 def parts_of(
     problem: Problem, bodies: Bodies, choice: Choice, friction: float, level: int
-) -> Parts:
+) -> EffectContributions:
     """All parts on a level; raises what `bodies` raises where a body has no answer."""
     whole = choice.whole - ({COUPLED} if friction == 0.0 else frozenset())
     linear = frozenset(name for name in whole if name not in NONLINEAR)
@@ -93,10 +93,12 @@ def parts_of(
     }
     own = bodies.own_answer(level, friction)
     lacking = reduce(add, nonlinear.values(), together) - own
-    return Parts(effects | nonlinear, interaction, lacking, own)
+    return EffectContributions(effects | nonlinear, interaction, lacking, own)
 
 
-def _solved(bodies: Bodies, effects: frozenset[str], friction: float, level: int) -> Answer:
+def _solved(
+    bodies: Bodies, effects: frozenset[str], friction: float, level: int
+) -> QuantitiesOfInterest:
     shaping = friction if COUPLED in effects and friction else None
     return bodies.answer(Body(effects, shaping), level, friction)
 
@@ -109,7 +111,7 @@ def _nonlinear(
     name: str,
     friction: float,
     level: int,
-) -> Answer:
+) -> QuantitiesOfInterest:
     """What the nonlinear effect adds to linear bodies that have what it cannot be without."""
     if name == "plastic flow":  # the scene's own: nothing else has a yield stress
         beside = (choice.contained & linear) | ({COUPLED} if friction else frozenset())

@@ -14,15 +14,15 @@ import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.assessment.effects.effects import contained, is_taken_apart
-from comparisons.assessment.effects.quantities_of_interest import Answer, answer_of
+from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest, answer_of
 from comparisons.assessment.effects.variants import Body, problem_with
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
-from comparisons.common.progress import Listener, Stages, Step, machine_memory
+from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory
 from comparisons.models.level import Level, ModelRun, Window
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from fem.solver.mumps import FemError
@@ -65,10 +65,10 @@ class Bodies:
     problem: Problem
     window: Window | None
     own: ModelRun
-    checkpoint: Checkpoint
-    listener: Listener
+    checkpoint: LevelCache
+    callback: ProgressCallback
     beside: Sequence[Call] = ()
-    answers: dict[tuple[Body, int, float], Answer] = field(default_factory=dict)
+    answers: dict[tuple[Body, int, float], QuantitiesOfInterest] = field(default_factory=dict)
     failed: dict[tuple[Body, int], NotComputedError] = field(default_factory=dict)
     seconds: float = 0.0
     expected: dict[tuple[Body, int], float] = field(default_factory=dict)
@@ -79,11 +79,11 @@ class Bodies:
         scene = self.problem.scene
         self._own_effects = contained(scene) if is_taken_apart(scene) else None
 
-    def own_answer(self, number: int, friction: float) -> Answer:
+    def own_answer(self, number: int, friction: float) -> QuantitiesOfInterest:
         """Of the scene's own finite elements."""
         return answer_of(self.own.levels[number - 1], self.problem, friction)
 
-    def answer(self, body: Body, number: int, friction: float) -> Answer:
+    def answer(self, body: Body, number: int, friction: float) -> QuantitiesOfInterest:
         """Of a body on a level, solved where it is new; raises NotComputedError."""
         if self._is_own(body):
             return self.own_answer(number, friction)
@@ -139,7 +139,7 @@ class Bodies:
         from comparisons.models.finite_element.bodies import BodyStore
 
         words = ", ".join(sorted(body.effects)) or "no effect"
-        self.listener(Step(f"error budget: finite elements with {words}, level {number}", behind))
+        self.callback(Step(f"error budget: finite elements with {words}, level {number}", behind))
         store = self._store = self._store or BodyStore()
         self._keep(body, number, lambda: _solved(self.problem, self.window, body, number, store))
 

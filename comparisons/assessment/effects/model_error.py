@@ -17,8 +17,12 @@ from comparisons.assessment.comparison import (
     pair_history,
     reference_share,
 )
-from comparisons.assessment.effects.contributions import Parts
-from comparisons.assessment.effects.quantities_of_interest import Answer, answer_of, sizes
+from comparisons.assessment.effects.contributions import EffectContributions
+from comparisons.assessment.effects.quantities_of_interest import (
+    QuantitiesOfInterest,
+    answer_of,
+    sizes,
+)
 from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.variants import strain_doubt
 from comparisons.assessment.uncertainty import grid_convergence, two_grids
@@ -31,7 +35,7 @@ LENGTHS = ("contact_length", "contact_ratio")
 
 
 @dataclass(frozen=True)
-class Share:
+class Estimate:
     """A relative size with its uncertainty, absolute in the same measure."""
 
     value: float
@@ -39,7 +43,7 @@ class Share:
 
 
 @dataclass(frozen=True)
-class OwnError:
+class ModelError:
     """Of one quantity at one friction coefficient, relative to the whole.
 
     effects      by name, what each changes in the finite elements
@@ -52,21 +56,21 @@ class OwnError:
 
     quantity: str
     friction: float
-    effects: dict[str, Share]
+    effects: dict[str, Estimate]
     interaction: float
     value: float
     uncertainty: float
     stand_in: float = 0.0
 
 
-def own_errors(
+def model_errors(
     problem: Problem,
     window: Window | None,
     runs: dict[str, ModelRun],
     rows: list[Comparison],
-    history: list[Parts],
+    history: list[EffectContributions],
     choice: Choice,
-) -> list[OwnError]:
+) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
 
     rows     the models' comparison at that friction
@@ -85,7 +89,7 @@ def own_errors(
     grid = runs["finite_element"].levels[len(history) - 1]
     edge = 2.0 * length_resolution(grid.grid.pitch, len(grid.patches)) / grid.contact_length
 
-    def share(name: str, changes: list[Answer]) -> Share:
+    def share(name: str, changes: list[QuantitiesOfInterest]) -> Estimate:
         if QUANTITIES[name].of_pair:
             values = [
                 sizes(change, reference, problem, window)[name]
@@ -95,9 +99,9 @@ def own_errors(
             scale = _scale(whole[-1].figures[name], name, problem)
             values = [change.figures[name] / scale for change in changes]
         if not any(values):
-            return Share(0.0, 0.0)
+            return Estimate(0.0, 0.0)
         doubt = _doubt(values, name, edge)
-        return Share(values[-1], doubt + PRESSURE_PER_RESIDUAL * residual)
+        return Estimate(values[-1], doubt + PRESSURE_PER_RESIDUAL * residual)
 
     lacking = [parts.lacking for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]
@@ -113,7 +117,7 @@ def own_errors(
         if "finite strain" in effects:
             strain = effects["finite strain"]
             stand_in = strain_doubt(problem) * abs(strain.value)
-            effects["finite strain"] = Share(strain.value, strain.uncertainty + stand_in)
+            effects["finite strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
         numerical = np.inf if row.uncertainty is None else row.uncertainty
         missing = share(name, lacking)
         if not QUANTITIES[name].of_pair:
@@ -127,7 +131,7 @@ def own_errors(
         else:
             value, doubt = row.difference, numerical
         found.append(
-            OwnError(
+            ModelError(
                 name,
                 friction,
                 effects,
@@ -141,7 +145,7 @@ def own_errors(
 
 
 def _of_figure(
-    row: Comparison, numerical: float, lacking: float, missing: Share, problem: Problem
+    row: Comparison, numerical: float, lacking: float, missing: Estimate, problem: Problem
 ) -> tuple[float, float]:
     """Error of a figure and its uncertainty, relative to the whole.
 
@@ -168,5 +172,5 @@ def _doubt(values: list[float], name: str, edge: float) -> float:
     return grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
 
 
-def _is_any(answer: Answer) -> bool:
+def _is_any(answer: QuantitiesOfInterest) -> bool:
     return bool(np.any(answer.pressure)) or any(answer.figures.values())

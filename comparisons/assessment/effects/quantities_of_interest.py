@@ -17,7 +17,7 @@ from comparisons.models.problem import Problem
 
 
 @dataclass(frozen=True)
-class Answer:
+class QuantitiesOfInterest:
     """Of one model at one friction coefficient, or a difference of such.
 
     figures    by compared quantity, SI
@@ -29,28 +29,28 @@ class Answer:
     pressure: np.ndarray
     tau1: np.ndarray | None
 
-    def __add__(self, other: Answer) -> Answer:
-        return Answer(
+    def __add__(self, other: QuantitiesOfInterest) -> QuantitiesOfInterest:
+        return QuantitiesOfInterest(
             {name: value + other.figures[name] for name, value in self.figures.items()},
             self.pressure + other.pressure,
             None if self.tau1 is None else self.tau1 + other.tau1,
         )
 
-    def __mul__(self, factor: float) -> Answer:
-        return Answer(
+    def __mul__(self, factor: float) -> QuantitiesOfInterest:
+        return QuantitiesOfInterest(
             {name: factor * value for name, value in self.figures.items()},
             factor * self.pressure,
             None if self.tau1 is None else factor * self.tau1,
         )
 
-    def __sub__(self, other: Answer) -> Answer:
+    def __sub__(self, other: QuantitiesOfInterest) -> QuantitiesOfInterest:
         return self + other * -1.0
 
 
-def answer_of(level: Level, problem: Problem, friction: float) -> Answer:
+def answer_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
     """The answer of a solved level; `problem` is the one that it solves."""
     stress = level.stress(friction)
-    return Answer(
+    return QuantitiesOfInterest(
         figures(level, problem, friction),
         level.solution.pressure,
         None if stress is None else stress.field.tau1,
@@ -58,7 +58,10 @@ def answer_of(level: Level, problem: Problem, friction: float) -> Answer:
 
 
 def sizes(
-    difference: Answer, reference: Answer, problem: Problem, window: Window | None
+    difference: QuantitiesOfInterest,
+    reference: QuantitiesOfInterest,
+    problem: Problem,
+    window: Window | None,
 ) -> dict[str, float]:
     """A difference relative to a whole answer, by quantity in the order of QUANTITIES.
 

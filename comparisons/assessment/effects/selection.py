@@ -40,7 +40,7 @@ class Choice:
         impossible = self.impossible | dict.fromkeys(names, why)
         return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
 
-    def unshown(self, quantity: str) -> Sizes:
+    def not_modelled(self, quantity: str) -> Sizes:
         """Estimates on a quantity of the effects that no model has, by name."""
         open_effects = set(self.left_out) | set(self.impossible)
         return {

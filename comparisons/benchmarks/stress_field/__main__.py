@@ -26,7 +26,7 @@ from analytic.stress.field import friction_field, stress_field
 from analytic.stress.kernels import circle
 from analytic.stress.line import direct_stress
 from analytic.stress.points import stress_at
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from comparisons.benchmarks.stress_field.direct import FRICTION, direct, hats, shared_nodes, strips
 
 _BLOCK = 2**15  # values of a kernel at a time
@@ -89,7 +89,7 @@ def field_rows(elements: int, levels: int, repeats: int) -> list[Row]:
     depths = np.linspace(0.0, 1.0, levels)
     window = (nodes[0], nodes[-1])
 
-    def field() -> PlaneStress:
+    def field() -> StressState:
         return stress_field(nodes, load, FRICTION, window, depths).stress
 
     def every_friction() -> FrictionStress:
@@ -182,7 +182,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 1 if wrong else 0
 
 
-def _stacked(stress: PlaneStress) -> np.ndarray:
+def _stacked(stress: StressState) -> np.ndarray:
     return np.array([np.ravel(getattr(stress, name)) for name in ("sx", "sz", "txz")])
 
 
@@ -193,7 +193,7 @@ def _difference(
     some = np.random.default_rng(9).permutation(len(x))[:_CHECKED_POINTS]
     pitch = (nodes[-1] - nodes[0]) / (len(nodes) - 1)
     parts = direct_stress(nodes, load, pitch, x[some], z[some], "hat")
-    expected = _stacked(FrictionStress(PlaneStress(*parts[:3]), parts[3]).at(FRICTION))
+    expected = _stacked(FrictionStress(StressState(*parts[:3]), parts[3]).at(FRICTION))
     return float(np.abs(found[:, some] - expected).max() / np.abs(expected).max())
 
 

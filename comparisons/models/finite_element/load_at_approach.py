@@ -7,7 +7,7 @@ is then compared under the load that the layer carries.
 import numpy as np
 
 from comparisons.common.errors import SceneError
-from comparisons.common.progress import Listener, Stages
+from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.models.finite_element.bodies import BodyStore
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
@@ -19,7 +19,7 @@ SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
 MOST_ROUNDS = 12
 
 
-def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
+def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Problem:
     """The scene's problem with the load [N/m] that goes with its approach, to SETTLED or better.
 
     Each round meshes for the load of the one before and prescribes the approach there. Raises
@@ -35,7 +35,7 @@ def problem_of_approach(scene: ResolvedScene, listener: Listener) -> Problem:
         problem = problem_of(scene, load)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
-        listener("finite elements: load of the prescribed approach")
+        callback("finite elements: load of the prescribed approach")
         level = finite_element_level(
             problem, plan, Refinement(pitch), None, Stages(), approach=wanted, store=store
         )

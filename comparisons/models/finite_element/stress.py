@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.common.mpi import from_first
 from comparisons.models.deformed import mean_height
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
@@ -117,7 +117,7 @@ def stresses_of(
         nodal = pressed.stress(friction)
         results.append(_on_window(body, nodal, friction, window, pressed.others.get("von_mises")))
         stress, nodes = nodal.stress, nodal.nodes
-        on_mesh[friction] = PlaneStress(stress.sx, stress.sz, stress.txz)
+        on_mesh[friction] = StressState(stress.sx, stress.sz, stress.txz)
     mesh_field = MeshField(
         body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
     )

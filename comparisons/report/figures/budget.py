@@ -128,8 +128,10 @@ def _bar(outcome: Outcome, quantity: str, entry: dict) -> Bar:
     parts["sampling"] = entry["input"] or 0.0
     parts |= {name: abs(entry["effects"].get(name, {}).get("value", 0.0)) for name in EFFECTS}
     parts["together"] = abs(entry["interaction"])
-    parts["estimated only"] = float(np.sqrt(sum(size**2 for size in entry["unshown"].values())))
-    own = entry["own_error"]
+    parts["estimated only"] = float(
+        np.sqrt(sum(size**2 for size in entry["not_modelled"].values()))
+    )
+    own = entry["model_error"]
     return Bar(
         quantity,
         parts,

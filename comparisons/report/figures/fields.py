@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.report.figures.field_layout import (
@@ -40,7 +40,7 @@ class Component:
     words: str
     colours: str
     signed: bool
-    of: Callable[[PlaneStress], np.ndarray]
+    of: Callable[[StressState], np.ndarray]
 
 
 COMPONENTS = (

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from comparisons.assessment.effects.model_error import OwnError
+from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.numbers import given_percent, percent, plain
 from comparisons.common.quantities import QUANTITIES, label
 from comparisons.results.outcome import Outcome
@@ -50,7 +50,7 @@ def budget_rows(outcome: Outcome, judged: bool = False) -> list[BudgetRow]:
     return rows
 
 
-def _figures(own: OwnError) -> tuple[str, str, tuple[str, ...]]:
+def _figures(own: ModelError) -> tuple[str, str, tuple[str, ...]]:
     signed = not QUANTITIES[own.quantity].of_pair
     return (
         percent(own.value, signed=signed, uncertainty=own.uncertainty),
@@ -59,7 +59,7 @@ def _figures(own: OwnError) -> tuple[str, str, tuple[str, ...]]:
     )
 
 
-def parts_in_words(own: OwnError) -> tuple[str, ...]:
+def parts_in_words(own: ModelError) -> tuple[str, ...]:
     """What the half-plane lacks, as shares of its error: an effect that raises the finite
     elements' figure makes the half-plane's too low. Norms have no sign."""
     signed = not QUANTITIES[own.quantity].of_pair

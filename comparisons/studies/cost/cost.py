@@ -7,7 +7,7 @@ from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessEnded, fresh_process
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
@@ -29,7 +29,7 @@ def cost(
     scene: ResolvedScene,
     out: Path,
     repeats: int,
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
     methods: tuple[Method, ...] = METHODS,
 ) -> Cost:
     """Measure, judge, and leave cost.json and cost.html in `out`, whole or not at all.
@@ -46,9 +46,9 @@ def cost(
     store = CostStore(out, scene, repeats)
     store.tidy()
     try:
-        problem = _problem(scene, store, listener)
-        found = judged(problem, measured_study(problem, repeats, store, listener, methods))
-        listener("drawing the diagrams")
+        problem = _problem(scene, store, callback)
+        found = judged(problem, measured_study(problem, repeats, store, callback, methods))
+        callback("drawing the diagrams")
         with published(out, FILES) as folder:
             (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
             (folder / "cost.html").write_text(cost_page(found), encoding="utf-8")
@@ -57,15 +57,15 @@ def cost(
     return found
 
 
-def _problem(scene: ResolvedScene, store: CostStore, listener: Listener) -> Problem:
+def _problem(scene: ResolvedScene, store: CostStore, callback: ProgressCallback) -> Problem:
     """The scene's problem; a prescribed approach is turned into its load."""
-    listener("finding the reach of the contact")
+    callback("finding the reach of the contact")
     try:
         if scene.load.kind != "approach":
             return problem_of(scene)
         load = store.load_per_length()
         if load is None:
-            listener("finite elements: load of the prescribed approach")
+            callback("finite elements: load of the prescribed approach")
             with fresh_process() as call:
                 load = call(_load_of_approach, scene)
             store.save_load_per_length(load)
@@ -83,7 +83,7 @@ def _load_of_approach(scene: ResolvedScene) -> float:
     """[N/m]; in a process of its own, which an interrupt ends at once."""
     from comparisons.models.finite_element.load_at_approach import problem_of_approach
 
-    return problem_of_approach(scene, silent).hertz.load_per_length
+    return problem_of_approach(scene, no_progress).hertz.load_per_length
 
 
 def judged(problem: Problem, study: Study) -> Cost:

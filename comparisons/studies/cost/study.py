@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from comparisons.common.numbers import with_unit
 from comparisons.common.processes import Call, ProcessEnded, fresh_process
-from comparisons.common.progress import Listener, Step, within
+from comparisons.common.progress import ProgressCallback, Step, within
 from comparisons.models.problem import Problem
 from comparisons.studies.cost.cache import CostStore
 from comparisons.studies.cost.measure import Measured, Refused, Task, measure
@@ -76,7 +76,7 @@ def measured_study(
     problem: Problem,
     repeats: int,
     store: CostStore,
-    listener: Listener,
+    callback: ProgressCallback,
     methods: tuple[Method, ...] = METHODS,
 ) -> Study:
     """Measure what `store` lacks, and keep it there; in a fresh process for each method, whose
@@ -91,7 +91,7 @@ def measured_study(
         left = share * problem.scene.budget.time - spent
         with fresh_process() as call:
             ask = _asked(store, call)
-            part = within(listener, number / len(methods), (number + 1) / len(methods))
+            part = within(callback, number / len(methods), (number + 1) / len(methods))
             found = _series(method, problem, repeats, left, ask, part)
             if _wants_halved(method, problem) and found[0].status == OK:
                 task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
@@ -109,7 +109,7 @@ def _series(
     repeats: int,
     left: float,
     ask: Ask,
-    listener: Listener,
+    callback: ProgressCallback,
 ) -> list[Row]:
     """The rows of a method, in the seconds of the processor that are left for it."""
     rows, settings, lost = [], method.settings(problem), None
@@ -118,7 +118,7 @@ def _series(
     for number, setting in enumerate(settings, start=1):
         label = Row(method, setting, OK).label
         name = f"{method.name}: {label} ({number} of {len(settings)})"
-        listener(Step(name, (number - 1) / len(settings)))
+        callback(Step(name, (number - 1) / len(settings)))
         count = 0 if method.adapted else problem.grid(setting).count
         if lost is not None:
             rows.append(Row(method, setting, SKIPPED, lost))

@@ -30,7 +30,9 @@ def cost_summary(cost: Cost) -> "RenderableType":
     for column in (*heads, *(SHORT[name].replace(" ", "\n", 1) for name in names)):
         table.add_column(column, justify="right", overflow="fold")
     for each in cost.assessed:
-        style = "" if each.row.status == OK else STYLES["differ" if _failed(each) else "indistinct"]
+        style = (
+            "" if each.row.status == OK else STYLES["differ" if _failed(each) else "inconclusive"]
+        )
         table.add_row(*(Text(c.translate(PLAIN), style=style) for c in cells(cost, each, names)))
     lines = [Text(choice.sentence.translate(PLAIN)) for choice in cost.choices]
     notes = [

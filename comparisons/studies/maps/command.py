@@ -5,14 +5,16 @@ from pathlib import Path
 from comparisons.common.errors import InputError
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import Listener
+from comparisons.common.progress import ProgressCallback
 from comparisons.studies.maps.executors import cluster, ranks
 from comparisons.studies.maps.make import make_map
 from comparisons.studies.maps.point import FAILED, NOT_CONVERGED
 from comparisons.studies.maps.request import MapRequest
 
 
-def mapped(request: MapRequest, out: Path, workers: str | None, listener: Listener) -> dict | None:
+def mapped(
+    request: MapRequest, out: Path, workers: str | None, callback: ProgressCallback
+) -> dict | None:
     """The content of the map; None in processes that only work for the first under mpirun.
 
     workers  a number of processes, or the address of a Dask scheduler; None: one a core, or what
@@ -21,16 +23,16 @@ def mapped(request: MapRequest, out: Path, workers: str | None, listener: Listen
     """
     if is_several():
         with ranks() as crew:
-            return None if crew is None else make_map(request, out, crew, listener)
+            return None if crew is None else make_map(request, out, crew, callback)
     if workers is None or workers.isdigit():
-        return make_map(request, out, _number(workers), listener)
+        return make_map(request, out, _number(workers), callback)
     if "://" not in workers:
         raise InputError(
             f"--workers: is {workers!r}; allowed is a number, or a Dask scheduler's address "
             "such as tcp://host:8786"
         )
     with cluster(workers) as crew:
-        return make_map(request, out, crew, listener)
+        return make_map(request, out, crew, callback)
 
 
 def exit_status(content: dict) -> ExitStatus:

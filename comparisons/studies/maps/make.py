@@ -7,7 +7,7 @@ from pathlib import Path
 
 from comparisons.common.files import check_writable
 from comparisons.common.processes import processes
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.content import map_content
@@ -23,7 +23,7 @@ def make_map(
     request: MapRequest,
     out: Path,
     workers: Workers | int | None = None,
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
 ) -> dict:
     """Compute the points that `out` lacks, write the map there, and return its content.
 
@@ -38,11 +38,11 @@ def make_map(
     if isinstance(workers, Workers):
         open_executor, count = lambda count: nullcontext(workers.executor), workers.count
     try:
-        sweep(points, store, open_executor, count, listener)
+        sweep(points, store, open_executor, count, callback)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     content = map_content(request, store)
-    listener("map: picture")
+    callback("map: picture")
     from comparisons.studies.maps.picture import map_picture
 
     _write(out / PICTURE, map_picture(content))

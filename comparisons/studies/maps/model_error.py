@@ -24,7 +24,7 @@ LENGTHS = ("contact_length", "contact_ratio")
 
 
 @dataclass(frozen=True)
-class OwnError:
+class PointError:
     """Of a quantity: the models' values [SI] on the finest level (None: a norm of both), the
     half-plane's error relative to the finite elements, and the numerical uncertainty of that
     (None: unknown)."""
@@ -35,13 +35,13 @@ class OwnError:
     uncertainty: float | None
 
 
-def own_errors(
+def model_errors(
     half_plane: ModelRun,
     finite_element: ModelRun,
     problem: Problem,
     friction: float,
     window: Window | None,
-) -> dict[str, OwnError]:
+) -> dict[str, PointError]:
     """By quantity, in the order of QUANTITIES."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [_differences(one, other, problem, friction, window) for one, other in pairs]
@@ -60,7 +60,7 @@ def own_errors(
         )
         domain = DOMAIN * abs(moved[name] - history[0][name])
         doubt = convergence.uncertainty + domain + PRESSURE_PER_RESIDUAL * residual
-        found[name] = OwnError(
+        found[name] = PointError(
             one.get(name),
             other.get(name),
             history[-1][name],

@@ -16,7 +16,7 @@ from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.maps.model_error import OwnError, own_errors
+from comparisons.studies.maps.model_error import PointError, model_errors
 from comparisons.studies.maps.request import Asked
 from fem.solver.communicator import each_alone
 from meshes.errors import MeshError
@@ -67,7 +67,7 @@ def _solved(asked: Asked) -> dict:
         for run in runs:
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        errors = own_errors(*runs, problem, friction, window)
+        errors = model_errors(*runs, problem, friction, window)
         if not is_open(errors[asked.quantity]):
             break
     return {
@@ -115,13 +115,13 @@ def _refined(
         pitch *= 0.5
 
 
-def is_open(error: OwnError) -> bool:
+def is_open(error: PointError) -> bool:
     """Whether the error is not told from the numerical one as well as a map can show it."""
     told = SHARE * max(abs(error.difference), TOLERANCES[0])
     return error.uncertainty is None or error.uncertainty > told
 
 
-def _rounded(error: OwnError) -> dict:
+def _rounded(error: PointError) -> dict:
     plain = asdict(error)
     for name in ("difference", "uncertainty"):
         if plain[name] is not None:

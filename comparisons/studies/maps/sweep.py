@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager
 
-from comparisons.common.progress import Listener, Step, silent
+from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.point import failed, solve_point
 from comparisons.studies.maps.request import Asked
@@ -24,7 +24,7 @@ def sweep(
     store: PointStore,
     open_executor: Open,
     workers: int,
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
 ) -> None:
     """Have every point in the store that is not there yet.
 
@@ -38,9 +38,9 @@ def sweep(
         nonlocal done
         store.save(point.key, answer)
         done += 1
-        listener(_step(done, len(wanted)))
+        callback(_step(done, len(wanted)))
 
-    listener(_step(done, len(wanted)))
+    callback(_step(done, len(wanted)))
     while left:
         for suspect in _until_broken(left, keep, open_executor, workers):
             if _until_broken(deque([suspect]), keep, open_executor, 1):

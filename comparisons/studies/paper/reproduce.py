@@ -8,7 +8,7 @@ from comparisons.common.errors import InputError
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import Listener, Step, silent, within
+from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.claims.claim_list import claims
@@ -78,7 +78,9 @@ class Paper:
         }
 
 
-def paper(out: Path, fineness: Fineness | None = None, listener: Listener = silent) -> Paper:
+def paper(
+    out: Path, fineness: Fineness | None = None, callback: ProgressCallback = no_progress
+) -> Paper:
     """Compute the paper anew and write paper.html, paper.json and the files of stresses.
 
     Raises InputError where `out` cannot be written and under mpirun, SolverError where a model
@@ -88,12 +90,12 @@ def paper(out: Path, fineness: Fineness | None = None, listener: Listener = sile
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out)
     start = perf_counter()
-    outcomes = solve_surfaces(out, fineness, within(listener, 0.0, SOLVING))
-    listener(Step("measuring the claims", SOLVING))
+    outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING))
+    callback(Step("measuring the claims", SOLVING))
     judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims())
     found = Paper(outcomes, judged, perf_counter() - start, out)
-    page = paper_page(found, sections_of(outcomes, judged, listener))
-    listener("writing files")
+    page = paper_page(found, sections_of(outcomes, judged, callback))
+    callback("writing files")
     with published(out, (PAGE, NUMBERS)) as folder:
         (folder / PAGE).write_text(page, encoding="utf-8")
         (folder / NUMBERS).write_text(as_json(found.as_dict()), encoding="utf-8")

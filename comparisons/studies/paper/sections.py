@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from comparisons.common.progress import Listener
+from comparisons.common.progress import ProgressCallback
 from comparisons.report.figures.fields import COMPONENTS
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.results.outcome import Outcome
@@ -44,12 +44,12 @@ class Section:
 
 
 def sections_of(
-    outcomes: dict[str, Outcome], judged: tuple[Judged, ...], listener: Listener
+    outcomes: dict[str, Outcome], judged: tuple[Judged, ...], callback: ProgressCallback
 ) -> tuple[Section, ...]:
     """Draw every figure."""
     with drawing():
         scales = scales_of(outcomes)
-        listener("drawing figure 1")
+        callback("drawing figure 1")
         found = [
             Section(
                 "1",
@@ -63,10 +63,10 @@ def sections_of(
                 ),
             )
         ]
-        listener("drawing figure 5")
+        callback("drawing figure 5")
         found.append(_axis_section(outcomes[SMOOTH], judged))
         for scene in SCENES:
-            listener(f"drawing figure {FIGURES[scene]}")
+            callback(f"drawing figure {FIGURES[scene]}")
             outcome, number = outcomes[scene], FIGURES[scene]
             of = SURFACES[scene]
             blocks = [
@@ -88,7 +88,7 @@ def sections_of(
                 )
                 blocks.append(Block(heading, pictures, _claims(judged, number, letters)))
             found.append(Section(number, f"Figure {number}: {of}", tuple(blocks)))
-        listener("drawing figure 11")
+        callback("drawing figure 11")
         found.append(_depth_section(outcomes, judged))
     return tuple(found)
 

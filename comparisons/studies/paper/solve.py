@@ -9,8 +9,8 @@ from comparisons.assessment.comparison import compare
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import SolverError
 from comparisons.common.model_names import MODELS
-from comparisons.common.progress import Listener, Step, silent, within
-from comparisons.models.level_cache import Checkpoint
+from comparisons.common.progress import ProgressCallback, Step, no_progress, within
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -41,16 +41,18 @@ class Fineness:
 
 
 def solve_surfaces(
-    out: Path, fineness: Fineness | None = None, listener: Listener = silent
+    out: Path, fineness: Fineness | None = None, callback: ProgressCallback = no_progress
 ) -> dict[str, Outcome]:
     """By the scene's name. Raises SolverError where a model finds no solution."""
     found = {}
     for number, name in enumerate(SCENES, start=1):
         scene = _set_up(load_scene(name), fineness or Fineness())
 
-        part = within(listener, (number - 1) / len(SCENES), number / len(SCENES))
+        part = within(callback, (number - 1) / len(SCENES), number / len(SCENES))
 
-        def told(stage: str, number: int = number, name: str = name, part: Listener = part) -> None:
+        def told(
+            stage: str, number: int = number, name: str = name, part: ProgressCallback = part
+        ) -> None:
             words = f"{number} of {len(SCENES)}, {name}: {stage}"
             part(Step(words, stage.behind) if isinstance(stage, Step) else words)
 
@@ -71,13 +73,13 @@ def _set_up(scene: ResolvedScene, fineness: Fineness) -> ResolvedScene:
     )
 
 
-def _solved(scene: ResolvedScene, out: Path, listener: Listener) -> Outcome:
+def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback) -> Outcome:
     problem = problem_of(scene)
     plan = make_plan(problem, MODELS)
     window = window_of(problem)
     with TemporaryDirectory(prefix="crosscheck-") as folder:
-        checkpoint = Checkpoint(Path(folder) / "run", scene, plan)
-        runs, stop = refined(problem, plan, window, checkpoint, listener)
+        checkpoint = LevelCache(Path(folder) / "run", scene, plan)
+        runs, stop = refined(problem, plan, window, checkpoint, callback)
     comparisons = tuple(
         row
         for friction in scene.friction

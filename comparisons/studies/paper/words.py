@@ -8,7 +8,7 @@ from comparisons.common.numbers import MINUS, UNKNOWN, significant
 from comparisons.studies.paper.claims.claims import CONFIRMED, DENIED, UNTOLD, Judged
 from comparisons.studies.paper.claims.views import Measured
 
-KINDS = {CONFIRMED: "agree", DENIED: "differ", UNTOLD: "indistinct"}
+KINDS = {CONFIRMED: "agree", DENIED: "differ", UNTOLD: "inconclusive"}
 DIGITS = 4  # of a number with an uncertainty
 
 

@@ -12,7 +12,7 @@ from time import perf_counter
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import is_first
-from comparisons.common.progress import Listener, Step, silent
+from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.studies.robustness.row import Case, Row, carried_out
 
 SCHEMA = 1
@@ -67,7 +67,7 @@ def all_cases() -> tuple[Case, ...]:
 
 def run_stability(
     out: Path,
-    listener: Listener = silent,
+    callback: ProgressCallback = no_progress,
     cases: Callable[[], Iterable[Case]] = all_cases,
 ) -> Stability:
     """Carry out all cases, write stability.json into `out` and return the rows."""
@@ -78,7 +78,7 @@ def run_stability(
         failed = sum(not row.passed for row in rows)
         said = f", {failed} failed" if failed else ""
         name = f"{number} of {len(chosen)}{said}: {case.model}: {case.group}: {case.name}"
-        listener(Step(name, (number - 1) / len(chosen)))
+        callback(Step(name, (number - 1) / len(chosen)))
         rows.append(carried_out(case))
     result = Stability(tuple(rows), perf_counter() - start, out)
     if is_first():

@@ -9,9 +9,9 @@ import numpy as np
 
 from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.refinement import refined
-from comparisons.common.progress import Listener, silent
+from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.quantities import QUANTITIES, relative_l2
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -166,7 +166,7 @@ class Solved:
     pressure_errors: tuple[float, ...] | None
 
 
-def solved(scene: ExactScene, model: str, listener: Listener = silent) -> Solved:
+def solved(scene: ExactScene, model: str, callback: ProgressCallback = no_progress) -> Solved:
     """Solve a scene with one model, as `run` does, and hold each figure to the exact one."""
     resolved = resolve_tables(
         scene.tables, name="verify", folder=Path("."), source=f"verify: {scene.name}"
@@ -175,8 +175,8 @@ def solved(scene: ExactScene, model: str, listener: Listener = silent) -> Solved
     plan = make_plan(problem, (model,))
     window = window_of(problem) if plan.stress else None
     with TemporaryDirectory(prefix="crosscheck-") as folder:
-        checkpoint = Checkpoint(Path(folder) / "run", resolved, plan)
-        runs, _ = refined(problem, plan, window, checkpoint, listener)
+        checkpoint = LevelCache(Path(folder) / "run", resolved, plan)
+        runs, _ = refined(problem, plan, window, checkpoint, callback)
     run, (friction,) = runs[model], resolved.friction
     stated = uncertainties(run, problem, friction)
     history = [figures(level, problem, friction) for level in run.levels]

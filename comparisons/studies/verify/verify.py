@@ -12,7 +12,7 @@ from pathlib import Path
 from comparisons.common.errors import InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import Listener, Stages, Step, silent
+from comparisons.common.progress import ProgressCallback, Stages, Step, no_progress
 from comparisons.common.provenance import as_json
 from comparisons.studies.verify.checks import Check
 from comparisons.studies.verify.junit import junit
@@ -55,7 +55,10 @@ def everything() -> Scope:
 
 
 def verify(
-    out: Path, report: Path | None = None, listener: Listener = silent, scope: Scope | None = None
+    out: Path,
+    report: Path | None = None,
+    callback: ProgressCallback = no_progress,
+    scope: Scope | None = None,
 ) -> Verification:
     """Verify, and leave verify.json and verify.html in `out`, JUnit XML in the file `report`.
 
@@ -67,7 +70,7 @@ def verify(
     if report is not None:
         _check_report(report)
     scope = scope or everything()
-    stages = Stages(listener)
+    stages = Stages(callback)
     results, failed = _scenes(scope.scenes, stages)
     pairs = [pair for _, found in results for pair in found.pairs]
     checks = [*figure_orders(pairs), *pressure_orders(results)]

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from analytic.stress.field import stress_field
 from analytic.stress.points import stress_at
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 EXACT = 1e-12
 COUNT = 40
@@ -19,7 +19,7 @@ NODES = (np.arange(COUNT) - COUNT // 2) * PITCH
 seeds = st.integers(0, 10**9)
 frictions = st.floats(-1.0, 1.0)
 elements = st.sampled_from(["hat", "strip"])
-NAMES = tuple(field.name for field in fields(PlaneStress))
+NAMES = tuple(field.name for field in fields(StressState))
 
 
 def examples(number: int):
@@ -40,19 +40,19 @@ def places(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return x, z
 
 
-def at(pressure, friction, x, z, element="hat") -> PlaneStress:
+def at(pressure, friction, x, z, element="hat") -> StressState:
     return stress_at(NODES, pressure, friction, x, z, element)
 
 
-def assert_equal(found: PlaneStress, expected: PlaneStress, size: float, **signs: float):
+def assert_equal(found: StressState, expected: StressState, size: float, **signs: float):
     """All components to EXACT of `size` [Pa], those named times a factor."""
     for name in NAMES:
         difference = getattr(found, name) - signs.get(name, 1.0) * getattr(expected, name)
         assert np.max(np.abs(difference)) <= EXACT * size, name
 
 
-def combined(*parts: tuple[float, PlaneStress]) -> PlaneStress:
-    return PlaneStress(*(sum(c * getattr(part, name) for c, part in parts) for name in NAMES))
+def combined(*parts: tuple[float, StressState]) -> StressState:
+    return StressState(*(sum(c * getattr(part, name) for c, part in parts) for name in NAMES))
 
 
 def test_the_components_are_three():

@@ -19,7 +19,7 @@ from analytic.stress.translations import (
     outer_to_parent,
 )
 from analytic.stress.tree import tree_stress
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 
 PITCH = 2.0**-9
 
@@ -264,7 +264,7 @@ def test_tractions_of_any_shape_are_superposed(rng):
             np.testing.assert_array_equal(getattr(both, name), expected)
     # friction is one such shape
     same = stress_at(nodes, load, 0.0, x, z, traction=0.25 * load)
-    assert isinstance(same, PlaneStress)
+    assert isinstance(same, StressState)
     for name in ("sx", "sz", "txz"):
         assert np.abs(getattr(same, name) - getattr(slid, name)).max() < 1e-14
     surface = stress_at(nodes, load, 0.1, nodes, 0.0, traction=extra)

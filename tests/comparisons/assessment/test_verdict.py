@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from comparisons.assessment.verdict import Standing, half_space_verdict, judge
+from comparisons.assessment.verdict import ToleranceCheck, judge, validity_verdict
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
 
@@ -16,8 +16,8 @@ LITTLE = 1e-15  # more than rounding of numbers below 1 loses
         (-0.019, 0.002, 0.02, "agree"),
         (0.03, 0.002, 0.02, "differ"),
         (-0.03, 0.002, 0.02, "differ"),
-        (0.01, 0.03, 0.02, "indistinct"),
-        (0.025, 0.03, 0.02, "indistinct"),
+        (0.01, 0.03, 0.02, "inconclusive"),
+        (0.025, 0.03, 0.02, "inconclusive"),
         (0.05, 0.03, 0.02, "differ"),
         (0.015, 0.019, 0.02, "agree"),
     ],
@@ -26,8 +26,10 @@ def test_judge(difference, uncertainty, tolerance, verdict):
     assert judge(difference, uncertainty, tolerance) == verdict
 
 
-def standing(quantity="peak_pressure", value=0.001, uncertainty=0.002, unshown=None, friction=0.0):
-    return Standing(quantity, friction, value, uncertainty, unshown or {}, 0.02)
+def judged(
+    quantity="peak_pressure", value=0.001, uncertainty=0.002, not_modelled=None, friction=0.0
+):
+    return ToleranceCheck(quantity, friction, value, uncertainty, not_modelled or {}, 0.02)
 
 
 @pytest.mark.parametrize(
@@ -35,16 +37,16 @@ def standing(quantity="peak_pressure", value=0.001, uncertainty=0.002, unshown=N
     [
         (0.001, 0.018, "holds"),
         (-0.019, 0.0009, "holds"),
-        (-0.019, 0.0011, "undecided"),  # within the tolerance, but not beyond doubt
-        (0.021, 0.0011, "undecided"),
+        (-0.019, 0.0011, "inconclusive"),  # within the tolerance, but not beyond doubt
+        (0.021, 0.0011, "inconclusive"),
         (0.021, 0.0009, "fails"),
         (-0.05, 0.02, "fails"),
-        (0.0, 0.021, "undecided"),
-        (0.5, math.inf, "undecided"),
+        (0.0, 0.021, "inconclusive"),
+        (0.5, math.inf, "inconclusive"),
     ],
 )
 def test_only_what_no_doubt_can_move_counts(value, uncertainty, verdict):
-    assert half_space_verdict([standing(value=value, uncertainty=uncertainty)])[0] == verdict
+    assert validity_verdict([judged(value=value, uncertainty=uncertainty)])[0] == verdict
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -52,62 +54,71 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
     """|e| + U + E on the tolerance holds, |e| - U - E on it does not fail; numbers are exact."""
 
     def verdict(value, uncertainty):
-        unshown = {"one": 0.0, "other": 0.125}
-        rows = [Standing("peak_pressure", 0.0, sign * value, uncertainty, unshown, 0.5)]
-        return half_space_verdict(rows)[0]
+        not_modelled = {"one": 0.0, "other": 0.125}
+        rows = [ToleranceCheck("peak_pressure", 0.0, sign * value, uncertainty, not_modelled, 0.5)]
+        return validity_verdict(rows)[0]
 
     inside, outside = 0.5 - 0.125 - 0.0625, 0.5 + 0.125 + 0.0625
     assert verdict(inside, 0.0625) == "holds"
-    assert verdict(inside + LITTLE, 0.0625) == "undecided"
-    assert verdict(outside, 0.0625) == "undecided"
+    assert verdict(inside + LITTLE, 0.0625) == "inconclusive"
+    assert verdict(outside, 0.0625) == "inconclusive"
     assert verdict(outside + LITTLE, 0.0625) == "fails"
 
 
 def test_holds_names_the_quantity_nearest_to_its_tolerance():
-    verdict, why = half_space_verdict([standing(), standing("tau1_max", -0.015)])
+    verdict, why = validity_verdict([judged(), judged("tau1_max", -0.015)])
     assert verdict == "holds"
     assert "tau1_max -1.50%" in why and "peak_pressure" not in why
 
 
 def test_one_error_outside_fails_it():
-    rows = [standing(), standing("contact_length", 0.04), standing("tau1_max", 0.01, 0.05)]
-    verdict, why = half_space_verdict(rows)
+    rows = [
+        judged(),
+        judged("contact_length", 0.04),
+        judged("tau1_max", 0.01, 0.05),
+    ]
+    verdict, why = validity_verdict(rows)
     assert verdict == "fails"
     assert "contact_length +4.00%" in why
     assert "peak_pressure" not in why and "tau1_max" not in why
 
 
 def test_an_uncertain_error_leaves_it_open():
-    verdict, why = half_space_verdict([standing(), standing("tau1_max", 0.01, 0.015)])
-    assert verdict == "undecided"
+    verdict, why = validity_verdict([judged(), judged("tau1_max", 0.01, 0.015)])
+    assert verdict == "inconclusive"
     assert "tau1_max +1.00% +- 1.50%" in why and "peak_pressure" not in why
 
 
 def test_what_no_model_shows_can_move_an_error_either_way():
-    rows = [standing(unshown={"plastic flow": 0.03}), standing("tau1_max", unshown={"disc": 0.001})]
-    verdict, why = half_space_verdict(rows)
-    assert verdict == "undecided"
+    rows = [
+        judged(not_modelled={"plastic flow": 0.03}),
+        judged("tau1_max", not_modelled={"disc": 0.001}),
+    ]
+    verdict, why = validity_verdict(rows)
+    assert verdict == "inconclusive"
     assert "plastic flow 3.0%" in why and "disc" not in why
-    beyond = standing(value=-0.04, unshown={"plastic flow": 0.03})
-    assert half_space_verdict([beyond])[0] == "undecided"
-    assert half_space_verdict([standing(value=-0.06, unshown={"plastic flow": 0.03})])[0] == "fails"
+    beyond = judged(value=-0.04, not_modelled={"plastic flow": 0.03})
+    assert validity_verdict([beyond])[0] == "inconclusive"
+    assert (
+        validity_verdict([judged(value=-0.06, not_modelled={"plastic flow": 0.03})])[0] == "fails"
+    )
 
 
 def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
-    outside = standing("tau1_max", -0.026, 0.0035, {"finite strain": 0.046})
-    verdict, why = half_space_verdict([outside])
-    assert verdict == "undecided"
+    outside = judged("tau1_max", -0.026, 0.0035, {"finite strain": 0.046})
+    verdict, why = validity_verdict([outside])
+    assert verdict == "inconclusive"
     assert "finite strain 4.6%" in why and "cannot be told" not in why
-    blurred = standing("tau1_max", -0.026, 0.0065, {"finite strain": 0.046})
-    assert "cannot be told from its tolerance" in half_space_verdict([blurred])[1]
+    blurred = judged("tau1_max", -0.026, 0.0065, {"finite strain": 0.046})
+    assert "cannot be told from its tolerance" in validity_verdict([blurred])[1]
 
 
 def test_effects_that_are_not_shown_add_as_squares():
     both = {"one": 0.012, "other": 0.012}  # 0.024 by sum, 0.0170 by squares
-    assert standing(unshown=both).doubt == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
-    assert half_space_verdict([standing(value=0.001, unshown=both)])[0] == "holds"
-    assert half_space_verdict([standing(value=0.0015, unshown=both)])[0] == "undecided"
+    assert judged(not_modelled=both).doubt == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
+    assert validity_verdict([judged(value=0.001, not_modelled=both)])[0] == "holds"
+    assert validity_verdict([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
 
 
 def test_nothing_judged_decides_nothing():
-    assert half_space_verdict([])[0] == "undecided"
+    assert validity_verdict([])[0] == "inconclusive"

@@ -124,9 +124,9 @@ def test_time_left_follows_from_what_lies_behind():
 
 def test_parts_of_a_task_have_their_part_of_its_time():
     told = []
-    listener = within(within(told.append, 0.5, 1.0), 0.0, 0.5)
-    listener(Step("half of it", 0.5))
-    listener("whatever")
+    callback = within(within(told.append, 0.5, 1.0), 0.0, 0.5)
+    callback(Step("half of it", 0.5))
+    callback("whatever")
     assert [(str(stage), getattr(stage, "behind", None)) for stage in told] == [
         ("half of it", 0.625),
         ("whatever", None),
@@ -206,7 +206,7 @@ def test_scenes_and_doctor_as_json(capsys, monkeypatch):
     from comparisons.commands import doctor_checks as doctor
 
     found = [doctor.Check("a", True, "1.0", "")]
-    monkeypatch.setattr(doctor, "doctor", lambda listener: found)
+    monkeypatch.setattr(doctor, "doctor", lambda callback: found)
     assert main(["doctor", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == [
         {"name": "a", "ok": True, "detail": "1.0", "remedy": ""}

@@ -7,7 +7,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.mpi import PATIENCE, RANKS, as_one, is_first, is_several
-from comparisons.common.progress import silent
+from comparisons.common.progress import no_progress
 from comparisons.runs.write import write_files
 
 
@@ -62,5 +62,5 @@ def test_the_launcher_interrupts_work_and_nothing_else(monkeypatch):
 
 def test_others_write_no_files(monkeypatch, tmp_path, smooth_outcome):
     monkeypatch.setenv("PMI_RANK", "3")
-    write_files(replace(smooth_outcome, directory=tmp_path / "out"), silent)
+    write_files(replace(smooth_outcome, directory=tmp_path / "out"), no_progress)
     assert list(tmp_path.iterdir()) == []

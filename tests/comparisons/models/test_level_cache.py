@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from comparisons.models import level_cache as checkpoint
-from comparisons.models.level_cache import Checkpoint
+from comparisons.models.level_cache import LevelCache
 
 
 @pytest.fixture
@@ -15,7 +15,7 @@ def kept(tmp_path, smooth_outcome):
     """A checkpoint of a run into an existing folder, with a level to keep."""
     out = tmp_path / "out"
     out.mkdir()
-    return Checkpoint(out, smooth_outcome.problem.scene, smooth_outcome.plan)
+    return LevelCache(out, smooth_outcome.problem.scene, smooth_outcome.plan)
 
 
 @pytest.fixture

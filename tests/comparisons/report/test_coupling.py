@@ -13,7 +13,7 @@ from comparisons.assessment.coupling import OFF_THE_GROUND, SHIFT, couplings
 from comparisons.assessment.effects.estimates import estimates
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import UNKNOWN
-from comparisons.common.progress import Stages, silent
+from comparisons.common.progress import Stages, no_progress
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
@@ -54,7 +54,8 @@ def solved(tables: dict, **load) -> Outcome:
 def half_plane_of(problem) -> ModelRun:
     plan = make_plan(problem, HALF_PLANE)
     levels = (
-        half_plane_level(problem, plan, pitch, None, Stages(silent)) for pitch in problem.pitches
+        half_plane_level(problem, plan, pitch, None, Stages(no_progress))
+        for pitch in problem.pitches
     )
     return ModelRun("half_plane", tuple(levels))
 
@@ -237,8 +238,8 @@ class TestRoughGround:
         keep = trace.x <= edge
         short = replace(trace, x=trace.x[keep], height=trace.height[keep])
         ended = replace(problem, scene=replace(problem.scene, profile=short))
-        [one] = couplings(problem, run_of_it, None, silent)
-        [other] = couplings(ended, run_of_it, None, silent)
+        [one] = couplings(problem, run_of_it, None, no_progress)
+        [other] = couplings(ended, run_of_it, None, no_progress)
         for name, change in one.changes.items():
             assert other.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
@@ -247,21 +248,21 @@ class TestRoughGround:
         tables = RIGID | {"body": {"youngs_modulus": 210e9, "poissons_ratio": 0.0}}
         problem = problem_of(scene_of(tables, friction=1.5))
         run_of_it = half_plane_of(problem)
-        [expected] = couplings(problem, run_of_it, None, silent)
+        [expected] = couplings(problem, run_of_it, None, no_progress)
         stretched = comparisons.assessment.coupling._stretched
         monkeypatch.setattr(
             comparisons.assessment.coupling,
             "_stretched",
             lambda p, g, more: stretched(p, g, 1 + more // 64),
         )
-        [found] = couplings(problem, run_of_it, None, silent)
+        [found] = couplings(problem, run_of_it, None, no_progress)
         for name, change in expected.changes.items():
             assert found.changes[name].difference == pytest.approx(change.difference, abs=1e-7)
 
     def test_no_change_is_told_where_the_trace_ends(self):
         problem = problem_of(scene_of(self.WAVY))
         run_of_it = half_plane_of(problem)
-        [found] = couplings(problem, run_of_it, None, silent)
+        [found] = couplings(problem, run_of_it, None, no_progress)
         assert found.changes
         edge = run_of_it.finest.patches[0, 0] - 0.5e-6
         # a trace that ends just beyond the contact at rest
@@ -278,7 +279,7 @@ class TestRoughGround:
         inside = slice(grid.first - level.grid.first, grid.last - level.grid.first + 1)
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(run_of_it, levels=(replace(level, grid=grid, solution=solution),))
-        [found] = couplings(ended, ending, None, silent)
+        [found] = couplings(ended, ending, None, no_progress)
         assert found.changes == {} and found.why == OFF_THE_GROUND
         assert found.as_dict() is None
 

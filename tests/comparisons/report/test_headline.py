@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from comparisons.assessment.effects.model_error import OwnError, Share
+from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import Choice
 from comparisons.report.headline import headline
 from comparisons.results.outcome import Outcome
@@ -12,12 +12,12 @@ TOLERANCE = 0.02
 NONE = Choice(frozenset(), frozenset(), {}, {}, {})
 
 
-def own(quantity: str, value: float, uncertainty: float, **effects: float) -> OwnError:
-    shares = {name.replace("_", " "): Share(size, 1e-4) for name, size in effects.items()}
-    return OwnError(quantity, 0.0, shares, 0.0, value, uncertainty)
+def own(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
+    shares = {name.replace("_", " "): Estimate(size, 1e-4) for name, size in effects.items()}
+    return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
 
 
-def judged(outcome: Outcome, *errors: OwnError, choice: Choice = NONE) -> Outcome:
+def judged(outcome: Outcome, *errors: ModelError, choice: Choice = NONE) -> Outcome:
     """A run whose half-plane has these errors, all judged."""
     scene = outcome.problem.scene
     tolerance = {error.quantity: TOLERANCE for error in errors}
@@ -72,7 +72,7 @@ def test_a_norm_has_no_sign(smooth_outcome: Outcome):
 
 def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Outcome):
     said = headline(judged(smooth_outcome, own("contact_length", 0.01, math.inf)))
-    assert said.kind == "undecided"
+    assert said.kind == "inconclusive"
     assert "uncertainty that reaches across the tolerance" in said.sentence
     sizes = {"plastic flow": {"contact_length": 0.1}, "circle": {"contact_length": 0.001}}
     missing = Choice(
@@ -83,13 +83,13 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
         sizes,
     )
     said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), choice=missing))
-    assert said.kind == "undecided"
+    assert said.kind == "inconclusive"
     assert "may move it by 10 %, plastic flow most" in said.sentence
     said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), choice=missing))
-    assert said.kind == "undecided"
+    assert said.kind == "inconclusive"
     assert "may move it by 10 %, plastic flow most" in said.sentence
 
 
 def test_nothing_judged_is_no_verdict(smooth_outcome: Outcome):
     said = headline(judged(smooth_outcome))
-    assert said.kind == "undecided" and "no figure has a tolerance" in said.sentence
+    assert said.kind == "inconclusive" and "no figure has a tolerance" in said.sentence

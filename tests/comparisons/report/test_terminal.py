@@ -52,7 +52,7 @@ def test_every_figure_stands_in_80_columns_without_colour(wavy_outcome: Outcome,
     assert "\x1b" not in text
     assert "…" not in text
     assert max(map(len, text.splitlines())) <= 80
-    assert "indistinct" in text  # the longest verdict
+    assert "inconclusive" in text  # the longest verdict
     lines = rows(text)
     compared = outcome.result["comparison"]
     assert len(lines) == sum(map(len, compared.values()))
@@ -106,7 +106,7 @@ def test_verdict_time_and_files_follow_the_table(smooth_outcome: Outcome):
     text = " ".join(printed(smooth_outcome).split())
     figures, _, rest = text.partition("tau1 deep, L2")
     assert figures
-    assert "UNDECIDED The half-plane cannot be judged here" in rest
+    assert "INCONCLUSIVE The half-plane cannot be judged here" in rest
     # three levels of 0.4683 s and of 3 s
     assert "half-plane 1.40 s, finite elements 9.00 s" in rest
     assert "results/made/report.html" in rest

@@ -28,7 +28,7 @@ class TestFigures:
                 entries[0]["cost"]["seconds"]["contact"] = 77.0
                 entries[0]["cost"]["peak_memory"] = 1
                 entries[0]["cost"]["unknowns"] += 1
-            content["half_space"]["why"] = "because"
+            content["validity"]["why"] = "because"
 
         found = self.altered(figures, alter)
         assert found.moved == () and found.rounding == 0
@@ -50,10 +50,10 @@ class TestFigures:
 
     def test_a_verdict_that_changed_is_a_finding(self, figures):
         def alter(content):
-            content["half_space"]["verdict"] = "fails"
+            content["validity"]["verdict"] = "fails"
 
         (row,) = self.altered(figures, alter).beyond
-        assert (row.recorded, row.repeated) == ("undecided", "fails")
+        assert (row.recorded, row.repeated) == ("inconclusive", "fails")
 
     def test_a_figure_that_went_is_a_finding_and_a_new_one_is_not(self, figures):
         def alter(content):

@@ -50,10 +50,10 @@ def test_figures_are_those_of_the_result(runs, wavy_outcome):
             for r in result["budget"]["quantities"][row["quantity"]]
             if r["friction"] == row["friction"]
         ]
-        assert row["own_error"] == part["own_error"]["value"]
-        assert row["own_error_uncertainty"] == part["own_error"]["uncertainty"]
+        assert row["model_error"] == part["model_error"]["value"]
+        assert row["own_error_uncertainty"] == part["model_error"]["uncertainty"]
         assert {name: row[name] for name in GROUPS} == result["groups"]
-        assert row["half_space"] == result["half_space"]["verdict"]
+        assert row["validity"] == result["validity"]["verdict"]
     units = {row["quantity"]: row["unit"] for row in tidy_rows([runs])}
     assert units["peak_pressure"] == "Pa"
     assert (units["contact_length"], units["pressure_l2"]) == ("m", "")

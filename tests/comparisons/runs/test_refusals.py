@@ -66,7 +66,7 @@ class TestRefusals:
         outcome = run(scene_of(tables), tmp_path / "out", MODELS)
         assert "budget.time" in outcome.result["refinement"]
         verdicts = {row.quantity: row.verdict for row in outcome.comparisons}
-        assert verdicts["peak_pressure"] == "indistinct"
+        assert verdicts["peak_pressure"] == "inconclusive"
 
     def test_a_level_that_would_not_fit_is_not_begun(self, tmp_path):
         """Room for the three planned levels and none for a fourth."""

@@ -72,10 +72,10 @@ class TestGroundUnrun:
     def test_models_agree_but_share_what_a_flat_linear_body_lacks(self, unrun):
         """At a/R = 0.07 and pressures of 0.05 E the agreement alone proves the numerics."""
         assert unrun.exit_status == ExitStatus.DONE
-        half_space = unrun.result["half_space"]
-        assert half_space["verdict"] == "undecided"
+        validity = unrun.result["validity"]
+        assert validity["verdict"] == "inconclusive"
         for effect in ("displaced gap", "real boundary", "finite strain"):
-            assert effect in half_space["why"]
+            assert effect in validity["why"]
         assert unrun.result["refinement"] == "every judged quantity is resolved"
         assert len(unrun.runs["finite_element"].levels) == 4
         assert all(row.verdict == "agree" for row in unrun.comparisons if row.tolerance)
@@ -172,7 +172,7 @@ def test_other_scenes_agree(name, tmp_path):
 )
 def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
     outcome = run(quick(name, effects=True), None, MODELS)
-    assert outcome.result["half_space"]["verdict"] == verdict
+    assert outcome.result["validity"]["verdict"] == verdict
     found = {row.quantity: row.difference for row in outcome.comparisons}
     assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)
     assert found["contact_length"] == pytest.approx(length, rel=0.1)

@@ -5,7 +5,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.stress.maximum import maximum
 from fem.stress.stress import at_mesh_points, nodal_stress
@@ -50,7 +50,7 @@ def body(structured_block):
 
 
 def field(body, value):
-    return at_mesh_points(body, PlaneStress(value, 0.0 * value, 0.0 * value))
+    return at_mesh_points(body, StressState(value, 0.0 * value, 0.0 * value))
 
 
 def test_the_top_of_a_smooth_hill_lies_between_the_nodes(body):

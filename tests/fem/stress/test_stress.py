@@ -10,7 +10,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.stress import layer_field
 from analytic.material import Material
 from analytic.stress.points import stress_at
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import hat_nodes
 from fem.body.triangle import shapes
@@ -25,7 +25,7 @@ X, Z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.5, 41))
 NEAR, DEEP = Z < 0.15, Z >= 0.15
 
 
-def parts(stress: PlaneStress) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def parts(stress: StressState) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return stress.sx, stress.sz, stress.txz
 
 
@@ -215,7 +215,7 @@ def test_stresses_at_mesh_points_are_refused_for_a_coated_body(coated):
     body, _, _ = coated
     zero = np.zeros(len(body.points))
     with pytest.raises(ValueError, match="two stresses"):
-        at_mesh_points(body, PlaneStress(zero, zero, zero))
+        at_mesh_points(body, StressState(zero, zero, zero))
 
 
 def test_tractions_at_a_flat_surface_are_exact(pressed):
@@ -324,7 +324,7 @@ def test_evaluation_is_quadratic_and_keeps_shapes(structured_block):
     mesh = structured_block(np.linspace(-1, 1, 7), np.linspace(0, 1, 4), seed=4)
     body = elastic_body(mesh, MATERIAL, Support())
     x, z = body.points.T
-    nodal = at_mesh_points(body, PlaneStress(x**2, x * z - 1, z**2 + x))
+    nodal = at_mesh_points(body, StressState(x**2, x * z - 1, z**2 + x))
     where = np.array([[-1.0, 0.3, 1.0], [0.0, 0.5, 2.0]]), np.array([[0.0, 0.3, 1.0]])
     sx, sz, txz = parts(evaluate(body, nodal, *where))
     a, b = np.broadcast_arrays(*where)

@@ -7,7 +7,7 @@ import numpy as np
 from analytic.exact.hertz import hertz_stress
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from comparisons.studies.paper.claims.readings import SLIDING
 from comparisons.studies.paper.claims.views import Reading, View
 
@@ -68,7 +68,7 @@ def _below(pitch: float) -> np.ndarray:
     return np.geomspace(SHALLOWEST, 1.0, 8)[:, None] * pitch
 
 
-def _normal_errors(view: View, found: PlaneStress, reference: PlaneStress) -> np.ndarray:
+def _normal_errors(view: View, found: StressState, reference: StressState) -> np.ndarray:
     """Amounts (2, ...) [p0] by which sx and sz of two stresses [Pa] differ."""
     errors = np.abs([found.sx - reference.sx, found.sz - reference.sz])
     return errors / view.problem.hertz.peak_pressure

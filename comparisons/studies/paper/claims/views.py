@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL
 from comparisons.assessment.uncertainty import DOMAIN, grid_convergence
 from comparisons.common.quantities import layer_thickness
@@ -62,18 +62,18 @@ class View:
         """Largest tau1 of the smooth contact without friction [p0]."""
         return self.problem.hertz.tau1_max / self.problem.hertz.peak_pressure
 
-    def stress(self, friction: float) -> PlaneStress:
+    def stress(self, friction: float) -> StressState:
         """(m, k) on the window [p0]."""
         field, p0 = self.level.stress(friction).field, self.problem.hertz.peak_pressure
         parts = (field.sx, field.sz, field.txz)
-        return PlaneStress(*(part[self.rows, self.columns] / p0 for part in parts))
+        return StressState(*(part[self.rows, self.columns] / p0 for part in parts))
 
-    def smooth(self, friction: float) -> PlaneStress:
+    def smooth(self, friction: float) -> StressState:
         """(m, k) of the smooth contact, exact [p0]."""
         hertz = self.problem.hertz
         x, z = self.window.x[self.columns], self.window.z[self.rows, None]
         exact = hertz_stress(hertz, x, z, friction)
-        return PlaneStress(
+        return StressState(
             *(part / hertz.peak_pressure for part in (exact.sx, exact.sz, exact.txz))
         )
 

@@ -13,7 +13,7 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.stress.elements import hat_stress
 from analytic.stress.field import stress_field
 from analytic.stress.points import stress_at
-from analytic.stress_state import PlaneStress
+from analytic.stress_state import StressState
 from comparisons.studies.robustness.many_digits import hat_parts, hertz_parts
 from comparisons.studies.robustness.row import Case, Figure, Findings
 
@@ -118,7 +118,7 @@ def resultant_findings() -> Findings:
     x, z = FAR * np.cos(angle), FAR * np.sin(angle)
     stress = stress_at(nodes, pressure, 0.0, x, z)
     radial = -2.0 * load * np.sin(angle) / (np.pi * FAR)
-    exact = PlaneStress(
+    exact = StressState(
         radial * np.cos(angle) ** 2,
         radial * np.sin(angle) ** 2,
         radial * np.cos(angle) * np.sin(angle),

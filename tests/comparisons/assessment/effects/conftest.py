@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comparisons.assessment.effects.quantities_of_interest import Answer
+from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest
 from comparisons.assessment.effects.variants import Body
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
@@ -46,14 +46,14 @@ class MadeBodies:
     own: Body
     asked: list[Body] = field(default_factory=list)
 
-    def answer(self, body: Body, number: int, friction: float) -> Answer:
+    def answer(self, body: Body, number: int, friction: float) -> QuantitiesOfInterest:
         self.asked.append(body)
         seed = abs(hash((tuple(sorted(body.effects)), body.friction, body.stand_in, number)))
         rng = np.random.default_rng(seed)
         figures = {"peak_pressure": rng.normal(), "contact_length": rng.normal()}
-        return Answer(figures, rng.normal(size=5), rng.normal(size=(2, 3)))
+        return QuantitiesOfInterest(figures, rng.normal(size=5), rng.normal(size=(2, 3)))
 
-    def own_answer(self, number: int, friction: float) -> Answer:
+    def own_answer(self, number: int, friction: float) -> QuantitiesOfInterest:
         return self.answer(self.own, number, friction)
 
 

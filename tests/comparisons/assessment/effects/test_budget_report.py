@@ -11,7 +11,7 @@ from rich.console import Console
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.effects.content import budget_content
 from comparisons.assessment.effects.effects import EFFECTS
-from comparisons.assessment.effects.model_error import OwnError, Share
+from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import Choice
 from comparisons.report.figures.budget import LOOKS, budget_bars, budget_picture
 from comparisons.report.figures.style import drawing
@@ -33,9 +33,9 @@ CHOICE = Choice(
     ESTIMATES,
 )
 EFFECTS_HERE = {
-    "finite body": Share(0.04, 0.001),
-    "displaced gap": Share(-0.012, 0.0005),
-    "finite strain": Share(0.0001, 0.0001),
+    "finite body": Estimate(0.04, 0.001),
+    "displaced gap": Estimate(-0.012, 0.0005),
+    "finite strain": Estimate(0.0001, 0.0001),
 }
 
 
@@ -43,9 +43,9 @@ EFFECTS_HERE = {
 def split(wavy_outcome: Outcome) -> Outcome:
     """A run whose peak pressures were split; those at both frictions alike, and one norm."""
     own = (
-        OwnError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
-        OwnError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
-        OwnError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
+        ModelError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
+        ModelError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
     )
     budget = ErrorBudget(CHOICE, 2, None, own, {0.0: {"peak_pressure": 0.003}}, 1.5)
     rows = tuple(

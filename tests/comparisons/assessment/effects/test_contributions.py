@@ -1,4 +1,4 @@
-"""Parts, interaction and whole: they add up whatever the bodies answer."""
+"""EffectContributions, interaction and whole: they add up whatever the bodies answer."""
 
 import itertools
 from dataclasses import replace
@@ -8,7 +8,7 @@ import pytest
 
 from analytic.material import Material
 from comparisons.assessment.effects.contributions import parts_of
-from comparisons.assessment.effects.quantities_of_interest import Answer, sizes
+from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest, sizes
 from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.variants import Body, combined_body, strain_doubt, strain_share
 from comparisons.assessment.effects.variants import problem_with as body_problem
@@ -20,7 +20,7 @@ def choice_of(contained=(), added=()):
     return Choice(frozenset(contained), frozenset(added), {}, {}, {})
 
 
-def close(one: Answer, other: Answer) -> bool:
+def close(one: QuantitiesOfInterest, other: QuantitiesOfInterest) -> bool:
     return (
         one.figures == pytest.approx(other.figures)
         and np.allclose(one.pressure, other.pressure)
@@ -131,8 +131,10 @@ class TestStandIn:
 
 def test_sizes_are_relative_to_the_figure_or_to_hertz(problem_with):
     problem = problem_with()
-    whole = Answer({"peak_pressure": -4.0, "tau1_max_depth": 0.0}, np.ones(4), None)
-    change = Answer({"peak_pressure": 1.0, "tau1_max_depth": 1e-6}, 0.5 * np.ones(4), None)
+    whole = QuantitiesOfInterest({"peak_pressure": -4.0, "tau1_max_depth": 0.0}, np.ones(4), None)
+    change = QuantitiesOfInterest(
+        {"peak_pressure": 1.0, "tau1_max_depth": 1e-6}, 0.5 * np.ones(4), None
+    )
     found = sizes(change, whole, problem, None)
     assert found["peak_pressure"] == 0.25
     assert found["tau1_max_depth"] == pytest.approx(1e-6 / problem.hertz.half_width)

@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.assessment.comparison import figures, norms
 from comparisons.assessment.effects.effects import contained
-from comparisons.assessment.effects.model_error import OwnError
+from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
@@ -99,7 +99,7 @@ def direct_errors(tables: dict) -> dict[str, float]:
     return found | norms(one, other, problem, friction, None)
 
 
-def both(name: str, levels: int, elements: float) -> list[tuple[OwnError, float]]:
+def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
     """Of every judged quantity, put together and switched on; the third level has so many elements
     to a half-width."""
     tables, switches = SCENES[name]

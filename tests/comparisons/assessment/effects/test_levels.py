@@ -17,8 +17,8 @@ from comparisons.assessment.effects.variants import Body
 from comparisons.assessment.refinement import refined
 from comparisons.common.model_names import MODELS
 from comparisons.common.processes import ProcessEnded, fresh_process
-from comparisons.common.progress import silent
-from comparisons.models.level_cache import Checkpoint
+from comparisons.common.progress import no_progress
+from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
@@ -30,11 +30,11 @@ def made(problem_with):
     """A small scene's bodies, yet to be solved, with given processes beside."""
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
-    keeps_nothing = Checkpoint(None, problem.scene, plan)
-    runs, _ = refined(problem, plan, None, keeps_nothing, silent)
+    keeps_nothing = LevelCache(None, problem.scene, plan)
+    runs, _ = refined(problem, plan, None, keeps_nothing, no_progress)
 
     def bodies(beside, own=runs["finite_element"]) -> Bodies:
-        return Bodies(problem, None, own, keeps_nothing, silent, beside)
+        return Bodies(problem, None, own, keeps_nothing, no_progress, beside)
 
     return bodies
 

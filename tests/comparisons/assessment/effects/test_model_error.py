@@ -10,7 +10,7 @@ import pytest
 import comparisons.models.finite_element.level
 from analytic.exact.layer_references import TABLE
 from comparisons.assessment.effects.budget import ErrorBudget
-from comparisons.assessment.verdict import half_space_verdict
+from comparisons.assessment.verdict import validity_verdict
 from comparisons.common.exit_status import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.results.outcome import Outcome
@@ -117,13 +117,13 @@ class TestSmooth:
         own = last.budget.of("peak_pressure", 0.0)
         assert row.verdict == "agree" and abs(row.difference) < 3e-4
         assert own.value == pytest.approx(-0.0024, abs=0.0006) and own.uncertainty < 6e-4
-        assert last.result["half_space"]["verdict"] == "holds"
-        strict = last.budget.standings({"peak_pressure": 1e-3})
-        assert half_space_verdict(strict)[0] == "fails"
+        assert last.result["validity"]["verdict"] == "holds"
+        strict = last.budget.tolerance_checks({"peak_pressure": 1e-3})
+        assert validity_verdict(strict)[0] == "fails"
 
     def test_the_exit_status_is_the_comparisons(self, outcomes):
         """What both models lack is no difference of theirs."""
-        fails = outcomes[1].result | {"half_space": {"verdict": "fails", "why": ""}}
+        fails = outcomes[1].result | {"validity": {"verdict": "fails", "why": ""}}
         assert replace(outcomes[1], result=fails).exit_status == ExitStatus.DONE
 
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
@@ -131,7 +131,7 @@ class TestSmooth:
         for part in ("models", "comparison", "groups", "hertz"):
             assert _figures(plain.result[part]) == _figures(outcomes[0].result[part])
         assert plain.budget.choice.added == frozenset()
-        assert plain.result["half_space"]["verdict"] == "undecided"
+        assert plain.result["validity"]["verdict"] == "inconclusive"
 
 
 def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
@@ -147,7 +147,7 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
     for quantity in ("peak_pressure", "contact_length", "pressure_l2"):
         own = outcome.budget.of(quantity, 0.0)
         assert abs(own.value) <= own.uncertainty < 0.02
-    assert outcome.result["half_space"]["verdict"] == "holds"
+    assert outcome.result["validity"]["verdict"] == "holds"
 
 
 def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
@@ -164,7 +164,7 @@ def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
     assert choice.impossible["finite strain"] == "no mesh is possible"
     assert choice.added == {"displaced gap"}
     assert set(outcome.budget.of("peak_pressure", 0.0).effects) == {"displaced gap"}
-    assert "finite strain" in choice.unshown("peak_pressure")
+    assert "finite strain" in choice.not_modelled("peak_pressure")
     effect = outcome.result["budget"]["effects"]["finite strain"]
     assert effect["status"] == "not computed" and effect["because"] == "no mesh is possible"
 

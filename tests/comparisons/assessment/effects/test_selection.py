@@ -25,8 +25,8 @@ def test_an_effect_is_computed_from_a_tenth_of_a_tolerance_on(problem_with):
     below = judged(problem, peak_pressure=size / SHARE_OF_TOLERANCE * 1.001)
     assert "circle" in chosen(above).added and "circle" not in chosen(above).left_out
     assert "circle" in chosen(below).left_out and "circle" not in chosen(below).added
-    assert chosen(below).unshown("peak_pressure")["circle"] == size
-    assert "circle" not in chosen(above).unshown("peak_pressure")
+    assert chosen(below).not_modelled("peak_pressure")["circle"] == size
+    assert "circle" not in chosen(above).not_modelled("peak_pressure")
 
 
 def test_only_what_is_judged_asks_for_effects(problem_with):
@@ -49,7 +49,7 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
     choice = chosen(problem_with(**RIGID, finite_element={"gap": "displaced"}))
     assert choice.contained == {"displaced gap"}
     assert "displaced gap" not in choice.added | set(choice.left_out)
-    assert "displaced gap" not in choice.unshown("peak_pressure")
+    assert "displaced gap" not in choice.not_modelled("peak_pressure")
     assert "displaced gap" in choice.whole
 
 
@@ -70,7 +70,7 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
 def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with, tables, why):
     choice = chosen(problem_with(**tables))
     assert why in choice.impossible["finite strain"]
-    assert choice.unshown("peak_pressure")["finite strain"] > 0.0
+    assert choice.not_modelled("peak_pressure")["finite strain"] > 0.0
 
 
 def test_under_mpirun_finite_strain_is_not_solved(problem_with, monkeypatch):
@@ -91,7 +91,7 @@ def test_what_is_given_up_stands_with_its_reason(problem_with):
     choice = chosen(problem_with()).without(frozenset({"disc"}), "its mesh failed")
     assert "disc" not in choice.added
     assert choice.impossible["disc"] == "its mesh failed"
-    assert "disc" in choice.unshown("peak_pressure")
+    assert "disc" in choice.not_modelled("peak_pressure")
 
 
 def test_strain_takes_back_what_linear_bodies_overdo(problem_with):

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli import main
-from comparisons.common.progress import silent
+from comparisons.common.progress import no_progress
 from comparisons.results.outcome import Outcome
 from comparisons.runs.write import write_files
 
@@ -21,7 +21,7 @@ def finished(tmp_path_factory, smooth_outcome: Outcome) -> Path:
     folder = tmp_path_factory.mktemp("finished") / "run"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("comparisons.report.page.render", lambda outcome: "before")
-        write_files(replace(smooth_outcome, directory=folder), silent)
+        write_files(replace(smooth_outcome, directory=folder), no_progress)
     return folder
 
 
@@ -72,7 +72,7 @@ def test_report_of_damaged_files(damaged, capsys, file, value, keys, told):
     ("value", "keys", "told"),
     [
         ("high", ("comparison", "peak_pressure", 0, "half_plane"), "half_plane: is 'high'"),
-        (3.0, ("half_space", "verdict"), "half_space: is 3.0"),
+        (3.0, ("validity", "verdict"), "validity: is 3.0"),
         (float("inf"), ("comparison", "peak_pressure", 0, "difference"), "Infinity is no number"),
     ],
 )

@@ -52,7 +52,7 @@ def test_a_run_has_the_figures_of_its_result(rows: list[SummaryRow], wavy_outcom
     assert cells["peak_pressure"].value == max(peaks)
     entries = result["budget"]["quantities"]["peak_pressure"]
     worst = max(
-        (entry["own_error"] for entry in entries),
+        (entry["model_error"] for entry in entries),
         key=lambda own: abs(own["value"]) + own["uncertainty"],
     )
     own = cells["own_error_peak_pressure"]

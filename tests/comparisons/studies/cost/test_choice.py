@@ -9,7 +9,7 @@ import pytest
 
 from comparisons.common.errors import SceneError
 from comparisons.common.processes import ProcessEnded
-from comparisons.common.progress import silent
+from comparisons.common.progress import no_progress
 from comparisons.models.problem import problem_of
 from comparisons.report.figures.style import Picture
 from comparisons.scenes.resolve import resolve_tables
@@ -96,7 +96,7 @@ class TestRows:
         process = self.Process(*answers)
         store = types.SimpleNamespace(load=lambda task: None, save=lambda task, found: None)
         ask = _asked(store, process)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, ask, silent)
+        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, ask, no_progress)
         return found, process
 
     def test_refused_and_failed(self):

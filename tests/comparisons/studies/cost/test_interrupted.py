@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comparisons.common.progress import silent
+from comparisons.common.progress import no_progress
 from comparisons.models.finite_element.load_at_approach import problem_of_approach
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import methods as cost_methods
@@ -195,11 +195,14 @@ class TestGoesOn:
             "resolution": {"pitch": 2e-5},
         }
         given = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
-        first = _problem(given, CostStore(tmp_path, given, 1), silent)
+        first = _problem(given, CostStore(tmp_path, given, 1), no_progress)
         monkeypatch.setattr("comparisons.studies.cost.cost.fresh_process", lambda: 1 / 0)
-        again = _problem(given, CostStore(tmp_path, given, 1), silent)
+        again = _problem(given, CostStore(tmp_path, given, 1), no_progress)
         assert again.hertz.load_per_length == first.hertz.load_per_length
-        assert first.hertz.load_per_length == problem_of_approach(given, silent).constraints().load
+        assert (
+            first.hertz.load_per_length
+            == problem_of_approach(given, no_progress).constraints().load
+        )
 
 
 @pytest.fixture

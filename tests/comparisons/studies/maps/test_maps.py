@@ -11,7 +11,7 @@ from comparisons.common.errors import SceneError
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.groups import GROUPS, Origin, tables_with
-from comparisons.studies.maps.model_error import OwnError
+from comparisons.studies.maps.model_error import PointError
 from comparisons.studies.maps.point import FAILED, SOLVED, is_open, solve_point
 from comparisons.studies.maps.request import Asked
 
@@ -183,8 +183,8 @@ class TestOwnError:
         assert abs(own["difference"] - exact) <= own["uncertainty"] < 0.1 * abs(exact)
 
     def test_levels_are_added_while_it_is_not_told(self):
-        def one(difference: float, uncertainty: float | None) -> OwnError:
-            return OwnError(1.0, 1.0, difference, uncertainty)
+        def one(difference: float, uncertainty: float | None) -> PointError:
+            return PointError(1.0, 1.0, difference, uncertainty)
 
         assert is_open(one(-0.3, 0.11)) and not is_open(one(-0.3, 0.09))
         assert is_open(one(0.0, 0.004)) and not is_open(one(0.0, 0.003))

@@ -251,7 +251,7 @@ def test_a_folder_that_cannot_be_is_refused_before_solving(monkeypatch, tmp_path
 def test_the_command_prints_the_claims(made, monkeypatch, capsys, arguments):
     calls = []
 
-    def reproduced(out: Path, listener):
+    def reproduced(out: Path, callback):
         calls.append(out)
         return made.paper
 

@@ -10,7 +10,7 @@ from analytic.contact.problem import ContactSolution, Residuals
 from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
-from analytic.stress_state import Extremum, PlaneStress
+from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import Level, StressResult, Window
 from comparisons.studies.paper.claims import exactness as e
 from comparisons.studies.paper.claims import readings as r
@@ -103,8 +103,8 @@ def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
             mu,
             {"tau1": Extremum(-0.4 * P0, 0.1 * A, 0.6 * A)},
             field
-            if isinstance(field, PlaneStress)
-            else PlaneStress(np.zeros_like(field), np.zeros_like(field), field * P0),
+            if isinstance(field, StressState)
+            else StressState(np.zeros_like(field), np.zeros_like(field), field * P0),
         )
         for mu, field in fields.items()
     )
@@ -218,10 +218,10 @@ class TestReadings:
 class TestErrors:
     """Errors against exact stresses are none on those, and what was put into them elsewhere."""
 
-    def exact(self, x: float = 0.0, shift: float = 0.0, z: float = 0.25) -> PlaneStress:
+    def exact(self, x: float = 0.0, shift: float = 0.0, z: float = 0.25) -> StressState:
         found = hertz_stress(HERTZ, WINDOW.x, WINDOW.z[:, None])
         here = (np.abs(WINDOW.x / A - x) < 0.01) & (np.abs(WINDOW.z[:, None] / A - z) < 1e-4)
-        return PlaneStress(found.sx + shift * P0 * here, found.sz, found.txz)
+        return StressState(found.sx + shift * P0 * here, found.sz, found.txz)
 
     def test_on_the_axis(self):
         assert e.axis_error(view_of({0.0: self.exact()})) == pytest.approx(0.0, abs=1e-12)
