@@ -45,15 +45,15 @@ class HatGrid:
     def weights(self) -> np.ndarray:
         return np.full(self.count, self.pitch)
 
-    def average(
+    def hat_integrals(
         self, function: Callable[[np.ndarray], np.ndarray], knots: np.ndarray | None = None
     ) -> np.ndarray:
         """Integrals of phi_i f dx (n,), exact for polynomials f of degree 6 between `knots`."""
         nodes = np.arange(self.first - 1, self.last + 2) * self.pitch
-        return hat_averages(nodes, function, knots)
+        return hat_integrals(nodes, function, knots)
 
 
-def hat_averages(
+def hat_integrals(
     nodes: np.ndarray,
     function: Callable[[np.ndarray], np.ndarray],
     knots: np.ndarray | None = None,

@@ -251,7 +251,7 @@ class _Surface:
         near = self._part(grid, SPLINE_REACH)
         height = Profile(self.x[near], (self.height - self.lowering)[near]).spline()
         gap = roller_gap(self.radius, lambda from_centre: height(from_centre + place))
-        return grid.average(lambda x: gap(x - place), height.x)
+        return grid.hat_integrals(lambda x: gap(x - place), height.x)
 
     def _part(self, grid: HatGrid, beyond: int) -> slice:
         """Samples under the feet of a grid's hats, and so many `beyond` on either side."""

@@ -129,7 +129,7 @@ def compare(case: Case) -> list[Compared]:
     modulus, last = STEEL.plane_strain_modulus, case.peaks[-1]
     radius = 0.5 * modulus / last
     loads = [hertz_from_peak_pressure(p, radius, modulus).load_per_length for p in case.peaks]
-    gap = grid.average(roller_gap(radius, case.heights))
+    gap = grid.hat_integrals(roller_gap(radius, case.heights))
     half_plane = HalfPlane(grid.count, grid.pitch, modulus)
 
     def pressure(load: float, hardness: float = np.inf) -> np.ndarray | None:

@@ -11,7 +11,7 @@ def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
     """Heights (n,) [m] of the rough body's surface without load, averaged over each hat."""
     if problem.scene.profile is None:
         return np.zeros(grid.count)
-    return grid.average(problem.scene.profile.spline(), problem.knots) / grid.weights
+    return grid.hat_integrals(problem.scene.profile.spline(), problem.knots) / grid.weights
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:

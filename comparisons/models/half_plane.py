@@ -48,8 +48,8 @@ def half_plane_on(
     """
     with stages.stage("contact", "half-plane: contact"):
         operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
-        average = grid.average(problem.gap, problem.knots)
-        solution = solve_coupled(operator, average, grid.weights, problem.constraints())
+        weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
+        solution = solve_coupled(operator, weighted_gap, grid.weights, problem.constraints())
         body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
         level = Level(
             grid=grid,

@@ -219,9 +219,9 @@ def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float
 
 def touched(problem: Problem, grid: HatGrid, operator: ModelOperator) -> tuple[float, float]:
     """First and last contact [m] on an operator."""
-    average = grid.average(problem.gap, problem.knots)
+    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
     solve = solve_coupled if isinstance(operator, CoupledHalfPlane) else solve_contact
-    solution = solve(operator, average, grid.weights, problem.constraints())
+    solution = solve(operator, weighted_gap, grid.weights, problem.constraints())
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
 

@@ -47,7 +47,7 @@ class Roller:
         """Solution on a grid, load prescribed unless said otherwise."""
         return solve_contact(
             HalfPlane(grid.count, grid.pitch, self.modulus),
-            grid.average(gap, knots),
+            grid.hat_integrals(gap, knots),
             grid.weights,
             constraints or Constraints(load=self.load),
         )
@@ -63,7 +63,7 @@ class Roller:
         """The same while it slides, with friction times Dundurs' beta."""
         return solve_coupled(
             CoupledHalfPlane(grid.count, grid.pitch, self.modulus, friction_dundurs),
-            grid.average(gap),
+            grid.hat_integrals(gap),
             grid.weights,
             constraints or Constraints(load=self.load),
             start,

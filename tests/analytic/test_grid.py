@@ -42,7 +42,7 @@ def test_too_few_hats_are_refused():
 def test_average_of_a_parabola_is_exact():
     grid = HatGrid.within(-1e-3, 1e-3, 5e-6)
     expected = grid.pitch * (grid.x**2 + grid.pitch**2 / 6.0) / (2.0 * 8e-3)
-    assert grid.average(roller_gap(8e-3)) == pytest.approx(expected, rel=1e-12)
+    assert grid.hat_integrals(roller_gap(8e-3)) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("pitch", [0.3, 1.0, 4.7])
@@ -52,7 +52,7 @@ def test_average_of_a_spline_is_exact_between_its_knots(pitch):
     knots = np.sort(rng.uniform(-20.0, 20.0, 40))
     spline = CubicSpline(knots, rng.standard_normal(40))
     grid = HatGrid.within(-15.0, 15.0, pitch)
-    found = grid.average(spline, knots)
+    found = grid.hat_integrals(spline, knots)
     for i in (0, 1, grid.count // 2, grid.count - 1):
         node = grid.x[i]
 

@@ -44,7 +44,7 @@ def pressed(profile: Profile, position: float, pitch: float, **given):
     grid = HatGrid.within(placed.x[0], placed.x[-1], pitch)
     solution = solve_contact(
         HalfPlane(grid.count, pitch, pair["modulus"]),
-        grid.average(roller_gap(pair["radius"], placed.spline()), placed.x),
+        grid.hat_integrals(roller_gap(pair["radius"], placed.spline()), placed.x),
         grid.weights,
         Constraints(load=pair["load"], hardness=pair["hardness"]),
     )

@@ -101,8 +101,8 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     modulus = problem.modulus * (STIFFER if name == "finite_element" else 1.0)
     grid = problem.grid(pitch)
     operator = HalfPlane(grid.count, pitch, modulus)
-    average = grid.average(problem.gap, problem.knots)
-    solution = solve_contact(operator, average, grid.weights, problem.constraints())
+    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
+    solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
     mesh = block_mesh(problem) if name == "finite_element" else None
     mesh_field = None
     if mesh is not None and window is not None:

@@ -67,7 +67,7 @@ class Case:
     def gap(self, grid: HatGrid, shape: Literal["parabola", "circle"]) -> np.ndarray:
         """Weighted initial gap over the hats of a grid, the roughness in it."""
         knots = np.arange(-64.0 * np.ceil(REACHES[-1]), 64.0 * np.ceil(REACHES[-1])) / 64.0
-        return grid.average(roller_gap(self.radius, self.roughness, shape), knots)
+        return grid.hat_integrals(roller_gap(self.radius, self.roughness, shape), knots)
 
     def pressed(self, grid: HatGrid, gap: np.ndarray) -> np.ndarray:
         """The half-plane's pressure on a grid."""

@@ -102,7 +102,7 @@ def made(title: str, waves: np.ndarray, ladder: tuple[int, ...], finest: int = F
     modulus = MATERIAL.plane_strain_modulus
     predicted = solve_contact(
         HalfPlane(grid.count, grid.pitch, modulus),
-        grid.average(_gap(waves)),
+        grid.hat_integrals(_gap(waves)),
         grid.weights,
         Constraints(load=smooth.load_per_length),
     )

@@ -45,7 +45,7 @@ def contact_of(
     solution = solve_with_model(
         FiniteElementCompliance(body, feet),
         HalfPlane(grid.count, grid.pitch, material.plane_strain_modulus),
-        grid.average(task.gap),
+        grid.hat_integrals(task.gap),
         grid.weights,
         constraints,
     )

@@ -84,7 +84,7 @@ def equal_edges(
     solution = solve_with_model(
         compliance,
         HalfPlane(grid.count, grid.pitch, HERTZ.combined_modulus),
-        grid.average(_gap),
+        grid.hat_integrals(_gap),
         grid.weights,
         Constraints(load=HERTZ.load_per_length),
     )

@@ -22,7 +22,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.contact.smooth_pressure import Patch, smooth_pressure
-from analytic.grid import HatGrid, hat_averages
+from analytic.grid import HatGrid, hat_integrals
 from analytic.material import Material
 from analytic.operators.half_plane import DenseCompliance, HalfPlane, SumOfBodies
 from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
@@ -182,7 +182,7 @@ def predicted_patches(pressing: Pressing) -> np.ndarray:
     grid = HatGrid.within(start, stop, (stop - start) / SCOUT_HATS)
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, pressing.modulus),
-        grid.average(pressing.gap, pressing.knots),
+        grid.hat_integrals(pressing.gap, pressing.knots),
         grid.weights,
         Constraints(load=pressing.load),
     )
@@ -212,7 +212,7 @@ def pressed(
     compliance = FiniteElementCompliance(body, vertices, far=far)
     operator = SumOfBodies(compliance, factors=(pressing.stiffening,))
     model = DenseCompliance(half_plane_matrix(vertices, pressing.modulus))
-    gap, weights = hat_averages(vertices, pressing.gap, pressing.knots), hat_weights(vertices)
+    gap, weights = hat_integrals(vertices, pressing.gap, pressing.knots), hat_weights(vertices)
     load = Constraints(load=pressing.load)
     solution = solve_with_model(operator, model, gap, weights, load)
     if not solution.converged:

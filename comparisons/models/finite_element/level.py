@@ -54,13 +54,13 @@ def finite_element_level(
     store = store or BodyStore()
     friction = scene.friction[0] if scene.finite_element.coupled else 0.0
     model = nearest_operator(scene, grid, friction)
-    average = grid.average(problem.finite_element_gap, problem.knots)
+    weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
     constraints = problem.constraints()
     if scene.finite_element.plastic:  # the body's own flow limits the pressure
         constraints = replace(constraints, hardness=np.inf)
     with stages.stage("contact", "finite elements: predicting the contact"):
         solve = solve_coupled if friction else solve_contact
-        guess = solve(model, average, grid.weights, constraints)
+        guess = solve(model, weighted_gap, grid.weights, constraints)
     ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
     cost = expected(problem, plan, refinement, ground)
     refuse_too_large(problem, cost, grid.pitch)
@@ -76,7 +76,7 @@ def finite_element_level(
             with stages.stage("check", "finite elements: compliance before contact"):
                 checked = operator_check(problem, operator, model, grid, refined)
         with stages.stage("contact", "finite elements: contact"):
-            solution = solve_mutual(operator, model, average, grid.weights, constraints, start)
+            solution = solve_mutual(operator, model, weighted_gap, grid.weights, constraints, start)
         touching = grid.x[solution.pressure > 0.0]
         missed = reaches_unrefined(refined, touching, reach=grid.pitch)
         if len(missed) == 0:
@@ -89,10 +89,12 @@ def finite_element_level(
             pressed = pressed_finitely(problem, operator, grid, solution, constraints)
     elif scene.finite_element.plastic:
         with stages.stage("plastic flow", "finite elements: plastic flow"):
-            pressed = pressed_plastically(problem, operator, grid, solution, average, constraints)
+            pressed = pressed_plastically(
+                problem, operator, grid, solution, weighted_gap, constraints
+            )
     else:
         with stages.stage("contact", "finite elements: contact"):
-            pressed = pressed_linearly(problem, operator, grid, solution, average)
+            pressed = pressed_linearly(problem, operator, grid, solution, weighted_gap)
     solution = pressed.solution
     level = Level(
         grid=grid,

@@ -38,7 +38,7 @@ def surfaces_of(problem: Problem, level: Level) -> Surfaces:
     grid, scene = level.grid, problem.scene
     ground = np.zeros(grid.count)
     if scene.profile is not None:
-        ground = grid.average(scene.profile.spline(), problem.knots) / grid.weights
+        ground = grid.hat_integrals(scene.profile.spline(), problem.knots) / grid.weights
     parabola = grid.x**2 / (2.0 * scene.roller_radius)
     body = deformed_height(problem, level)
     return Surfaces(

@@ -96,10 +96,12 @@ def _plain_half_plane(
         operator = HalfPlane(grid.count, pitch, problem.modulus, element=method.element)
         if method.dense:
             operator = DenseCompliance(operator.block(np.arange(grid.count)))
-        average = (
-            pitch * problem.gap(grid.x) if strips else grid.average(problem.gap, problem.knots)
+        weighted_gap = (
+            pitch * problem.gap(grid.x)
+            if strips
+            else grid.hat_integrals(problem.gap, problem.knots)
         )
-        solution = solve_contact(operator, average, grid.weights, problem.constraints())
+        solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
         level = Level(
             grid=grid,
             solution=solution,

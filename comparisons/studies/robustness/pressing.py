@@ -72,10 +72,10 @@ def press_cylinder(
 ) -> Pressed:
     """Press a parabola about the middle of a half-plane's grid."""
     grid = HatGrid(pitch, -(count // 2), count - 1 - count // 2)
-    average = grid.average(roller_gap(radius))
+    weighted_gap = grid.hat_integrals(roller_gap(radius))
     operator = HalfPlane(grid.count, pitch, modulus)
-    solution = solve_contact(operator, average, grid.weights, constraints)
-    return Pressed(grid.x, average, operator, constraints, solution)
+    solution = solve_contact(operator, weighted_gap, grid.weights, constraints)
+    return Pressed(grid.x, weighted_gap, operator, constraints, solution)
 
 
 def residual_figures(solution: ContactSolution) -> tuple[tuple[Figure, ...], dict[str, float]]:

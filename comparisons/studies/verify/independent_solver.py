@@ -60,7 +60,7 @@ def both_roads(name: str, tables: dict) -> list[Check]:
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
     other = solve_variational_inequality(
         [(body, hat_forces(body.surface, hats)) for body in bodies.all],
-        grid.average(problem.finite_element_gap, problem.knots),
+        grid.hat_integrals(problem.finite_element_gap, problem.knots),
         grid.weights,
         problem.hertz.load_per_length,
         np.inf if scene.hardness is None else scene.hardness,

@@ -123,8 +123,10 @@ def _solved(case: OperatorCase, elements: float) -> tuple[HatGrid, ContactSoluti
         grid = HatGrid(case.span[1] / half, -half, half - 1)
     else:
         grid = HatGrid.within(*case.span, pitch)
-    average = grid.average(case.gap, np.array(case.knots))
-    solution = solve_contact(case.make(grid), average, grid.weights, Constraints(load=case.load))
+    weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
+    solution = solve_contact(
+        case.make(grid), weighted_gap, grid.weights, Constraints(load=case.load)
+    )
     return grid, solution
 
 

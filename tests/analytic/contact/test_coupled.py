@@ -156,7 +156,7 @@ class TestSymmetries:
         small = HatGrid(grid.pitch * length, grid.first, grid.last)
         other = solve_coupled(
             CoupledHalfPlane(small.count, small.pitch, roller.modulus * stiffness, 0.3),
-            grid.average(gap) * length**2,
+            grid.hat_integrals(gap) * length**2,
             small.weights,
             Constraints(load=roller.load * stiffness * length),
         )
@@ -188,7 +188,7 @@ def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness)
     residuals = contact_residuals(
         matrix @ found.pressure,
         found.pressure,
-        roller.grid.average(gap),
+        roller.grid.hat_integrals(gap),
         weights,
         found.approach,
         constraints,
@@ -203,7 +203,7 @@ def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness)
     system[:-1, :-1] = matrix[np.ix_(free, free)]
     system[:-1, -1], system[-1, :-1] = -weights[free], weights[free]
     held = np.where(capped, found.pressure, 0.0)
-    known = -(roller.grid.average(gap) + matrix @ held)[free]
+    known = -(roller.grid.hat_integrals(gap) + matrix @ held)[free]
     solved = np.linalg.solve(system, np.append(known, roller.load - weights @ held))[:-1]
     assert found.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
 
@@ -214,8 +214,8 @@ def test_a_compliance_given_as_a_matrix_can_be_the_normal_part(roller):
     matrix = toeplitz(HalfPlane(grid.count, grid.pitch, roller.modulus).column)
     tangential = TangentialHalfPlane(grid.count, grid.pitch, roller.modulus, 0.5)
     pair = CoupledPair(DenseCompliance(matrix), tangential, 0.6)
-    average = grid.average(roller.rough(1))
-    found = solve_coupled(pair, average, grid.weights, Constraints(load=roller.load))
+    weighted_gap = grid.hat_integrals(roller.rough(1))
+    found = solve_coupled(pair, weighted_gap, grid.weights, Constraints(load=roller.load))
     expected = roller.sliding(grid, roller.rough(1), 0.3)
     assert found.converged
     assert found.pressure == pytest.approx(expected.pressure, abs=1e-7 * expected.pressure.max())

@@ -38,7 +38,7 @@ def half_plane(modulus: float = MODULUS) -> HalfPlane:
 
 def average_gap(amplitude: float = 0.3e-6) -> np.ndarray:
     wave = 2.0 * np.pi / 60e-6
-    return GRID.average(lambda x: roller_gap(RADIUS)(x) - amplitude * np.cos(wave * x + 0.4))
+    return GRID.hat_integrals(lambda x: roller_gap(RADIUS)(x) - amplitude * np.cos(wave * x + 0.4))
 
 
 def perturbed() -> Dense:
@@ -159,7 +159,7 @@ def test_on_a_base_little_is_not_taken_for_rounding(base, change):
     grid = HatGrid.within(-0.5e-3, 0.5e-3, 1e-6)
     plain = HalfPlane(grid.count, grid.pitch, MODULUS)
     model = plain.on_base(base * plain.column[0] / grid.pitch**2)
-    gap = grid.average(roller_gap(RADIUS))
+    gap = grid.hat_integrals(roller_gap(RADIUS))
     load = Constraints(load=LOAD)
     first = solve_contact(model, gap, grid.weights, load)
     pressed = Constraints(approach=first.approach)
@@ -213,7 +213,7 @@ def rough_gap(seed: int) -> np.ndarray:
         shortest_wavelength=60e-6,
         longest_wavelength=0.4e-3,
     ).spline()
-    return GRID.average(lambda x: roller_gap(RADIUS)(x) - curve(x))
+    return GRID.hat_integrals(lambda x: roller_gap(RADIUS)(x) - curve(x))
 
 
 def sliding(friction_dundurs: float, modulus: float = MODULUS) -> CoupledHalfPlane:

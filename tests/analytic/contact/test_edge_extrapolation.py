@@ -19,10 +19,10 @@ NONE = np.zeros(GRID.count, dtype=bool)
 def broken_with_edges(half_nodes: int) -> tuple[Broken, Sides]:
     """What Hertz's contact shows with this many nodes free on either side of its centre."""
     operator = HalfPlane(GRID.count, GRID.pitch, MODULUS)
-    average = GRID.average(roller_gap(RADIUS))
+    weighted_gap = GRID.hat_integrals(roller_gap(RADIUS))
     constraints = Constraints(load=LOAD)
     spent = {"exchanges": 0, "applications": 0}
-    problem = EquilibriumProblem(operator, average, GRID.weights, constraints, spent)
+    problem = EquilibriumProblem(operator, weighted_gap, GRID.weights, constraints, spent)
     free = np.abs(np.arange(GRID.first, GRID.last + 1)) <= half_nodes
     sides = Sides(~free, NONE)
     rest = problem.equilibrium(HERTZ.pressure(GRID.x), sides, 0.0)

@@ -87,9 +87,9 @@ def contact(seed: int, periodic: bool, hardness: bool = False) -> Contact:
     count = int(rng.integers(120, 400))
     grid = HatGrid(1.0 / count, -(count // 2), count - 1 - count // 2)
     gap = surface(seed)
-    average = grid.average(lambda x: gap(x, periodic)) / grid.pitch
-    load = np.ptp(average) * 10.0 ** rng.uniform(-3.0, 0.5)
-    free = Contact(periodic, grid.pitch, 1.0, average, Constraints(load=load))
+    mean_gap = grid.hat_integrals(lambda x: gap(x, periodic)) / grid.pitch
+    load = np.ptp(mean_gap) * 10.0 ** rng.uniform(-3.0, 0.5)
+    free = Contact(periodic, grid.pitch, 1.0, mean_gap, Constraints(load=load))
     if not hardness:
         return free
     peak = free.solved().pressure.max()
@@ -178,9 +178,9 @@ def test_the_profile_may_stand_anywhere(seed, first):
     gap, pitch, found = surface(seed), 2.0**-8, []
     for origin in (0, first):
         grid = HatGrid(pitch, origin - 100, origin + 100)
-        average = grid.average(lambda x, o=origin: gap(x - o * pitch)) / pitch
-        load = 0.05 * np.ptp(average)
-        found.append(Contact(False, pitch, 1.0, average, Constraints(load=load)).solved())
+        mean_gap = grid.hat_integrals(lambda x, o=origin: gap(x - o * pitch)) / pitch
+        load = 0.05 * np.ptp(mean_gap)
+        found.append(Contact(False, pitch, 1.0, mean_gap, Constraints(load=load)).solved())
     assert_close(found[1].pressure, found[0].pressure)
 
 
@@ -193,8 +193,10 @@ def test_the_profile_may_stand_between_the_nodes(seed, share):
         grid = HatGrid(1.0 / fineness, -fineness // 2, fineness // 2)
         found = []
         for shift in (0.0, share * grid.pitch):
-            average = grid.average(lambda x, s=shift: 0.5 * (x - s) ** 2 - ripple(x - s))
-            problem = Contact(False, grid.pitch, 1.0, average / grid.pitch, Constraints(load=0.01))
+            weighted_gap = grid.hat_integrals(lambda x, s=shift: 0.5 * (x - s) ** 2 - ripple(x - s))
+            problem = Contact(
+                False, grid.pitch, 1.0, weighted_gap / grid.pitch, Constraints(load=0.01)
+            )
             found.append(problem.solved().approach)
         far.append(abs(found[1] - found[0]))
     assert far[0] < 2e-5

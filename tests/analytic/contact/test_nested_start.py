@@ -22,14 +22,14 @@ class TestRestricted:
     def test_an_odd_count_gives_the_coarse_grids_own_averages(self):
         fine, coarse = HatGrid(0.5, -9, 9), HatGrid(1.0, -4, 4)
         assert coarse.x == pytest.approx(fine.x[1::2])
-        found = restricted(fine.average(cubic), periodic=False)
-        assert found == pytest.approx(coarse.average(cubic), rel=1e-13)
+        found = restricted(fine.hat_integrals(cubic), periodic=False)
+        assert found == pytest.approx(coarse.hat_integrals(cubic), rel=1e-13)
         assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
 
     def test_an_even_count_lacks_half_a_hat_at_its_end(self):
         fine, coarse = HatGrid(0.5, -9, 10), HatGrid(1.0, -4, 5)
-        found = restricted(fine.average(cubic), periodic=False)
-        expected = coarse.average(cubic)
+        found = restricted(fine.hat_integrals(cubic), periodic=False)
+        expected = coarse.hat_integrals(cubic)
         assert found[:-1] == pytest.approx(expected[:-1], rel=1e-13)
         assert found[-1] != pytest.approx(expected[-1], rel=1e-3)
         assert restricted(fine.weights, periodic=False) == pytest.approx(coarse.weights)
@@ -41,8 +41,10 @@ class TestRestricted:
         # piecewise integration of the same wave: fine cells on both sides, so equal to rounding
         fine, coarse = HatGrid(0.5, 0, 15), HatGrid(1.0, 0, 7)
         knots = np.arange(-4, 24) * 0.5
-        shifted = coarse.average(lambda x: wave(x + 0.5), knots)
-        assert restricted(fine.average(wave), periodic=True) == pytest.approx(shifted, abs=1e-12)
+        shifted = coarse.hat_integrals(lambda x: wave(x + 0.5), knots)
+        assert restricted(fine.hat_integrals(wave), periodic=True) == pytest.approx(
+            shifted, abs=1e-12
+        )
 
     def test_what_is_integrated_is_kept(self):
         values = np.random.default_rng(1).standard_normal(64)
@@ -128,13 +130,13 @@ def cylinder(count: int):
     """Half-width 2/3 of the window's half, on the free half-plane."""
     grid = HatGrid(2.0 / count, -(count // 2) + 1, count // 2 - 1)
     load = np.pi * (2.0 / 3.0) ** 2 / 4.0
-    return HalfPlane(grid.count, grid.pitch, 1.0), grid.average(roller_gap(1.0)), load
+    return HalfPlane(grid.count, grid.pitch, 1.0), grid.hat_integrals(roller_gap(1.0)), load
 
 
 def sinusoid(count: int):
     """Westergaard's contact at 0.3 of the closing pressure pi E* A/L."""
     grid = HatGrid(1.0 / count, 0, count - 1)
-    gap = grid.average(lambda x: 1e-3 * (1.0 - np.cos(2.0 * np.pi * x)))
+    gap = grid.hat_integrals(lambda x: 1e-3 * (1.0 - np.cos(2.0 * np.pi * x)))
     return PeriodicHalfPlane(count, grid.pitch, 1.0), gap, 0.3 * np.pi * 1e-3
 
 
@@ -150,7 +152,7 @@ def rough(count: int, periodic: bool = True, seed: int = 4):
 
     grid = HatGrid(1.0 / count, 0, count - 1)
     operator = (PeriodicHalfPlane if periodic else HalfPlane)(count, grid.pitch, 1.0)
-    return operator, grid.average(gap), 4e-4
+    return operator, grid.hat_integrals(gap), 4e-4
 
 
 class TestCost:

@@ -109,10 +109,10 @@ ROUGH_GRID = HatGrid.within(-0.9e-3, 0.9e-3, 4e-6)
 def dense_oracle(grid, gap, load):
     """Pressures by non-negative least squares on the Cholesky factor, approach by bisection."""
     factor = np.linalg.cholesky(toeplitz(HalfPlane(grid.count, grid.pitch, MODULUS).column))
-    average = grid.average(gap)
+    weighted_gap = grid.hat_integrals(gap)
 
     def at(approach):
-        target = np.linalg.solve(factor, approach * grid.weights - average)
+        target = np.linalg.solve(factor, approach * grid.weights - weighted_gap)
         scale = np.abs(target).max()
         return nnls(factor.T / np.abs(factor).max(), target / scale, maxiter=20000)[0] * (
             scale / np.abs(factor).max()
@@ -151,17 +151,17 @@ def test_the_primal_method_reaches_the_same_solution(roller, seed, monkeypatch):
 def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
     monkeypatch.setattr(active_set, "MAX_EXCHANGES", 0)
     grid, gap = HatGrid.within(-0.5e-3, 0.5e-3, 10e-6), roller.rough(5)
-    operator, average = HalfPlane(grid.count, grid.pitch, MODULUS), grid.average(gap)
+    operator, weighted_gap = HalfPlane(grid.count, grid.pitch, MODULUS), grid.hat_integrals(gap)
     energies = []
     original = EquilibriumProblem.equilibrium
 
     def watched(problem, start, sides, reduction):
-        energies.append(start @ (0.5 * operator.apply(start) + average))
+        energies.append(start @ (0.5 * operator.apply(start) + weighted_gap))
         return original(problem, start, sides, reduction)
 
     monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
     everywhere = np.ones(grid.count)
-    solve_contact(operator, average, grid.weights, Constraints(load=0.3 * LOAD), everywhere)
+    solve_contact(operator, weighted_gap, grid.weights, Constraints(load=0.3 * LOAD), everywhere)
     assert len(energies) > 4
     steps = np.diff(energies)
     assert steps.max() <= 1e-12 * abs(energies[-1])
@@ -288,7 +288,7 @@ class TestProperties:
 
     def test_load_grows_with_approach(self, roller):
         gap = roller.rough(11)
-        first = ROUGH_GRID.average(gap).min() / ROUGH_GRID.pitch
+        first = ROUGH_GRID.hat_integrals(gap).min() / ROUGH_GRID.pitch
         loads = [
             roller.pressed(ROUGH_GRID, gap, Constraints(approach=first + depth)).load
             for depth in np.linspace(0.05e-6, 6e-6, 12)
@@ -298,9 +298,9 @@ class TestProperties:
 
 def test_several_loads_in_one_call_share_the_operators(roller):
     operator = HalfPlane(ROUGH_GRID.count, ROUGH_GRID.pitch, MODULUS)
-    average = ROUGH_GRID.average(roller.rough(4))
+    weighted_gap = ROUGH_GRID.hat_integrals(roller.rough(4))
     loads = [Constraints(load=share * LOAD) for share in (0.1, 0.7, 0.4)]
-    together = solve_contacts(operator, average, ROUGH_GRID.weights, loads)
+    together = solve_contacts(operator, weighted_gap, ROUGH_GRID.weights, loads)
     coarser = operator.coarsened()
     for each, solution in zip(loads, together, strict=True):
         alone = roller.pressed(ROUGH_GRID, roller.rough(4), each)

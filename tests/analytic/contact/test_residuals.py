@@ -18,13 +18,13 @@ def test_residuals_see_each_kind_of_error(roller):
     grid = HatGrid.within(-reach, reach, 0.01 * reach)
     solution = roller.pressed(grid, roller.smooth())
     operator = HalfPlane(grid.count, grid.pitch, roller.modulus)
-    average = grid.average(roller.smooth())
+    weighted_gap = grid.hat_integrals(roller.smooth())
 
     def residuals(pressure, approach=solution.approach, hardness=np.inf):
         return contact_residuals(
             operator.apply(pressure),
             pressure,
-            average,
+            weighted_gap,
             grid.weights,
             approach,
             Constraints(load=roller.load, hardness=hardness),
@@ -42,14 +42,14 @@ def test_residuals_see_pressure_at_the_hardness_over_an_open_gap(roller):
     """At the hardness bodies overlap or touch; the outermost nodes may carry nothing there."""
     grid, hardness = HatGrid(1e-6, -32, 32), 1e9
     operator = HalfPlane(grid.count, grid.pitch, roller.modulus)
-    average = grid.average(roller_gap(1e-3))
+    weighted_gap = grid.hat_integrals(roller_gap(1e-3))
     pressure = np.where(np.abs(grid.x) > 27.5e-6, hardness, 0.0)
     displacement = operator.apply(pressure)
     inner = pressure == 0.0
-    approach = np.min(((average + displacement) / grid.weights)[inner])
+    approach = np.min(((weighted_gap + displacement) / grid.weights)[inner])
     constraints = Constraints(load=grid.weights @ pressure, hardness=hardness)
     gap, residuals = contact_residuals(
-        displacement, pressure, average, grid.weights, approach, constraints
+        displacement, pressure, weighted_gap, grid.weights, approach, constraints
     )
     assert gap[~inner].max() > 1e-8
     assert residuals.complementarity > 0.01

@@ -7,7 +7,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
 from analytic.contact.smooth_pressure import LEAST_NODES, nodal_values, smooth_pressure
 from analytic.exact.hertz import hertz_from_peak_pressure
-from analytic.grid import hat_averages
+from analytic.grid import hat_integrals
 from analytic.operators.half_plane import DenseCompliance
 from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 
@@ -21,8 +21,8 @@ def parabola(x):
 
 def contact(hats, gap=parabola, load=HERTZ.load_per_length):
     operator = DenseCompliance(half_plane_matrix(hats, 1.0))
-    average = hat_averages(hats, gap)
-    return solve_contact(operator, average, hat_weights(hats), Constraints(load=load))
+    weighted_gap = hat_integrals(hats, gap)
+    return solve_contact(operator, weighted_gap, hat_weights(hats), Constraints(load=load))
 
 
 def graded(edges, end=1.003):

@@ -92,7 +92,7 @@ def solver_errors(found: FlattenedCylinder, count: float) -> tuple[float, float]
     grid = HatGrid.within(-reach, reach, pitch)
     solution = solve_contact(
         HalfPlane(grid.count, pitch, MODULUS),
-        grid.average(roller_gap(RADIUS)),
+        grid.hat_integrals(roller_gap(RADIUS)),
         grid.weights,
         Constraints(load=LOAD, hardness=found.hardness),
     )

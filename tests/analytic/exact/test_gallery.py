@@ -95,7 +95,7 @@ def solved(
     else:
         grid = HatGrid.within(-case.half_range, case.half_range, pitch)
     shift = offset * pitch
-    gap = grid.average(lambda x: case.gap(x - shift), np.array(case.knots) + shift)
+    gap = grid.hat_integrals(lambda x: case.gap(x - shift), np.array(case.knots) + shift)
     problem = gap, grid.weights, Constraints(load=case.load, hardness=case.hardness)
     size = grid.count, pitch, case.combined_modulus
     if case.period:

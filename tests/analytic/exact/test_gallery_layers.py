@@ -42,7 +42,7 @@ def test_numerical_layer_meets_the_limit(case: LayerContact):
     grid = HatGrid.within(-1.3 * limit.half_width, 1.3 * limit.half_width, pitch)
     solution = solve_contact(
         LayeredSurface(grid.count, pitch, case.body),
-        grid.average(roller_gap(case.radius)),
+        grid.hat_integrals(roller_gap(case.radius)),
         grid.weights,
         Constraints(load=limit.load_per_length),
     )

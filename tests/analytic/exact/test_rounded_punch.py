@@ -162,7 +162,7 @@ def solved(punch: RoundedPunch, elements: int, offset: float):
     knots = np.array([-punch.half_flat, punch.half_flat]) + shift
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, punch.combined_modulus),
-        grid.average(lambda x: punch.gap(x - shift), knots),
+        grid.hat_integrals(lambda x: punch.gap(x - shift), knots),
         grid.weights,
         Constraints(load=punch.load_per_length),
     )

@@ -187,7 +187,7 @@ def coupled_solution(contact: SlidingContact, grid: HatGrid, apex: float) -> np.
     lift *= contact.friction * contact.dundurs_beta / modulus
     matrix = toeplitz(HalfPlane(n, grid.pitch, modulus).column) + toeplitz(lift, -lift)
     roller = roller_gap(contact.radius)
-    gap, touching = grid.average(lambda x: roller(x - apex)), np.ones(n, dtype=bool)
+    gap, touching = grid.hat_integrals(lambda x: roller(x - apex)), np.ones(n, dtype=bool)
     for _ in range(60):
         inside = np.flatnonzero(touching)
         system = np.zeros((len(inside) + 1, len(inside) + 1))

@@ -133,7 +133,7 @@ def pressed(body, half_width, count, load, radius=1.0):
     pitch = 2.5 * half_width / count
     grid = HatGrid.within(-1.25 * half_width, 1.25 * half_width, pitch)
     operator = LayeredSurface(grid.count, pitch, body)
-    gap = grid.average(roller_gap(radius))
+    gap = grid.hat_integrals(roller_gap(radius))
     solution = solve_contact(operator, gap, grid.weights, Constraints(load=load))
     assert solution.converged
     return solution, grid
@@ -176,7 +176,7 @@ def load_at(body, half_width, approach):
     """Load under a cylinder of R = 1 m pressed in by `approach`, 1024 elements."""
     grid = HatGrid.within(-1.25 * half_width, 1.25 * half_width, 2.5 * half_width / 1024)
     operator = LayeredSurface(grid.count, grid.pitch, body)
-    gap = grid.average(roller_gap(1.0))
+    gap = grid.hat_integrals(roller_gap(1.0))
     solution = solve_contact(operator, gap, grid.weights, Constraints(approach=approach))
     assert solution.converged
     return solution.load
@@ -218,7 +218,7 @@ def test_approach_counts_from_the_base_and_not_from_the_grid():
     for window in (1.0, 2.0):
         grid = HatGrid.within(-0.3 * window, 0.3 * window, 1.0 / 512)
         operator = LayeredSurface(grid.count, grid.pitch, body)
-        gap = grid.average(roller_gap(1.0))
+        gap = grid.hat_integrals(roller_gap(1.0))
         load = Constraints(load=0.01 * LAYER.plane_strain_modulus)
         approaches.append(solve_contact(operator, gap, grid.weights, load).approach)
     assert approaches[0] == pytest.approx(approaches[1], rel=1e-11)

@@ -123,7 +123,7 @@ def test_sliding_contact_on_a_thick_layer_shifts_as_on_a_half_plane(base):
     modulus, count = LAYER.plane_strain_modulus, grid.count
     beta = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
     load = Constraints(load=0.25 * np.pi * modulus * half_width**2)
-    gap = grid.average(roller_gap(1.0))
+    gap = grid.hat_integrals(roller_gap(1.0))
     pairs = (
         (LayeredSurface(count, pitch, body), TangentialLayer(count, pitch, body)),
         (HalfPlane(count, pitch, modulus), TangentialHalfPlane(count, pitch, modulus, beta)),

@@ -23,7 +23,7 @@ def whole(operator: CoupledHalfPlane) -> DenseCoupledCompliance:
 
 def wavy_gap(grid: HatGrid = GRID) -> np.ndarray:
     wave = 2.0 * np.pi / 60e-6
-    return grid.average(lambda x: roller_gap(RADIUS)(x) - 0.3e-6 * np.cos(wave * x + 0.4))
+    return grid.hat_integrals(lambda x: roller_gap(RADIUS)(x) - 0.3e-6 * np.cos(wave * x + 0.4))
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ def waves():
         expected = {key: float(value) for key, value in case.items() if key != "profile"}
         for column, count in enumerate(COUNTS):
             grid = HatGrid(1.0 / count, 0, count - 1)
-            wave = grid.average(lambda x: 1.0 - np.cos(2.0 * np.pi * x))
+            wave = grid.hat_integrals(lambda x: 1.0 - np.cos(2.0 * np.pi * x))
             load = expected["pbar_over_pstar"] * np.pi
             operator = PeriodicHalfPlane(count, grid.pitch, 1.0)
             solution = solved(operator, wave, grid.weights, load)
@@ -166,7 +166,7 @@ def test_light_load_on_a_long_period_is_the_free_contact():
     """Half-width 1/100 of the period: images change the contact by (pi a/L)^2 and less."""
     count, radius = 2000, 1.0
     grid = HatGrid(1.0 / count, -count // 2, count // 2 - 1)
-    gap = grid.average(lambda x: (1.0 - np.cos(2.0 * np.pi * x)) / (4.0 * np.pi**2 * radius))
+    gap = grid.hat_integrals(lambda x: (1.0 - np.cos(2.0 * np.pi * x)) / (4.0 * np.pi**2 * radius))
     load = np.pi * 0.01**2 / 4.0
     around = solved(PeriodicHalfPlane(count, grid.pitch, 1.0), gap, grid.weights, load)
     free = solve_contact(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from analytic.grid import HatGrid, hat_averages
+from analytic.grid import HatGrid, hat_integrals
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 
@@ -51,7 +51,7 @@ def test_averages_over_unequal_hats_are_exact_for_polynomials():
         # The hat's second derivative is three deltas: integrate x^k twice.
         whole = [t ** (power + 2.0) / ((power + 1.0) * (power + 2.0)) for t in (a, b, c)]
         exact[i] = (whole[0] - whole[1]) / (b - a) + (whole[2] - whole[1]) / (c - b)
-    found = np.stack([hat_averages(hats, lambda x, k=k: x**k) for k in power], axis=1)
+    found = np.stack([hat_integrals(hats, lambda x, k=k: x**k) for k in power], axis=1)
     assert found == pytest.approx(exact, rel=1e-12, abs=1e-14)
     assert found[:, 0] == pytest.approx(hat_weights(hats), rel=1e-14)
 
@@ -59,7 +59,7 @@ def test_averages_over_unequal_hats_are_exact_for_polynomials():
 def test_averages_with_a_knot_follow_a_kink():
     hats = np.array([0.0, 1.0, 3.0])
     kink = 1.6
-    found = hat_averages(hats, lambda x: np.abs(x - kink), np.array([kink]))
+    found = hat_integrals(hats, lambda x: np.abs(x - kink), np.array([kink]))
     x = np.linspace(0.0, 3.0, 300001)
     direct = trapezoid(np.interp(x, hats, [0, 1, 0]) * np.abs(x - kink), x)
     assert found == pytest.approx(direct, rel=1e-8)
@@ -68,4 +68,4 @@ def test_averages_with_a_knot_follow_a_kink():
 def test_a_grid_of_hats_has_the_same_averages():
     grid = HatGrid(0.1, -5, 9)
     nodes = 0.1 * np.arange(-6, 11)
-    assert grid.average(np.exp) == pytest.approx(hat_averages(nodes, np.exp), rel=1e-13)
+    assert grid.hat_integrals(np.exp) == pytest.approx(hat_integrals(nodes, np.exp), rel=1e-13)

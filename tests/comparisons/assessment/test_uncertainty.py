@@ -107,7 +107,7 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
             shift = offset * 2.0 * reach / 360
             solution = solve_contact(
                 HalfPlane(grid.count, grid.pitch, hertz.combined_modulus),
-                grid.average(lambda x, shift=shift: roller_gap(hertz.radius)(x - shift)),
+                grid.hat_integrals(lambda x, shift=shift: roller_gap(hertz.radius)(x - shift)),
                 grid.weights,
                 Constraints(load=hertz.load_per_length),
             )

@@ -23,7 +23,7 @@ def mesh_in_edges(scene: ResolvedScene) -> tuple:
     grid = problem.grid(refinement.pitch)
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, problem.modulus),
-        grid.average(problem.gap, problem.knots),
+        grid.hat_integrals(problem.gap, problem.knots),
         grid.weights,
         problem.constraints(),
     )

@@ -124,7 +124,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     problem = problem_of(load_scene("sinusoid"))
     plan = make_plan(problem, MODELS)
     grid: HatGrid = problem.grid(problem.pitches[0])
-    average = grid.average(problem.gap, problem.knots)
+    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
     refinement = Refinement(grid.pitch)
     level = half_plane_level(problem, plan, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
@@ -134,7 +134,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     one = solve_with_model(
         operator,
         HalfPlane(grid.count, grid.pitch, problem.modulus),
-        average,
+        weighted_gap,
         grid.weights,
         problem.constraints(),
         tolerance=1e-10,
@@ -144,7 +144,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     assert part.factor == 2.0
     other = solve_variational_inequality(
         [(bodies.rough, part.compliance.normal), (bodies.rough, part.compliance.normal)],
-        average,
+        weighted_gap,
         grid.weights,
         problem.hertz.load_per_length,
     )

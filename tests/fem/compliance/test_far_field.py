@@ -175,7 +175,7 @@ class Pressed:
         solution = solve_with_model(
             self.operator,
             HalfPlane(self.grid.count, self.grid.pitch, 1.0),
-            self.grid.average(np.square),
+            self.grid.hat_integrals(np.square),
             self.grid.weights,
             Constraints(load=HERTZ.load_per_length),
         )
@@ -235,7 +235,7 @@ def test_pressure_and_approach_do_not_depend_on_the_blocks_size():
 def test_approach_has_the_half_planes_datum():
     case = pressed(10.0)
     operator = HalfPlane(case.grid.count, case.grid.pitch, 1.0)
-    gap = case.grid.average(np.square)
+    gap = case.grid.hat_integrals(np.square)
     load = Constraints(load=HERTZ.load_per_length)
     expected = solve_contact(operator, gap, case.grid.weights, load)
     assert case.approach == pytest.approx(expected.approach, rel=1e-4)
@@ -256,7 +256,7 @@ def test_two_bodies_of_different_blocks_add_up():
     solution = solve_with_model(
         SumOfBodies(*bodies),
         model,
-        grid.average(np.square),
+        grid.hat_integrals(np.square),
         grid.weights,
         Constraints(load=hertz.load_per_length),
     )

@@ -115,11 +115,11 @@ class Pressed:
         self.grid = grid
         constraints = Constraints(load=self.hertz.load_per_length)
         model = HalfPlane(grid.count, pitch, modulus)
-        gap = grid.average(lambda x: sagitta(x, radius))
+        gap = grid.hat_integrals(lambda x: sagitta(x, radius))
         self.solution = solve_with_model(
             SumOfBodies(*bodies), model, gap, grid.weights, constraints
         )
-        parabola = grid.average(lambda x: x**2 / (2.0 * radius))
+        parabola = grid.hat_integrals(lambda x: x**2 / (2.0 * radius))
         self.half_plane = solve_contact(model, parabola, grid.weights, constraints)
 
     @property

@@ -79,7 +79,7 @@ def solved(body: Material, roller: Material | None, friction: float, **how):
     found = solve_with_coupled_model(
         sliding_bodies(body, roller, friction, **how),
         CoupledHalfPlane(GRID.count, GRID.pitch, modulus, friction * beta),
-        GRID.average(lambda x: 0.5 * x**2 / radius),
+        GRID.hat_integrals(lambda x: 0.5 * x**2 / radius),
         GRID.weights,
         Constraints(load=LOAD),
     )
@@ -181,7 +181,7 @@ def rough_gap(grid: HatGrid, seed: int) -> np.ndarray:
         shortest_wavelength=0.5,
         longest_wavelength=3.0,
     ).spline()
-    return grid.average(lambda x: x**2 - curve(x))
+    return grid.hat_integrals(lambda x: x**2 - curve(x))
 
 
 class TestRoughProfiles:
@@ -240,7 +240,7 @@ def test_a_layer_a_third_as_thick_as_the_contact(structured_block, base):
     compliance = FiniteElementCompliance(body, HATS)
     beta = dundurs_constants(body.material, None)[1]
     modulus = body.material.plane_strain_modulus
-    gap = GRID.average(lambda x: 0.05 * x**2)
+    gap = GRID.hat_integrals(lambda x: 0.05 * x**2)
     constraints = Constraints(load=0.1)
     found = solve_with_coupled_model(
         Sliding(compliance, 0.5),

@@ -22,7 +22,7 @@ def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray
     first = level.grid.first - grid.first
     pressure[first : first + level.grid.count] = level.solution.pressure
     moved = HalfPlane(grid.count, pitch, problem.modulus).apply(pressure) / grid.weights
-    gap = grid.average(problem.gap, problem.knots) / grid.weights + moved
+    gap = grid.hat_integrals(problem.gap, problem.knots) / grid.weights + moved
     gap -= np.median(gap[pressure > 0.0])
     given_way = problem.modulus / problem.scene.body.plane_strain_modulus * moved
     body = mean_height(problem, grid) - given_way

@@ -40,9 +40,9 @@ def sliding(
     pitch = exact.half_width / PER_HALF
     grid = HatGrid(pitch, -int(2.2 * PER_HALF), int(2.2 * PER_HALF))
     operator = CoupledHalfPlane(grid.count, pitch, modulus, friction * beta)
-    average, constraints = grid.average(roller_gap(RADIUS)), Constraints(load=load)
-    solution = solve_coupled(operator, average, grid.weights, constraints)
-    return Pressed(grid.x, average, operator, constraints, solution)
+    weighted_gap, constraints = grid.hat_integrals(roller_gap(RADIUS)), Constraints(load=load)
+    solution = solve_coupled(operator, weighted_gap, grid.weights, constraints)
+    return Pressed(grid.x, weighted_gap, operator, constraints, solution)
 
 
 def sliding_findings(

@@ -69,9 +69,9 @@ def pressed_on(operator: ModelOperator, pitch: float, radius: float, load: float
     """A cylinder on an operator of hats about the middle."""
     half = operator.count // 2
     grid = HatGrid(pitch, -half, operator.count - 1 - half)
-    average, constraints = grid.average(roller_gap(radius)), Constraints(load=load)
-    solution = solve_contact(operator, average, grid.weights, constraints)
-    return Pressed(grid.x, average, operator, constraints, solution)
+    weighted_gap, constraints = grid.hat_integrals(roller_gap(radius)), Constraints(load=load)
+    solution = solve_contact(operator, weighted_gap, grid.weights, constraints)
+    return Pressed(grid.x, weighted_gap, operator, constraints, solution)
 
 
 def on_layer(

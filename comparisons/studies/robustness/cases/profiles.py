@@ -36,13 +36,15 @@ def profile_of(samples: int) -> Profile:
 def pressed_on(profile: Profile | None, mirrored: bool = False) -> Pressed:
     """A cylinder on the profile's spline; on the cubic itself without one."""
     curve = height if profile is None else surface(profile)
-    average = GRID.average(roller_gap(RADIUS, curve), None if profile is None else profile.x)
+    weighted_gap = GRID.hat_integrals(
+        roller_gap(RADIUS, curve), None if profile is None else profile.x
+    )
     if mirrored:
-        average = average[::-1]
+        weighted_gap = weighted_gap[::-1]
     operator = HalfPlane(GRID.count, GRID.pitch, 1.0)
     constraints = Constraints(load=LOAD)
-    solution = solve_contact(operator, average, GRID.weights, constraints)
-    return Pressed(GRID.x, average, operator, constraints, solution)
+    solution = solve_contact(operator, weighted_gap, GRID.weights, constraints)
+    return Pressed(GRID.x, weighted_gap, operator, constraints, solution)
 
 
 def sample_findings(samples: int) -> Findings:

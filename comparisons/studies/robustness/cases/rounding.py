@@ -155,7 +155,7 @@ def finite_results(
     material = Material(0.91 * float(change(1.0)), poissons_ratio)
     coating = None if stiffness == 1.0 else Coating(Material(stiffness, 0.3), 0.2)
     compliance = compliance_of(elastic_body(mesh, material, BONDED, coating=coating), GRID)
-    gap = change(GRID.average(lambda x: x**2 / 100.0))
+    gap = change(GRID.hat_integrals(lambda x: x**2 / 100.0))
     model = HalfPlane(GRID.count, GRID.pitch, 1.0)
     load = Constraints(load=float(change(np.pi / 4.0 / 50.0 * max(1.0, stiffness))))
     solution = press_finite(compliance, model, GRID, gap, load).solution

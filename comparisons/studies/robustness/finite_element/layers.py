@@ -36,7 +36,7 @@ def layer_findings(tables: Tables, pressure: float = THICK, refinement: int = 0)
     grid = level.grid
     exact = solve_contact(
         nearest_operator(problem.scene, grid),
-        grid.average(problem.gap, problem.knots),
+        grid.hat_integrals(problem.gap, problem.knots),
         grid.weights,
         problem.constraints(),
     )

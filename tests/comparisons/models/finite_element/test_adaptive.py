@@ -82,7 +82,7 @@ def equal_edges(per_half):
     far = FarField(body, hats[0], hats[-1])
     operator = DenseCompliance(FiniteElementCompliance(body, hats, far=far).matrix())
     solution = solve_contact(
-        operator, grid.average(ROLLER.gap), grid.weights, Constraints(load=ROLLER.load)
+        operator, grid.hat_integrals(ROLLER.gap), grid.weights, Constraints(load=ROLLER.load)
     )
     whole = np.concatenate([[0.0], solution.pressure, [0.0]])
     return distance(lambda x: np.interp(x, hats, whole), HERTZ.pressure), body.unknowns
@@ -104,7 +104,7 @@ def fine_half_plane(pressing, pitch=2e-4):
     grid = HatGrid.within(*pressing.extent, pitch)
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, 1.0),
-        grid.average(pressing.gap, pressing.knots),
+        grid.hat_integrals(pressing.gap, pressing.knots),
         grid.weights,
         Constraints(load=pressing.load),
     )
@@ -148,7 +148,7 @@ def test_body_of_its_own_shape_is_solved_on_that_shape():
     hats = np.arange(grid.first - 1, grid.last + 2) / 40
     solution = solve_contact(
         DenseCompliance(FiniteElementCompliance(body, hats).matrix()),
-        grid.average(ROLLER.gap),
+        grid.hat_integrals(ROLLER.gap),
         grid.weights,
         Constraints(load=ROLLER.load),
     )

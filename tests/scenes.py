@@ -1,0 +1,43 @@
+"""Scenes and materials that tests start from, and the places of the files that they read."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from comparisons.models.problem import Problem
+    from comparisons.scenes.scene import ResolvedScene
+
+PROJECT = Path(__file__).resolve().parents[1]
+DATA = PROJECT / "tests/data"
+PROFILES = PROJECT / "comparisons/scenes/library/profiles"
+MEASURED = PROJECT.parent / "shared/profiles"  # other people's: tests without them are skipped
+
+STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
+SMOOTH = {
+    "title": "Smooth",
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"per_length": 3.55e6},
+}
+# With a field of few points, and nothing beside the two models.
+QUICK = SMOOTH | {"stress": {"points": [120, 40]}, "budget": {"effects": False}}
+
+
+def changed(tables: dict, **sections: dict) -> dict:
+    """The tables with some fields of some sections replaced, or added."""
+    return tables | {name: tables.get(name, {}) | fields for name, fields in sections.items()}
+
+
+def resolved(tables: dict, name: str = "made", folder: Path = Path(".")) -> "ResolvedScene":
+    """What a scene file of these tables resolves to."""
+    from comparisons.scenes.resolve import resolve_tables
+
+    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
+
+
+def problem(tables: dict) -> "Problem":
+    """The mechanical problem that a scene file of these tables poses."""
+    from comparisons.models.problem import problem_of
+
+    return problem_of(resolved(tables))
