@@ -15,7 +15,7 @@ from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
 
 PROJECT = Path(__file__).resolve().parents[1]
-PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "pages").glob("*.md")}
+PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
 
 
@@ -36,7 +36,7 @@ def test_links_lead_somewhere_and_the_readme_leads_here(name):
     for link in re.findall(r"\]\(([^)#]+)\)", TEXT[name]):
         assert (PAGES[name].parent / link).exists(), link
     readme = (PROJECT / "README.md").read_text(encoding="utf-8")
-    assert f"](comparisons/pages/{name}.md)" in readme
+    assert f"](comparisons/docs/{name}.md)" in readme
 
 
 @pytest.mark.parametrize("name", PAGES)

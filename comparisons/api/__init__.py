@@ -67,9 +67,8 @@ def load(scene: Scene, tolerance: float | None = None) -> ResolvedScene:
     Load(kind='hertz_peak_pressure', value=1000000000.0)
     >>> load({"roller": {}})
     Traceback (most recent call last):
-    comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length
-    above 0: \
-a number in m or "8.2 mm"
+    comparisons.common.errors.SceneError: scene: roller.radius: is missing; allowed is a length \
+above 0: a number in m or "8.2 mm"
     """
     if isinstance(scene, Mapping):
         name = "scene"
