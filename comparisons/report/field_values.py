@@ -27,7 +27,7 @@ DIGITS = 6  # of a place
 
 
 @dataclass(frozen=True)
-class Look:
+class FieldExplorer:
     """What the page needs: choices of the reader, and the numbers as JSON.
 
     components   symbol and words
@@ -39,7 +39,7 @@ class Look:
     fields: "Markup"
 
 
-def look_of(outcome: Outcome) -> Look | None:
+def field_explorer(outcome: Outcome) -> FieldExplorer | None:
     """None without fields."""
     if outcome.window is None:
         return None
@@ -62,7 +62,7 @@ def look_of(outcome: Outcome) -> Look | None:
             for component in COMPONENTS
         ],
     }
-    return Look(
+    return FieldExplorer(
         components=tuple((component.symbol, component.words) for component in COMPONENTS),
         frictions=tuple(plain(friction) for friction in frictions),
         fields=Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),

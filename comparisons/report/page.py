@@ -3,24 +3,24 @@
 from dataclasses import dataclass
 
 from comparisons.common.model_names import HYPHENATED
-from comparisons.report.field_values import look_of
+from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
-from comparisons.report.tables.budget import budget_rows
-from comparisons.report.tables.comparison import comparison_rows, figure_rows
-from comparisons.report.tables.compliance_check import operator_note, operator_table
-from comparisons.report.tables.coupling import coupling_table
-from comparisons.report.tables.evidence import (
+from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_rows
+from comparisons.report.tables.model_error import budget_rows
+from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.tables.verification import (
     check_table,
     commands,
     convergence_tables,
     cost_table,
     effects_table,
+    operator_note,
+    operator_table,
     record_rows,
     refinement_text,
 )
-from comparisons.report.tables.problem import problem_sheet
 from comparisons.results.outcome import Outcome
 
 
@@ -48,7 +48,7 @@ def render(outcome: Outcome) -> str:
         "page.html.j2",
         script=script,
         policy=policy,
-        look=look_of(outcome),
+        look=field_explorer(outcome),
         scene=outcome.problem.scene,
         headline=headline(outcome),
         models=[HYPHENATED[name] for name in outcome.runs],
@@ -75,10 +75,10 @@ def render(outcome: Outcome) -> str:
 
 def draw(outcome: Outcome) -> Pictures:
     """Draw what applies to the run."""
-    from comparisons.report.figures.budget import budget_picture
     from comparisons.report.figures.cost import cost_picture
     from comparisons.report.figures.fields import field_pictures, near_surface_pictures
     from comparisons.report.figures.mesh import mesh_pictures
+    from comparisons.report.figures.model_error import budget_picture
     from comparisons.report.figures.pressures import close_up_picture, pressure_picture
     from comparisons.report.figures.problem import problem_picture
     from comparisons.report.figures.running_in import running_in_picture

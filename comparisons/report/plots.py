@@ -76,7 +76,7 @@ class Plots:
 
     def budget(self) -> "list[Axes]":
         """What the differences consist of, beside their tolerances."""
-        from comparisons.report.figures.budget import budget_picture
+        from comparisons.report.figures.model_error import budget_picture
 
         return self._axes(budget_picture)
 

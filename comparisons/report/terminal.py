@@ -8,9 +8,8 @@ from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import with_unit
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
-from comparisons.report.tables.budget import budget_rows, left_out_line
-from comparisons.report.tables.comparison import comparison_rows, figure_rows
-from comparisons.report.tables.coupling import coupling_line
+from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
+from comparisons.report.tables.model_error import budget_rows, left_out_line
 from comparisons.report.tables.problem import in_mm
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo

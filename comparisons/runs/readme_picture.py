@@ -15,9 +15,9 @@ import numpy as np
 
 from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, percent, plain, significant, with_unit
-from comparisons.report.figures.field_layout import colour_bar, cross, fill, round_bands
+from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
 from comparisons.report.figures.style import DIFFERENCE, LINES, REFERENCE, drawing, figure
-from comparisons.report.figures.surfaces_under_load import draw_surfaces
+from comparisons.report.figures.surfaces import draw_surfaces
 from comparisons.report.tables.problem import load_text
 from comparisons.results.outcome import Outcome
 

@@ -23,7 +23,7 @@ from comparisons.report.figures.style import (
     data_uri,
     figure,
 )
-from comparisons.report.figures.surfaces_under_load import draw_surfaces
+from comparisons.report.figures.surfaces import draw_surfaces
 from comparisons.report.tables.problem import load_text
 from comparisons.results.outcome import Outcome
 

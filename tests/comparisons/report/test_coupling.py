@@ -19,7 +19,7 @@ from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.report.tables.coupling import coupling_line, coupling_table
+from comparisons.report.tables.comparison import coupling_line, coupling_table
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables

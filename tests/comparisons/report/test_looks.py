@@ -12,13 +12,18 @@ from analytic.material import Material
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.report.figures import pressures as pressure_pictures
 from comparisons.report.figures import problem as problem_picture
-from comparisons.report.figures.budget import LOOKS
-from comparisons.report.figures.field_layout import colour_bar, fill, layout, round_bands
+from comparisons.report.figures.fields import colour_bar, fill, layout, round_bands
+from comparisons.report.figures.model_error import LOOKS
 from comparisons.report.figures.style import drawing
 from comparisons.report.headline import headline
-from comparisons.report.tables.compliance_check import FOUND, READING
-from comparisons.report.tables.evidence import convergence_tables, effects_table, refinement_text
 from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.tables.verification import (
+    FOUND,
+    READING,
+    convergence_tables,
+    effects_table,
+    refinement_text,
+)
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import Coated, Yielding
 

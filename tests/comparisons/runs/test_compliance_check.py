@@ -14,7 +14,7 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level_cache import KINDS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.report.tables.compliance_check import operator_note, operator_table
+from comparisons.report.tables.verification import operator_note, operator_table
 from comparisons.results.changes import movement
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene, resolve_tables

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.stress.field import StressField, friction_field
-from comparisons.report.figures.field_layout import round_bands
-from comparisons.report.figures.fields import COMPONENTS, Component
+from comparisons.report.figures.fields import COMPONENTS, Component, round_bands
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.pictures.trace import trace_surfaces
 

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.report.figures.field_layout import colour_bar, cross, fill
-from comparisons.report.figures.fields import Component
+from comparisons.report.figures.fields import Component, colour_bar, cross, fill
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.pictures.isometric import bounds, draw_isometric, draw_scales, frame

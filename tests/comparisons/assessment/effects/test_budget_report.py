@@ -13,10 +13,10 @@ from comparisons.assessment.effects.content import budget_content
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import Choice
-from comparisons.report.figures.budget import LOOKS, budget_bars, budget_picture
+from comparisons.report.figures.model_error import LOOKS, budget_bars, budget_picture
 from comparisons.report.figures.style import drawing
-from comparisons.report.tables.budget import budget_rows, left_out_line
-from comparisons.report.tables.evidence import effects_table
+from comparisons.report.tables.model_error import budget_rows, left_out_line
+from comparisons.report.tables.verification import effects_table
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
 

@@ -15,7 +15,7 @@ from comparisons.report.figures import pressures as pressure_pictures
 from comparisons.report.figures import problem as problem_picture
 from comparisons.report.figures import sections as section_pictures
 from comparisons.report.figures import surfaces as surface_picture
-from comparisons.report.figures.field_layout import fill, layout, round_bands
+from comparisons.report.figures.fields import fill, layout, round_bands
 from comparisons.report.figures.style import drawing
 from comparisons.report.page import draw
 from comparisons.results.outcome import Outcome
@@ -69,7 +69,7 @@ def line(axes, label: str) -> np.ndarray:
 
 def test_every_axis_says_what_it_shows_and_in_which_unit(wavy: dict[str, list]):
     for name, figures in wavy.items():
-        if name == "cost_picture":
+        if name == "cost":
             continue  # the unit stands at every tick
         for figure in figures:
             plots = [
@@ -88,7 +88,7 @@ def test_every_axis_says_what_it_shows_and_in_which_unit(wavy: dict[str, list]):
 
 
 def test_pressures_are_drawn_over_x_in_units_of_hertz(wavy: dict[str, list], wavy_outcome: Outcome):
-    wide, narrow, close = wavy["pressure_pictures"]
+    wide, narrow, close = wavy["pressures"]
     p0 = wavy_outcome.problem.hertz.peak_pressure
     for name, label in (("half_plane", "half-plane"), ("finite_element", "finite elements")):
         level = wavy_outcome.runs[name].finest
@@ -112,14 +112,14 @@ def test_the_difference_of_pressures_is_half_plane_minus_finite_elements(
     wavy: dict[str, list], wavy_outcome: Outcome
 ):
     one, other = (run.finest.solution.pressure for run in wavy_outcome.runs.values())
-    drawn = wavy["pressure_pictures"][0].axes[1].lines[0].get_ydata()[1:-1]
+    drawn = wavy["pressures"][0].axes[1].lines[0].get_ydata()[1:-1]
     assert drawn == pytest.approx((one - other) / wavy_outcome.problem.hertz.peak_pressure)
 
 
 def test_deformed_surfaces_coincide_where_there_is_pressure(
     wavy: dict[str, list], wavy_outcome: Outcome
 ):
-    axes = wavy["pressure_pictures"][0].axes[2]
+    axes = wavy["pressures"][0].axes[2]
     level = wavy_outcome.runs["half_plane"].finest
     roller, body = axes.lines[0].get_ydata(), axes.lines[1].get_ydata()
     touching = level.solution.pressure > 0.0
@@ -132,7 +132,7 @@ def test_sections_hold_both_fields_and_the_exact_smooth_one(
     wavy: dict[str, list], wavy_outcome: Outcome
 ):
     hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
-    through_edge = wavy["section_pictures"][1]
+    through_edge = wavy["sections"][1]
     column = int(np.argmin(np.abs(window.x - hertz.half_width)))
     whole = [axes for axes in through_edge.axes if axes.get_xlim()[1] > 0.5]
     for axes, friction in zip(whole, wavy_outcome.problem.scene.friction, strict=True):
@@ -148,7 +148,7 @@ def test_sections_hold_both_fields_and_the_exact_smooth_one(
 def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
     wavy: dict[str, list],
 ):
-    for figure in wavy["field_pictures"]:
+    for figure in wavy["fields"]:
         shown = [axes.images[0] for axes in figure.axes if axes.images]
         one, other, difference = (image.norm.boundaries for image in shown)
         assert np.array_equal(one, other)
@@ -196,7 +196,7 @@ def test_fields_and_their_difference_are_those_of_the_run(
         run.finest.stress(0.0).field.tau1 / hertz.peak_pressure
         for run in wavy_outcome.runs.values()
     )
-    figure = wavy["field_pictures"][0]
+    figure = wavy["fields"][0]
     shown = [axes.images[0] for axes in figure.axes if axes.images]
     for image, values in zip(shown, (one, other, one - other), strict=True):
         pixels = np.asarray(image.get_array())
@@ -246,7 +246,7 @@ def test_bands_survive_a_field_of_nothing():
 
 
 def test_bars_are_as_long_as_the_stages_took(wavy: dict[str, list], wavy_outcome: Outcome):
-    [figure] = wavy["cost_picture"]
+    [figure] = wavy["cost"]
     bars = figure.axes[0].patches
     ends = [bar.get_x() + bar.get_width() for bar in bars]
     expected = []
@@ -259,7 +259,7 @@ def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
     wavy: dict[str, list], wavy_outcome: Outcome
 ):
     mesh = wavy_outcome.runs["finite_element"].finest.mesh
-    whole = wavy["mesh_picture"][0].axes[0]
+    whole = wavy["mesh"][0].axes[0]
     low, high = whole.get_ylim()
     assert low > high  # z downwards
     assert whole.get_xlabel() == "x [mm]"
@@ -278,7 +278,7 @@ def test_the_mesh_is_drawn_downwards_with_every_edge_or_a_dark_cell(
 
 
 def test_the_problem_is_drawn_to_the_scene(wavy: dict[str, list], wavy_outcome: Outcome):
-    to_scale, close = wavy["problem_picture"][0].axes
+    to_scale, close = wavy["problem"][0].axes
     assert to_scale.get_aspect() == 1.0
     roller = to_scale.patches[0]
     assert roller.get_radius() == pytest.approx(wavy_outcome.problem.scene.roller_radius / 1e-3)

@@ -1,28 +1,19 @@
-"""Why the figures may be trusted: refinement, contact conditions, cost, and the run's record."""
+"""Why the figures may be trusted: refinement, contact conditions, compliance, cost and record."""
 
 import re
 import shlex
-from dataclasses import dataclass
+from itertools import chain, repeat
 
 from analytic.contact.problem import KKT_TOLERANCE
-from comparisons.assessment.comparison import (
-    Uncertainty,
-    figures,
-    uncertainties,
-)
+from comparisons.assessment.comparison import Uncertainty, figures, uncertainties
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.common.model_names import HYPHENATED, LABELS
-from comparisons.common.numbers import (
-    integer,
-    percent,
-    plain,
-    scale_of,
-    significant,
-    with_unit,
-)
+from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
 from comparisons.common.quantities import QUANTITIES, label
+from comparisons.models.finite_element.compliance_check import OperatorCheck
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
 
 RESIDUALS = {
@@ -34,16 +25,7 @@ RESIDUALS = {
 }
 
 
-@dataclass(frozen=True)
-class Table:
-    """Text cells by row; the first column names the row."""
-
-    title: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-def convergence_tables(outcome: Outcome) -> list[Table]:
+def convergence_tables(outcome: Outcome) -> list[TextTable]:
     """Every figure over the levels: one table a model, one for the norms of the difference."""
     tables = [_of_model(outcome, run) for run in outcome.runs.values()]
     if outcome.plan.compares:
@@ -51,7 +33,7 @@ def convergence_tables(outcome: Outcome) -> list[Table]:
     return tables
 
 
-def _of_model(outcome: Outcome, run: ModelRun) -> Table:
+def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
     problem, halved = outcome.problem, run.halved
     columns = len(run.levels) + (halved is not None)
     pitch = scale_of([run.levels[0].grid.pitch], "m")
@@ -82,10 +64,10 @@ def _of_model(outcome: Outcome, run: ModelRun) -> Table:
             )
     looked = halved is not None
     head = _head(len(run.levels), block=looked, domain=looked)
-    return Table(LABELS[run.name].capitalize(), head, tuple(rows))
+    return TextTable(LABELS[run.name].capitalize(), head, tuple(rows))
 
 
-def _of_pair(outcome: Outcome) -> Table:
+def _of_pair(outcome: Outcome) -> TextTable:
     problem, run = outcome.problem, outcome.runs["finite_element"]
     rows, seen = [], set()
     for pair in outcome.pairs:
@@ -103,7 +85,7 @@ def _of_pair(outcome: Outcome) -> Table:
                 )
             )
     head = _head(len(run.levels), block=False, domain=run.halved is not None)
-    return Table("Difference of both models", head, tuple(rows))
+    return TextTable("Difference of both models", head, tuple(rows))
 
 
 def _where(problem: Problem, name: str, friction: float) -> str:
@@ -135,7 +117,7 @@ def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
     )
 
 
-def effects_table(outcome: Outcome) -> Table | None:
+def effects_table(outcome: Outcome) -> TextTable | None:
     """What became of each effect that the half-plane lacks; None with one model."""
     if outcome.budget is None:
         return None
@@ -150,10 +132,10 @@ def effects_table(outcome: Outcome) -> Table | None:
             largest = percent(max(sizes))
         rows.append((name, EFFECTS[name].words, effect["status"], largest, effect["because"]))
     head = ("effect", "what the half-plane lacks", "status", "estimate, at most", "because")
-    return Table("", head, tuple(rows)) if rows else None
+    return TextTable("", head, tuple(rows)) if rows else None
 
 
-def check_table(outcome: Outcome) -> Table:
+def check_table(outcome: Outcome) -> TextTable:
     """The contact conditions on the finest level, evaluated once more after the solution."""
     rows = []
     for name, words in RESIDUALS.items():
@@ -168,10 +150,10 @@ def check_table(outcome: Outcome) -> Table:
             ),
         )
     )
-    return Table("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
+    return TextTable("", ("", *(LABELS[name] for name in outcome.runs)), tuple(rows))
 
 
-def cost_table(outcome: Outcome) -> Table:
+def cost_table(outcome: Outcome) -> TextTable:
     """Iterations, unknowns and memory on the finest level, and the time of all levels."""
     rows: dict[str, list[str]] = {}
     for name, run in outcome.runs.items():
@@ -191,7 +173,7 @@ def cost_table(outcome: Outcome) -> Table:
         (name, with_unit(sum(run.seconds.values()), "s", 3)) for name, run in outcome.runs.items()
     ]
     names = list(outcome.runs)
-    return Table(
+    return TextTable(
         "",
         ("on the finest level", *(LABELS[name] for name in names)),
         tuple((words, *(dict(cells).get(n, "") for n in names)) for words, cells in rows.items()),
@@ -240,3 +222,72 @@ def commands(outcome: Outcome) -> list[tuple[str, str]]:
         ("draws this page again, in the same folder", "crosscheck report ."),
         ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
     ]
+
+
+READING = {
+    "neither": "Mesh and body are right: what is left between the models is contact.",
+    "mesh": "The mesh is too coarse under the pressures: no other figure is better than it.",
+    "modulus": "The finite elements' elastic constants are not those of the other model.",
+    "block": "The block is too small, or held too near, to stand for the body.",
+    "geometry": "The mesh is right; the body is not judged, its own geometry is in the figures.",
+}
+FOUND = {
+    "neither": "no fault of mesh or body",
+    "mesh": "the mesh is too coarse",
+    "modulus": "the elastic constants are off",
+    "block": "the block is too small",
+    "geometry": "no fault of the mesh",
+}
+HOW = (
+    "Displacements under given pressures on the finest level, before any contact, against those of "
+    "the nearest analytic surface{datum}. Columns: under a single pressure element, the L2 norm of "
+    "the difference; far: without the elements next to the load. Waves: the work of the pressures, "
+    "negative where finite elements are stiffer. Both small: mesh and body are right, what is left "
+    "is contact error. Short waves off: the mesh. Columns off far from the load, or long waves "
+    "only: the block's size. All waves off alike: the elastic constants."
+)
+
+
+def operator_table(outcome: Outcome) -> TextTable | None:
+    """Columns and waves of the finest level; None where nothing was checked."""
+    check = _check(outcome)
+    if check is None:
+        return None
+    head = ["", "difference", "far"]
+    if check.half_plane is not None:
+        head.append(f"from the half-plane: what {_listed(check.finite)} does")
+    found, effect = check.nearest, check.half_plane
+    others = repeat(None) if effect is None else chain(effect.columns, effect.waves)
+    rows = []
+    for own, other in zip(chain(found.columns, found.waves), others, strict=False):
+        if own in found.columns:
+            name, far = f"column at x = {with_unit(own.x, 'm', 3)}", percent(own.beyond)
+            signed = False
+        else:
+            name, far = f"waves of {with_unit(own.length, 'm', 3)}", ""
+            name, signed = f"{name}, {plain(float(f'{own.elements:.3g}'))} elements", True
+        cells = [name, percent(own.difference, signed=signed), far]
+        if other is not None:
+            cells.append(percent(other.difference, signed=signed))
+        rows.append(tuple(cells))
+    title = f"Finite elements' compliance before contact: {FOUND[check.verdict]}"
+    return TextTable(title, tuple(head), tuple(rows))
+
+
+def operator_note(outcome: Outcome) -> str:
+    """What the table says, and how it is read; empty without one."""
+    check = _check(outcome)
+    if check is None:
+        return ""
+    datum = "" if check.datum else ", a constant removed"
+    because = check.because[0].upper() + check.because[1:]
+    return f"{READING[check.verdict]} {because}. {HOW.format(datum=datum)}"
+
+
+def _check(outcome: Outcome) -> OperatorCheck | None:
+    run = outcome.runs.get("finite_element")
+    return None if run is None else run.finest.operator
+
+
+def _listed(names: tuple[str, ...]) -> str:
+    return " and ".join(f"the {name}" for name in names)

@@ -1,0 +1,35 @@
+"""What the report's tables share: cells of text, and quantities written in one way everywhere."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from comparisons.common.numbers import percent, plain
+from comparisons.common.quantities import QUANTITIES
+
+
+@dataclass(frozen=True)
+class TextTable:
+    """Text cells by row; the first column names the row."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def grouped(items: Iterable, key: Callable[[object], object]) -> list[list]:
+    """Items of equal keys together, in the order in which the keys first occur."""
+    found: dict[object, list] = {}
+    for item in items:
+        found.setdefault(key(item), []).append(item)
+    return list(found.values())
+
+
+def listed(numbers: Iterable[float]) -> str:
+    """Numbers of the scene, such as friction coefficients, separated by commas."""
+    return ", ".join(map(plain, numbers))
+
+
+def error_text(quantity: str, value: float, uncertainty: float | None = None) -> str:
+    """A relative error in per cent with its sign (norms have none), in the digits that its
+    uncertainty supports."""
+    return percent(value, signed=not QUANTITIES[quantity].of_pair, uncertainty=uncertainty)
