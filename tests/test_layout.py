@@ -1,10 +1,11 @@
-"""The layers: who may import whom, what is imported late, and what lies at the top level.
+"""Who may import whom, what is imported late, what lies at the top level, which names resolve.
 
     analytic  <-  meshes  <-  fem  <-  comparisons
 
 `meshes` and `fem` use of `analytic` only its data types, so that the finite-element answer cannot
-lean on the solutions that it checks. Whatever is slow to import, or may be absent, is imported
-inside the function that needs it.
+lean on the solutions that it checks. Inside a package each room of `ROOMS` imports only rooms to
+its right, and no modules import each other in a circle. Whatever is slow to import, or may be
+absent, is imported inside the function that needs it.
 """
 
 import ast
@@ -12,16 +13,18 @@ import fnmatch
 import importlib.metadata
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tomllib
 import zipfile
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
-PROJECT = Path(__file__).resolve().parents[1]
 DATA_TYPES = {"analytic.material", "analytic.stress_state", "analytic.profile"}
 # What each package may import of ours: whole packages, or single modules.
 MAY_IMPORT = {
@@ -30,6 +33,15 @@ MAY_IMPORT = {
     "fem": {"fem", "meshes"} | DATA_TYPES,
     "comparisons": {"comparisons", "fem", "meshes", "analytic"},
 }
+# Rooms of a package, folders or modules at its root: each may import those to its right.
+ROOMS = {
+    "analytic": "running_in exact layers contact stress operators surface "
+    "grid profile stress_state material numerics",
+    "fem": "nonlinear contact compliance stress body solver compat",
+    "comparisons": "cli commands api benchmarks studies runs report results "
+    "assessment models scenes common",
+}
+MOST_ENTRIES = 16  # of a folder
 HEAVY = {
     "basix",
     "dolfinx",
@@ -153,14 +165,131 @@ def test_a_heavy_import_is_seen(source, count):
     assert len(heavy_at_import(source, "fem")) == count
 
 
-@pytest.mark.parametrize("path", MODULES, ids=dotted_name)
-def test_imports_follow_the_arrows(path):
-    assert forbidden(path.read_text(), package_of(path)) == []
+def test_imports_follow_the_arrows():
+    found = [(str(path), forbidden(path.read_text(), package_of(path))) for path in MODULES]
+    assert [each for each in found if each[1]] == []
 
 
-@pytest.mark.parametrize("path", MODULES, ids=dotted_name)
-def test_heavy_imports_stand_inside_functions(path):
-    assert heavy_at_import(path.read_text(), package_of(path)) == []
+def imports_of_ours(path: Path) -> set[str]:
+    """Modules of the project that a module imports, early or late; not those for type hints."""
+    tree = ast.parse(path.read_text())
+    unseen = [node for node in ast.walk(tree) if is_type_checking(node)]
+    for node in unseen:
+        node.body = []
+    names = set()
+    for name in imported(tree, package_of(path)):
+        while name and name not in BY_NAME:
+            name = name.rpartition(".")[0]
+        if name and BY_NAME[name].stem != "__init__":
+            names.add(name)
+    return names - {dotted_name(path)}
+
+
+def room(name: str) -> tuple[str, str]:
+    package, _, rest = name.partition(".")
+    return package, rest.split(".")[0]
+
+
+def against_the_order(name: str, other: str) -> bool:
+    (package, here), (_, there) = room(name), room(other)
+    order = ROOMS.get(package, "").split()
+    return here in order and there in order and order.index(there) < order.index(here)
+
+
+BY_NAME = {dotted_name(path): path for path in MODULES}
+GRAPH = {name: imports_of_ours(path) for name, path in BY_NAME.items()}
+
+
+def test_no_import_runs_against_the_order():
+    found = [f"{a} -> {b}" for a in GRAPH for b in GRAPH[a] if against_the_order(a, b)]
+    assert found == []
+    assert against_the_order("comparisons.common.files", "comparisons.runs.run")
+    assert not against_the_order("comparisons.runs.run", "comparisons.common.files")
+
+
+def test_every_room_has_its_place_in_the_order():
+    for package, order in ROOMS.items():
+        inside = {room(name)[1] for name in GRAPH if name.startswith(f"{package}.")}
+        assert inside == set(order.split())
+
+
+def test_no_modules_import_each_other():
+    tuple(TopologicalSorter(GRAPH).static_order())
+    with pytest.raises(CycleError):
+        tuple(TopologicalSorter({"a": {"b"}, "b": {"a"}}).static_order())
+
+
+def test_tests_of_fem_need_nothing_of_comparisons():
+    sources = [path.read_text() for path in (PROJECT / "tests/fem").rglob("*.py")]
+    names = [name for source in sources for name in imported(ast.parse(source), "tests.fem")]
+    assert [name for name in names if is_within(name, {"comparisons"})] == []
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}), ids=str)
+def test_a_folder_is_read_at_a_glance(folder):
+    names = [p.name for p in folder.iterdir() if not p.name.startswith((".", "__pycache__"))]
+    assert len(names) <= MOST_ENTRIES
+    heads = [name.split("_")[0] for name in names if name.endswith(".py") and "_" in name[1:]]
+    heads = [head for head in heads if head]
+    assert [head for head in set(heads) if heads.count(head) > 2] == []
+
+
+def defined(path: Path) -> set[str]:
+    """Names at the top of a module."""
+    found = set()
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            found.add(node.name)
+        elif isinstance(node, ast.ImportFrom | ast.Import):
+            found |= {alias.asname or alias.name for alias in node.names}
+        else:
+            found |= {n.id for n in ast.walk(node) if isinstance(n, ast.Name)}
+    return found
+
+
+def resolves(name: str) -> bool:
+    """Whether a dotted name is a folder, a module, or what stands at the top of one."""
+    if (PROJECT / name.replace(".", "/")).is_dir() or name in BY_NAME:
+        return True
+    parts = name.split(".")
+    for n in range(len(parts) - 1, 0, -1):
+        path = BY_NAME.get(".".join(parts[:n]))
+        if path is not None:
+            return parts[n] in defined(path)
+    return False
+
+
+def test_names_of_modules_in_words_resolve():
+    """In docstrings, comments and pages; `package.module` or `package.module.name`."""
+    sources = [
+        *MODULES,
+        *(PROJECT / "tests").rglob("*.py"),
+        *PROJECT.rglob("comparisons/docs/*.md"),
+    ]
+    pattern = re.compile(rf"`((?:{'|'.join(MAY_IMPORT)})(?:\.\w+)+)`")
+    named = {
+        (str(path.relative_to(PROJECT)), name)
+        for path in sources
+        for name in pattern.findall(path.read_text())
+    }
+    assert [each for each in sorted(named) if not resolves(each[1])] == []
+    assert len(named) > 50
+    assert not resolves("analytic.contact.no_such_thing")
+
+
+def test_a_class_has_its_name_to_itself():
+    """In the whole project: a reader who looks for it finds one."""
+    where: dict[str, list[str]] = {}
+    for name, path in BY_NAME.items():
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef):
+                where.setdefault(node.name, []).append(name)
+    assert {name: places for name, places in where.items() if len(places) > 1} == {}
+
+
+def test_heavy_imports_stand_inside_functions():
+    found = [(str(path), heavy_at_import(path.read_text(), package_of(path))) for path in MODULES]
+    assert [each for each in found if each[1]] == []
 
 
 def heavy_after(code: str) -> list[str]:

@@ -16,6 +16,7 @@ from comparisons.scenes.schema.finite_element import HELD_BLOCK
 
 PROJECT = Path(__file__).resolve().parents[1]
 PAGES = {path.stem: path for path in (PROJECT / "comparisons" / "docs").glob("*.md")}
+README = (PROJECT / "README.md").read_text(encoding="utf-8")
 TEXT = {name: path.read_text(encoding="utf-8") for name, path in PAGES.items()}
 
 
@@ -33,10 +34,14 @@ def rows(page: str, heading: str) -> list[list[str]]:
 
 @pytest.mark.parametrize("name", PAGES)
 def test_links_lead_somewhere_and_the_readme_leads_here(name):
-    for link in re.findall(r"\]\(([^)#]+)\)", TEXT[name]):
-        assert (PAGES[name].parent / link).exists(), link
-    readme = (PROJECT / "README.md").read_text(encoding="utf-8")
-    assert f"](comparisons/docs/{name}.md)" in readme
+    for path, text in ((PAGES[name], TEXT[name]), (PROJECT / "README.md", README)):
+        for link, heading in re.findall(r"\]\(([^)#]*)#?([^)]*)\)", text):
+            page = path.parent / link if link else path
+            assert page.exists(), link
+            if heading:
+                pattern = rf"^## {heading.replace('-', ' ')}$"
+                assert re.search(pattern, page.read_text(), re.MULTILINE | re.IGNORECASE)
+    assert f"](comparisons/docs/{name}.md)" in README
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -40,19 +40,28 @@ from comparisons.scenes.scene import ResolvedScene
 
 PROJECT = Path(__file__).resolve().parents[1]
 README = (PROJECT / "README.md").read_text(encoding="utf-8")
-FENCED = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
-COMMANDS = [command for kind, text in FENCED if kind == "console" for command in text.splitlines()]
+GUIDE, LIMITS, FIGURES, WHOLE = (
+    (PROJECT / f"comparisons/docs/{name}.md").read_text(encoding="utf-8")
+    for name in ("user_guide", "limits", "figures", "whole_method")
+)
 IN_UNITS = {"GPa": 1e9, "um": 1e-6}
 
 
-def fenced(kind: str, number: int = 0) -> str:
-    """The fenced block of a kind, by its number among these."""
-    return [text for found, text in FENCED if found == kind][number]
+def blocks(kind: str, page: str = README) -> list[str]:
+    """The fenced blocks of a kind on a page."""
+    return re.findall(rf"^```{kind}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
 
 
-def rows(heading: str) -> list[list[str]]:
-    """Cells of the table whose first column is called `heading`."""
-    lines = iter(README.splitlines())
+def fenced(kind: str, page: str = README) -> str:
+    return blocks(kind, page)[0]
+
+
+COMMANDS = [command for text in blocks("console") for command in text.splitlines()]
+
+
+def rows(heading: str, page: str = README) -> list[list[str]]:
+    """Cells of the table on a page whose first column is called `heading`."""
+    lines = iter(page.splitlines())
     for line in lines:
         if line.startswith(f"| {heading} |"):
             break
@@ -154,8 +163,11 @@ def test_test_command_is_the_launchers():
 
 def test_commands_in_passing_work(tmp_path):
     """What the doctor finds, and the studies, are tested with them: they take seconds and more."""
-    named = {command.split()[0] for command in re.findall(r"`\./crosscheck ([^`]+)`", README)}
-    studies = {"cost", "map", "verify", "stability", "paper", "rerun"}
+    named = {
+        command.split()[0]
+        for command in re.findall(r"`\./crosscheck ([^`]+)`", README + GUIDE + LIMITS)
+    }
+    studies = {"run", "cost", "map", "verify", "stability", "paper", "rerun"}
     assert named == {"scenes", "doctor", "init", "report", "table", *studies}
     for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)
@@ -171,7 +183,7 @@ def test_own_scene_has_five_lines_and_works(mine):
 
 def test_more_of_a_surface_works_in_the_own_scene(folder):
     """Its lines take the place of those of the same name."""
-    tables = tomllib.loads(fenced("toml")) | tomllib.loads(fenced("toml", 1))
+    tables = tomllib.loads(fenced("toml")) | tomllib.loads(fenced("toml", GUIDE))
     tables.pop("stress")
     tables["profile"] |= {"cutoff": "0.8 mm", "short_cutoff": "80 um"}  # suit the small trace
     assert {"profile", "running_in"} <= tables.keys()
@@ -208,34 +220,33 @@ def test_columns_and_arrays_are_those_that_the_files_hold(mine, folder):
         assert [name for name in arrays if "(" not in name] == listed
 
 
-def test_links_lead_somewhere():
-    links = re.findall(r"\]\(([^)]+)\)", README)
-    assert len(links) > 5
-    for link in links:
-        if link.startswith("#"):
-            assert re.search(rf"^## {link[1:]}$", README, re.MULTILINE | re.IGNORECASE), link
-        else:
-            assert (PROJECT / link).exists(), link
+def test_a_stranger_reads_it_in_one_sitting():
+    assert len(README.splitlines()) <= 150
 
 
 def test_scenes_are_those_that_come_along():
-    assert sorted(name for [cell, _] in rows("scene") for name in in_ticks(cell)) == scene_names()
+    assert (
+        sorted(name for [cell, _] in rows("scene", GUIDE) for name in in_ticks(cell))
+        == scene_names()
+    )
 
 
 def test_python_lines_work():
     names: dict = {}
     with redirect_stdout(io.StringIO()) as printed:
-        exec(fenced("python"), names)
+        exec(fenced("python", GUIDE), names)
     assert "peak pressure" in printed.getvalue()
     assert set(names["figures"]["models"]) == {"half_plane"}
     assert names["axes"][0].get_ylabel() == "p/p₀"
-    told = README.partition("## From Python")[2].partition("\n## ")[0].rpartition("`api.load`")[2]
+    told = GUIDE.partition("## From Python")[2].rpartition("`api.load`")[2]
     listed = re.findall(r"`(\w+)`", told.partition(" are ")[0])
     assert {"load", *listed} == set(names["api"].__all__)
 
 
 def test_exit_statuses_are_the_programs():
-    named = [int(number) for [numbers, _] in rows("exit status") for number in numbers.split(",")]
+    named = [
+        int(number) for [numbers, _] in rows("exit status", GUIDE) for number in numbers.split(",")
+    ]
     assert named == list(ExitStatus)
 
 
@@ -315,7 +326,7 @@ def numbers_in(test: str) -> set[float]:
     }
 
 
-@pytest.mark.parametrize("row", rows("figure"), ids=lambda row: row[0])
+@pytest.mark.parametrize("row", rows("figure", FIGURES), ids=lambda row: row[0])
 def test_bounds_are_those_of_the_tests_that_are_named(row):
     _, _, found, bound, test = row
     assert 0.0 < float(found) < float(bound)
@@ -323,16 +334,31 @@ def test_bounds_are_those_of_the_tests_that_are_named(row):
 
 
 def test_a_bound_that_no_test_has_is_seen():
-    [test] = in_ticks(rows("figure")[0][-1])
+    [test] = in_ticks(rows("figure", FIGURES)[0][-1])
     assert 1.5e-15 not in numbers_in(test)
     with pytest.raises(ValueError):
         numbers_in(f"{test}_no_more")
 
 
 def test_effects_have_the_estimates_that_are_named():
-    assert "a quarter of a/R" in README and TILT == 1 / 4
-    assert "three tenths of peak pressure over E" in README and STRAIN == 3 / 10
-    assert "the slope's mean square" in README and BOUNDARY_PER_SLOPE_SQUARED == 1
+    assert "a quarter of a/R" in LIMITS and TILT == 1 / 4
+    assert "three tenths of peak pressure over E" in LIMITS and STRAIN == 3 / 10
+    assert "the slope's mean square" in LIMITS and BOUNDARY_PER_SLOPE_SQUARED == 1
+
+
+def test_the_whole_method_fits_on_a_page_and_works():
+    """Three levels by both models; the lines printed are those that the page shows."""
+    code, shown = fenced("python", WHOLE), fenced("text", WHOLE)
+    assert len(code.splitlines()) <= 75
+    with redirect_stdout(io.StringIO()) as printed:
+        exec(code, {})
+    found, said = printed.getvalue().splitlines(), shown.splitlines()
+    assert len(found) == len(said) == 3
+    for line, wanted in zip(found, said, strict=True):
+        assert line.split(":")[0] == wanted.split(":")[0]
+        assert line.split()[-1] == wanted.split()[-1] == "agree"
+        difference, uncertainty = (float(n) for n in re.findall(r"([+-]?[\d.]+)%", line))
+        assert abs(difference) < 0.3 and 0.0 < uncertainty < 0.3
 
 
 def size_of(picture: Path) -> tuple[int, int]:
