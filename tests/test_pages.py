@@ -57,7 +57,8 @@ def test_commands_are_the_programs(name):
 
 class TestVerdict:
     def test_every_effect_has_its_row(self):
-        assert [name for name, *_ in rows("verdict", "effect")] == list(EFFECTS)
+        labels = [effect.label for effect in EFFECTS.values()]
+        assert [name for name, *_ in rows("verdict", "effect")] == labels
 
     def test_numbers_are_those_of_the_program(self):
         text = TEXT["verdict"]

@@ -5,7 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from comparisons.assessment.effects.effects import EFFECTS
+
 Verdict = Literal["agree", "differ", "inconclusive"]
+Validity = Literal["holds", "fails", "inconclusive"]
 
 
 @dataclass(frozen=True)
@@ -73,12 +76,14 @@ class ToleranceCheck:
         return abs(self.value) - self.doubt > self.tolerance
 
     @property
+    def verdict(self) -> Validity:
+        """The same as one word."""
+        return "holds" if self.is_inside else "fails" if self.is_outside else "inconclusive"
+
+    @property
     def is_blurred(self) -> bool:
         """Whether the uncertainty alone reaches across the tolerance, whatever is not shown."""
         return self.uncertainty >= abs(abs(self.value) - self.tolerance)
-
-
-Validity = Literal["holds", "fails", "inconclusive"]
 
 
 def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
@@ -119,4 +124,4 @@ def _effects(checks: Sequence[ToleranceCheck]) -> str:
         for name, size in check.not_modelled.items():
             largest[name] = max(size, largest.get(name, 0.0))
     by_size = sorted(largest.items(), key=lambda item: -item[1])
-    return ", ".join(f"{name} {size:.1%}" for name, size in by_size)
+    return ", ".join(f"{EFFECTS[name].label} {size:.1%}" for name, size in by_size)

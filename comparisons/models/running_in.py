@@ -86,7 +86,7 @@ def running_in_account(scene: ResolvedScene) -> dict | None:
         "pitch": worn.pitch,
         "passes": len(worn.passes),
         "sweeps": worn.sweeps,
-        "shaken_down": worn.status == "shaken down",
+        "settled": worn.status == "shaken down",
         "converged": worn.converged,
         "volume_moved": worn.volume,
         "volume_by_pass": [one.volume for one in worn.passes],

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (
@@ -75,7 +76,7 @@ def headline(outcome: Outcome) -> Headline:
         "inconclusive",
         f"The half-plane cannot be judged here: {_said(worst, several)}, but what no model of this "
         f"run contains may move it by {percent(math.hypot(*worst.not_modelled.values()))}, "
-        f"{missing} most.",
+        f"{EFFECTS[missing].label} most.",
     )
 
 
@@ -110,7 +111,7 @@ def _made_of(outcome: Outcome, check: ToleranceCheck) -> str:
         return ""
     name = max(own.effects, key=lambda name: abs(own.effects[name].value))
     made = abs(own.effects[name].value)
-    return f", most of it {name}" if made > 0.5 * abs(own.value) else ""
+    return f", most of it {EFFECTS[name].label}" if made > 0.5 * abs(own.value) else ""
 
 
 def _one_model(outcome: Outcome) -> str:

@@ -19,9 +19,9 @@ FIGURES = ("peak_pressure", "contact_length", "tau1_max")
 COLUMNS = {
     **{name: words.rpartition(", ")[2] for name, words in GROUPS.items()},
     **{name: label(name) for name in FIGURES},
-    **{f"own_error_{name}": f"own error: {label(name)}" for name in QUANTITIES},
+    **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
     **{f"seconds_{name}": f"time, {words}" for name, words in LABELS.items()},
-    "seconds_budget": "time of all cores, error budget",
+    "seconds_error_budget": "time of all cores, error budget",
 }
 
 
@@ -120,7 +120,7 @@ def _own(outcome: Outcome) -> dict[str, Cell]:
             worst.value, signed=not QUANTITIES[name].of_pair, uncertainty=worst.uncertainty
         )
         doubt = percent(worst.uncertainty)
-        found[f"own_error_{name}"] = Cell(
+        found[f"model_error_{name}"] = Cell(
             size, abs(worst.value), f"± {doubt}, tolerance {given_percent(tolerance)}"
         )
     return found
@@ -129,7 +129,7 @@ def _own(outcome: Outcome) -> dict[str, Cell]:
 def _times(outcome: Outcome) -> dict[str, Cell]:
     seconds = {name: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     if outcome.budget is not None and outcome.budget.seconds:
-        seconds["budget"] = outcome.budget.seconds
+        seconds["error_budget"] = outcome.budget.seconds
     return {
         f"seconds_{name}": Cell(scale_of([time], "s").text(time, 3), time)
         for name, time in seconds.items()

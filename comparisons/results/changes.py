@@ -6,7 +6,7 @@ the total uncertainty of a figure, or of the one that it hangs on (a place of a 
 depth's, say). Figures that state none may move by rounding alone.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 
@@ -23,7 +23,7 @@ ROUNDING = KKT_TOLERANCE
 # Observed orders jump where a sequence is not regular, the machine's memory may decide how many
 # levels there are, and estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
-NO_FIGURES |= {"estimate", "not_modelled", "shared_effects"}
+NO_FIGURES |= {"estimate", "not_modelled"}
 HANGS_ON = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",
@@ -157,7 +157,7 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
         case ("models", str(model), int(entry), "contact", "patches"):
             scale = _length(value) or half_width
             return _relative(recorded, model, entry, "patches", scale)
-        case ("models", str(model), int(entry), "coupling", quantity, part):
+        case ("models", str(model), int(entry), "normal_tangential_coupling", quantity, part):
             scale = 1.0 if part == "difference" else _scale(value, quantity, hertz)
             return _relative(recorded, model, entry, quantity, scale)
         case ("models", _, int(_), "contact", "load_per_length") if not _moves_load(recorded):
@@ -170,8 +170,14 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             rows = recorded["comparison"][quantity]
             own = _number(rows[entry].get("uncertainty"))
             return Stated(own, "itself" if name == "uncertainty" else quantity, 1.0)
-        case ("budget", "quantities", quantity, int(entry), *_):
-            return _in_budget(recorded["budget"]["quantities"][quantity][entry], path[4:], value)
+        case ("model_error", quantity, int(entry), *place):
+            return _of_model_error(recorded["model_error"][quantity][entry], place, value)
+        case ("error_budget", "quantities", quantity, int(entry), "numerical", model, "limit"):
+            row = recorded["error_budget"]["quantities"][quantity][entry]
+            doubt = _number(row["numerical"][model]["discretisation"])
+            return Stated(doubt * abs(value), "itself", abs(value) or 1.0)
+        case ("error_budget", "quantities", _, int(_), *_):
+            return Stated(abs(value), "itself", 1.0)
         case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):
@@ -190,17 +196,16 @@ def _relative(recorded: dict, model: str, entry: int, figure: str, scale: float)
     return Stated(total * scale, "itself" if by == figure else by, scale)
 
 
-def _in_budget(entry: dict, place: Path, value: Value | list) -> Stated:
-    """What a row of the error budget states: of its parts each its own uncertainty, else that of
-    the whole; of uncertainties and estimates their own size."""
+def _of_model_error(entry: dict, place: Sequence[str], value: Value | list) -> Stated:
+    """What the half-plane's model error states: of an effect its own uncertainty, of the whole and
+    of the interaction that of the whole; of an uncertainty its own size."""
     match place:
-        case ("numerical", model, "limit"):
-            doubt = _number(entry["numerical"][model]["discretisation"])
-            return Stated(doubt * abs(value), "itself", abs(value) or 1.0)
         case ("effects", effect, "value"):
             return Stated(_number(entry["effects"][effect]["uncertainty"]), "itself", 1.0)
-        case ("model_error", "value") | ("interaction",):
-            return Stated(_number(entry["model_error"]["uncertainty"]), "model_error", 1.0)
+        case ("value",) | ("interaction",):
+            return Stated(_number(entry["uncertainty"]), "model_error", 1.0)
+        case ("friction",) | ("tolerance",):
+            return Stated(0.0, "", abs(value) or 1.0)
     return Stated(abs(value), "itself", 1.0)
 
 

@@ -7,7 +7,8 @@ Columns
   half_plane, finite_element   the figure by each model, empty where it is of a pair
   difference, uncertainty, tolerance   relative, as result.json has them
   verdict                of the row; validity: of the run
-  model_error, own_error_uncertainty     of the half-plane, relative
+  model_error, model_error_uncertainty   of the half-plane, relative
+  model_error_verdict    holds, fails or inconclusive; empty without a tolerance
   effect_…               what of model_error is due to each assumption, relative, with the signs
                          of the report; empty where not computed
   a_over_radius, …       the run's dimensionless groups
@@ -24,7 +25,7 @@ from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.common.errors import InputError
 from comparisons.common.files import write_whole
 from comparisons.common.quantities import QUANTITIES
-from comparisons.results.recorded_run import read_table
+from comparisons.results.recorded_run import check_schema, read_table
 from comparisons.results.result_json import SCHEMA
 
 FILE = "result.json"
@@ -37,8 +38,8 @@ GROUPS = (
     "friction_dundurs",
     "peak_pressure_over_hardness",
 )
-EFFECT_COLUMNS = {name: f"effect_{name.replace(' ', '_')}" for name in EFFECTS}
-TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity")
+EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS}
+TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
 COLUMNS = (
     "run",
     "scene",
@@ -54,7 +55,8 @@ COLUMNS = (
     "verdict",
     "validity",
     "model_error",
-    "own_error_uncertainty",
+    "model_error_uncertainty",
+    "model_error_verdict",
     *EFFECT_COLUMNS.values(),
     *GROUPS,
 )
@@ -147,8 +149,7 @@ def rows_of(result: Mapping, run: str) -> list[Row]:
 def _rows_in(path: Path) -> list[Row]:
     result = read_table(path)
     try:
-        if result["schema"] != SCHEMA:
-            raise InputError(f"{path}: schema: is {result['schema']}; allowed is {SCHEMA}")
+        check_schema(path, result, SCHEMA)
         rows = rows_of(result, str(path.parent))
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
@@ -164,22 +165,23 @@ def _rows_in(path: Path) -> list[Row]:
 
 
 def _compared(result: Mapping) -> Iterable[Row]:
-    budget = (result.get("budget") or {}).get("quantities", {})
     for quantity, rows in result["comparison"].items():
-        parts = {row["friction"]: row for row in budget.get(quantity, ())}
+        errors = {row["friction"]: row for row in result["model_error"][quantity]}
         for row in rows:
-            own = parts.get(row["friction"], {})
-            error = own.get("model_error") or {}
+            error = errors[row["friction"]]
             # an effect that raises the finite elements' figure makes the half-plane's too low
             sign = 1.0 if QUANTITIES[quantity].of_pair else -1.0
-            effects = own.get("effects") or {}
             yield {
                 **row,
                 "quantity": quantity,
                 "unit": QUANTITIES[quantity].unit,
-                "model_error": error.get("value"),
-                "own_error_uncertainty": error.get("uncertainty"),
-                **{EFFECT_COLUMNS[name]: sign * share["value"] for name, share in effects.items()},
+                "model_error": error["value"],
+                "model_error_uncertainty": error["uncertainty"],
+                "model_error_verdict": error["verdict"],
+                **{
+                    EFFECT_COLUMNS[name]: sign * effect["value"]
+                    for name, effect in error["effects"].items()
+                },
             }
 
 

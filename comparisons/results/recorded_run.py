@@ -53,7 +53,7 @@ def read_record(folder: Path) -> Record:
         raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
     path = folder / "record.json"
     content = read_table(path)
-    check_schema(path, content, SCHEMA, "; run the scene again to record it")
+    check_schema(path, content, SCHEMA)
     figures_path = folder / "result.json"
     figures = read_table(figures_path)
     check_schema(figures_path, figures, RESULT_SCHEMA)
@@ -92,7 +92,7 @@ def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedSce
         source=str(path),
         kept=kept,
     )
-    effects = figures.get("budget") or {}
+    effects = figures.get("error_budget") or {}
     return replace(
         scene,
         resolution=Resolution(scene.resolution.pitch, levels, most=levels),
@@ -146,13 +146,13 @@ def _no_number(name: str) -> None:
     raise ValueError(f"{name} is no number")
 
 
-def check_schema(path: Path, content: dict, known: int, hint: str = "") -> None:
+def check_schema(path: Path, content: Mapping, known: int) -> None:
     """Raise InputError unless the content of a file is of the schema that is known here."""
     schema = _part(path, content, "schema", int)
     if schema < known:
         raise InputError(
-            f"{path}: schema: is {schema}, which lacks what a repetition needs; "
-            f"allowed is {known}{hint}"
+            f"{path}: schema: is {schema}, of an earlier crosscheck; allowed is {known}: run the "
+            "scene again"
         )
     if schema > known:
         raise InputError(f"{path}: schema: is {schema}, of a later crosscheck; allowed is {known}")

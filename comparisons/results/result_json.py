@@ -3,7 +3,7 @@
 from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.coupling import Coupling
 from comparisons.assessment.effects.budget import ErrorBudget
-from comparisons.assessment.effects.content import budget_content
+from comparisons.assessment.effects.content import error_budget_content, model_error_content
 from comparisons.assessment.verdict import Comparison, validity_verdict
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun, StressResult
@@ -11,7 +11,7 @@ from comparisons.models.plan import Plan, no_coupling
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_account
 
-SCHEMA = 1
+SCHEMA = 2  # 1 had the half-plane's model error inside `budget`, and `assumptions`
 
 
 def result_of(
@@ -64,10 +64,12 @@ def result_of(
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
-        "budget": None if budget is None else budget_content(problem, runs, comparisons, budget),
-        "validity": {"verdict": verdict, "why": why},
+        "model_error": {} if budget is None else model_error_content(problem, budget),
+        "error_budget": None
+        if budget is None
+        else error_budget_content(problem, runs, comparisons, budget),
+        "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "refinement": refinement,
-        "assumptions": list(plan.assumptions),
         "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
     }
 
@@ -153,8 +155,14 @@ def _coupling(problem: Problem, friction: float, couplings: tuple[Coupling, ...]
     """What friction changes by moving the surfaces, or why there is nothing of that."""
     found = next((c for c in couplings if c.friction == friction), None)
     if found is None:
-        return {"coupling": None, "coupling_why": no_coupling(problem, friction)}
-    return {"coupling": found.as_dict(), "coupling_why": found.why}
+        return {
+            "normal_tangential_coupling": None,
+            "normal_tangential_coupling_why": no_coupling(problem, friction),
+        }
+    return {
+        "normal_tangential_coupling": found.as_dict(),
+        "normal_tangential_coupling_why": found.why,
+    }
 
 
 def _contact(problem: Problem, model: str, level: Level) -> dict:

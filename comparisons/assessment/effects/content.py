@@ -1,23 +1,48 @@
-"""The error budget as result.json has it."""
+"""The half-plane's model error and the error budget as result.json has them."""
 
 import math
 
 from comparisons.assessment.comparison import Uncertainty, uncertainties
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.effects.effects import EFFECTS
-from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.verdict import Comparison
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
 
-def budget_content(
+def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list[dict]]:
+    """By quantity, one entry a friction coefficient; relative to the whole model, None for what is
+    unknown or not judged."""
+    tolerance = problem.scene.tolerance
+    verdicts = {(c.quantity, c.friction): c.verdict for c in budget.tolerance_checks(tolerance)}
+    found: dict[str, list[dict]] = {}
+    for error in budget.own:
+        found.setdefault(error.quantity, []).append(
+            {
+                "friction": error.friction,
+                "value": error.value,
+                "uncertainty": _known(error.uncertainty),
+                "effects": {
+                    name: {"value": effect.value, "uncertainty": _known(effect.uncertainty)}
+                    for name, effect in error.effects.items()
+                },
+                "interaction": error.interaction,
+                "not_modelled": budget.choice.not_modelled(error.quantity),
+                "tolerance": tolerance.get(error.quantity),
+                "verdict": verdicts.get((error.quantity, error.friction)),
+            }
+        )
+    return found
+
+
+def error_budget_content(
     problem: Problem,
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
     budget: ErrorBudget,
 ) -> dict:
-    """By quantity and friction coefficient, all relative; None for what is unknown."""
+    """What became of every effect, and by quantity the numerical parts and the sampling's, all
+    relative; None for what is unknown."""
     doubts = {
         (model, friction): uncertainties(run, problem, friction)
         for model, run in runs.items()
@@ -32,8 +57,6 @@ def budget_content(
             {"friction": row.friction}
             | ({} if row.half_plane is None else {"numerical": numerical})
             | {"input": budget.sampling.get(row.friction, {}).get(row.quantity)}
-            | _own(budget.of(row.quantity, row.friction))
-            | {"not_modelled": budget.choice.not_modelled(row.quantity)}
         )
     return {
         "effects": {name: _effect(name, budget) for name in EFFECTS},
@@ -54,10 +77,10 @@ def _effect(name: str, budget: ErrorBudget) -> dict:
         status, why = "computed", "its estimate exceeds a tenth of a tolerance"
     elif name in choice.impossible:
         status, why = "not computed", choice.impossible[name]
-    elif name in choice.left_out:
-        status, why = "left out", "its estimate is below a tenth of every tolerance"
+    elif name in choice.negligible:
+        status, why = "negligible", "its estimate is below a tenth of every tolerance"
     else:
-        status, why = "none", "it does not apply, or has no size"
+        status, why = "does not apply", "it does not apply, or has no size"
     return {"status": status, "because": why, "estimate": estimate}
 
 
@@ -73,18 +96,6 @@ def _numerical(doubt: Uncertainty | None) -> dict | None:
         "order": convergence.order,
         "limit": convergence.limit,
     }
-
-
-def _own(own: ModelError) -> dict:
-    return {
-        "effects": {name: _share(share) for name, share in own.effects.items()},
-        "interaction": own.interaction,
-        "model_error": {"value": own.value, "uncertainty": _known(own.uncertainty)},
-    }
-
-
-def _share(share: Estimate) -> dict:
-    return {"value": share.value, "uncertainty": _known(share.uncertainty)}
 
 
 def _known(value: float) -> float | None:

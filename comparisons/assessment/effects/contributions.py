@@ -22,7 +22,7 @@ from comparisons.assessment.effects.selection import NONLINEAR, Choice
 from comparisons.assessment.effects.variants import Body, strain_share
 from comparisons.models.problem import Problem
 
-COUPLED = "coupling"
+COUPLED = "normal_tangential_coupling"
 
 
 @dataclass(frozen=True)
@@ -113,14 +113,14 @@ def _nonlinear(
     level: int,
 ) -> QuantitiesOfInterest:
     """What the nonlinear effect adds to linear bodies that have what it cannot be without."""
-    if name == "plastic flow":  # the scene's own: nothing else has a yield stress
+    if name == "plastic_flow":  # the scene's own: nothing else has a yield stress
         beside = (choice.contained & linear) | ({COUPLED} if friction else frozenset())
         shaping = friction or None
         flowing = bodies.answer(Body(beside | {name}, shaping), level, friction)
         return flowing - bodies.answer(Body(beside, shaping), level, friction)
     scene = problem.scene
-    beside = linear | {"displaced gap"}
-    beside |= {"real boundary"} if scene.profile is not None else frozenset()
+    beside = linear | {"deformed_gap"}
+    beside |= {"rough_boundary"} if scene.profile is not None else frozenset()
     beside |= {COUPLED} if friction else frozenset()
     settings = scene.finite_element
     held = settings.far_field != "held" or settings.element != "P2"
@@ -128,7 +128,7 @@ def _nonlinear(
     # where nothing else asks for the same body, for no other friction coefficient either
     shaping = friction if friction or held or stand_in else None
     if stand_in:  # of unbounded bodies: a layer's compliance does not grow with the roller's
-        beside -= {"finite body", "disc"}
+        beside -= {"finite_size", "finite_roller"}
     strained = Body(beside | {name}, shaping, stand_in, held)
     small = Body(beside, shaping, stand_in, held)
     change = bodies.answer(strained, level, friction) - bodies.answer(small, level, friction)

@@ -18,12 +18,14 @@ from comparisons.scenes.scene import ResolvedScene
 class Effect:
     """One assumption that is dropped.
 
-    words       what there is then, for tables
+    label       short name for tables
+    words       what replaces the assumption, for tables
     contained   whether a scene's finite elements have it
     applies     whether it could differ from the half-plane at all in a scene
     give        puts what `whole` has of it into a plainer scene
     """
 
+    label: str
     words: str
     contained: Callable[[ResolvedScene], bool]
     applies: Callable[[Problem], bool]
@@ -59,40 +61,50 @@ def _always(problem: Problem) -> bool:
 
 
 EFFECTS: dict[str, Effect] = {
-    "finite body": Effect(
+    "finite_size": Effect(
+        "finite thickness or width",
         "the body's own thickness and width",
         _bounded,
         lambda problem: _bounded(problem.scene),
         _give_bounds,
     ),
     "coating": Effect(
+        "coating",
         "the coating",
         lambda scene: scene.coating is not None,
         lambda problem: problem.scene.coating is not None,
         lambda scene, whole: replace(scene, coating=whole.coating),
     ),
-    "real boundary": Effect(
+    "rough_boundary": Effect(
+        "rough boundary",
         "the trace as boundary",
         _is("geometry", "rough"),
         lambda problem: problem.scene.profile is not None,
         _set(geometry="rough"),
     ),
-    "displaced gap": Effect(
-        "the gap at the displaced place, along the roller's normal",
+    "deformed_gap": Effect(
+        "deformed gap",
+        "the gap on the deformed surface, along the roller's normal",
         _is("gap", "displaced"),
         _always,
         _set(gap="displaced"),
     ),
-    "circle": Effect(
-        "the roller's circle", _is("roller_shape", "circle"), _always, _set(roller_shape="circle")
+    "exact_circle": Effect(
+        "exact circle",
+        "the roller's circle",
+        _is("roller_shape", "circle"),
+        _always,
+        _set(roller_shape="circle"),
     ),
-    "disc": Effect(
-        "the roller's finite body",
+    "finite_roller": Effect(
+        "finite roller",
+        "a roller of finite size",
         _is("roller_body", "disc"),
         lambda problem: problem.scene.roller is not None,
         _set(roller_body="disc"),
     ),
-    "coupling": Effect(
+    "normal_tangential_coupling": Effect(
+        "normal-tangential coupling",
         "sliding traction that moves the surfaces",
         lambda scene: scene.finite_element.coupled and not scene.coupled,
         lambda problem: (
@@ -102,13 +114,15 @@ EFFECTS: dict[str, Effect] = {
         ),
         _set(coupled=True),
     ),
-    "finite strain": Effect(
+    "finite_strain": Effect(
+        "finite strain",
         "strains and rotations that are not small",
         _is("deformation", "finite"),
         _always,
         _set(deformation="finite"),
     ),
-    "plastic flow": Effect(
+    "plastic_flow": Effect(
+        "plastic flow",
         "flow in place of the cap on the pressure",
         _is("plastic", True),
         lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
@@ -118,13 +132,13 @@ EFFECTS: dict[str, Effect] = {
 
 
 # What finite deformation has whatever the scene says.
-IN_FINITE_STRAIN = "displaced gap"
+IN_FINITE_STRAIN = "deformed_gap"
 
 
 def contained(scene: ResolvedScene) -> frozenset[str]:
     """Names of the effects that the scene's own finite elements have."""
     names = {name for name, effect in EFFECTS.items() if effect.contained(scene)}
-    return frozenset(names | ({IN_FINITE_STRAIN} if "finite strain" in names else set()))
+    return frozenset(names | ({IN_FINITE_STRAIN} if "finite_strain" in names else set()))
 
 
 def is_taken_apart(scene: ResolvedScene) -> bool:

@@ -40,15 +40,15 @@ def estimates(
     couplings  of the half-plane, one a friction coefficient
     """
     found = {
-        "finite body": _finite_body(problem),
+        "finite_size": _finite_body(problem),
         "coating": _coating(problem),
-        "real boundary": _real_boundary(_slope(problem)),
-        "displaced gap": _displaced_gap(problem, peak),
-        "circle": _circle(_curvature(problem)),
-        "disc": _disc(problem),
-        "coupling": _coupling(problem, couplings),
-        "finite strain": _finite_strain(problem, peak, set(linear)),
-        "plastic flow": _plastic_flow(problem, peak),
+        "rough_boundary": _real_boundary(_slope(problem)),
+        "deformed_gap": _displaced_gap(problem, peak),
+        "exact_circle": _circle(_curvature(problem)),
+        "finite_roller": _disc(problem),
+        "normal_tangential_coupling": _coupling(problem, couplings),
+        "finite_strain": _finite_strain(problem, peak, set(linear)),
+        "plastic_flow": _plastic_flow(problem, peak),
     }
     kept = {
         effect: {name: size for name, size in sizes.items() if size > 0.0}
@@ -173,9 +173,9 @@ STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 def _finite_strain(problem: Problem, peak: float, linear: set[str]) -> Sizes:
     pressure = peak / problem.scene.body.youngs_modulus
     found = _alike(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
-    if "displaced gap" in linear:
+    if "deformed_gap" in linear:
         found["tau1_field_near"] += UNTURNED * _curvature(problem)
-    if "real boundary" in linear:
+    if "rough_boundary" in linear:
         for name, size in _unflattened(_slope(problem)).items():
             found[name] += size
     return found

@@ -96,7 +96,7 @@ class Bodies:
     def prepare(self, asked: Iterable[Body], number: int) -> None:
         """Have what bodies answer on a level at hand, solved side by side where that pays."""
         new = [body for body in asked if not self._is_own(body) and self._is_new(body, number)]
-        new.sort(key=lambda body: "finite strain" not in body.effects)  # the dearest first
+        new.sort(key=lambda body: "finite_strain" not in body.effects)  # the dearest first
 
         def here(body: Body) -> None:
             start, stop = BEHIND[number - 1 : number + 1]

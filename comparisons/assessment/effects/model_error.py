@@ -114,10 +114,10 @@ def model_errors(
             for effect in last.effects
         }
         stand_in = 0.0
-        if "finite strain" in effects:
-            strain = effects["finite strain"]
+        if "finite_strain" in effects:
+            strain = effects["finite_strain"]
             stand_in = strain_doubt(problem) * abs(strain.value)
-            effects["finite strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
+            effects["finite_strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
         numerical = np.inf if row.uncertainty is None else row.uncertainty
         missing = share(name, lacking)
         if not QUANTITIES[name].of_pair:

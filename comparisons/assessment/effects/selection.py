@@ -10,7 +10,7 @@ from comparisons.models.problem import Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 # Names of effects whose bodies are not linear: they are measured beside the linear ones.
-NONLINEAR = ("finite strain", "plastic flow")
+NONLINEAR = ("finite_strain", "plastic_flow")
 
 
 @dataclass(frozen=True)
@@ -19,14 +19,14 @@ class Choice:
 
     contained    the scene's own finite elements have it
     added        computed beside, for the verdict
-    left_out     too small by its estimate to matter, each with it
+    negligible     too small by its estimate to matter, each with it
     impossible   would matter, but cannot be computed here: the reason
     estimates    of all that apply, by effect and quantity
     """
 
     contained: frozenset[str]
     added: frozenset[str]
-    left_out: dict[str, Sizes]
+    negligible: dict[str, Sizes]
     impossible: dict[str, str]
     estimates: dict[str, Sizes]
 
@@ -42,7 +42,7 @@ class Choice:
 
     def not_modelled(self, quantity: str) -> Sizes:
         """Estimates on a quantity of the effects that no model has, by name."""
-        open_effects = set(self.left_out) | set(self.impossible)
+        open_effects = set(self.negligible) | set(self.impossible)
         return {
             name: sizes[quantity]
             for name, sizes in self.estimates.items()
@@ -70,26 +70,26 @@ def choose(problem: Problem, peak: float, couplings: tuple[Coupling, ...]) -> Ch
         for name, sizes in estimates(problem, peak, linear, couplings).items()
         if name in applying
     }
-    added, left_out, impossible = set(), {}, {}
+    added, negligible, impossible = set(), {}, {}
     for name, sizes in sized.items():
         if name in own:
             continue
         why = why_not(name, problem)
         if not matters(sizes):
-            left_out[name] = sizes
+            negligible[name] = sizes
         elif why is not None:
             impossible[name] = why
         else:
             added.add(name)
-    return Choice(own, frozenset(added), left_out, impossible, sized)
+    return Choice(own, frozenset(added), negligible, impossible, sized)
 
 
 def why_not(name: str, problem: Problem) -> str | None:
     """Why an effect cannot be computed in a scene, or None."""
     scene = problem.scene
-    if name == "plastic flow":
+    if name == "plastic_flow":
         return None if scene.yielding is not None else "the body has no yield stress"
-    if name == "finite strain":
+    if name == "finite_strain":
         for hindered, why in (
             (scene.finite_element.plastic, "flow is of small deformation"),
             (scene.hardness is not None, "a cap on the pressure is of small deformation"),

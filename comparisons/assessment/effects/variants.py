@@ -40,7 +40,7 @@ class Body:
     @property
     def name(self) -> str:
         """Of files, one to a body."""
-        words = sorted(effect.replace(" ", "-") for effect in self.effects) or ["none"]
+        words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
         words += ["held"] * self.held + ["stand-in"] * self.stand_in
         return (
             "effect-" + "+".join(words) + ("" if self.friction is None else f"@{self.friction:g}")

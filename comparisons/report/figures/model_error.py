@@ -26,16 +26,16 @@ LOOKS: dict[str, tuple[str, str]] = {
     "finite elements' discretisation": ("#b5b5b5", "////"),
     "far boundary": ("#d9d9d9", "...."),
     "sampling": ("#ffffff", "||||"),
-    "finite body": ("#0072B2", ""),
+    "finite_size": ("#0072B2", ""),
     "coating": ("#56B4E9", "xxxx"),
-    "real boundary": ("#009E73", "\\\\\\\\"),
-    "displaced gap": ("#E69F00", ""),
-    "circle": ("#F0E442", ""),
-    "disc": ("#CC79A7", "oo"),
-    "coupling": ("#56B4E9", "++"),
-    "finite strain": ("#D55E00", "xx"),
-    "plastic flow": ("#F0E442", "\\\\\\\\"),
-    "together": ("#f2e2d0", "----"),
+    "rough_boundary": ("#009E73", "\\\\\\\\"),
+    "deformed_gap": ("#E69F00", ""),
+    "exact_circle": ("#F0E442", ""),
+    "finite_roller": ("#CC79A7", "oo"),
+    "normal_tangential_coupling": ("#56B4E9", "++"),
+    "finite_strain": ("#D55E00", "xx"),
+    "plastic_flow": ("#F0E442", "\\\\\\\\"),
+    "interaction": ("#f2e2d0", "----"),
     "estimated only": ("#ffffff", "////"),
 }
 
@@ -97,7 +97,7 @@ def _own(bar: Bar) -> str:
 
 def budget_bars(outcome: Outcome) -> list[Bar]:
     """One for each quantity and friction coefficient; coefficients of equal figures together."""
-    rows = outcome.result["budget"]["quantities"]
+    rows = outcome.result["model_error"]
     alike: dict[tuple, tuple[Bar, list[float]]] = {}
     for quantity, entries in rows.items():
         for entry in entries:
@@ -115,7 +115,9 @@ def budget_bars(outcome: Outcome) -> list[Bar]:
 
 
 def _bar(outcome: Outcome, quantity: str, entry: dict) -> Bar:
-    numerical = entry.get("numerical") or {}
+    budget = outcome.result["error_budget"]["quantities"][quantity]
+    beside = next(each for each in budget if each["friction"] == entry["friction"])
+    numerical = beside.get("numerical") or {}
     one, other = numerical.get("half_plane"), numerical.get("finite_element")
     parts = {}
     if one is not None and other is not None:
@@ -125,18 +127,17 @@ def _bar(outcome: Outcome, quantity: str, entry: dict) -> Bar:
             "finite elements' discretisation": other["discretisation"] or 0.0,
             "far boundary": one["domain"] + other["domain"],
         }
-    parts["sampling"] = entry["input"] or 0.0
+    parts["sampling"] = beside["input"] or 0.0
     parts |= {name: abs(entry["effects"].get(name, {}).get("value", 0.0)) for name in EFFECTS}
-    parts["together"] = abs(entry["interaction"])
+    parts["interaction"] = abs(entry["interaction"])
     parts["estimated only"] = float(
         np.sqrt(sum(size**2 for size in entry["not_modelled"].values()))
     )
-    own = entry["model_error"]
     return Bar(
         quantity,
         parts,
-        own["value"],
-        own["uncertainty"] or 0.0,
+        entry["value"],
+        entry["uncertainty"] or 0.0,
         outcome.problem.scene.tolerance.get(quantity),
         QUANTITIES[quantity].of_pair,
     )
@@ -198,7 +199,7 @@ def _legend(drawn: "Figure", present: list[str], tolerance: bool) -> None:
             edgecolor="#333333",
             hatch=LOOKS[name][1],
             linewidth=0.5,
-            label=name,
+            label=EFFECTS[name].label if name in EFFECTS else name,
         )
         for name in present
     ]

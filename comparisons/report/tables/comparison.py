@@ -73,7 +73,7 @@ def reference_of(outcome: Outcome, quantity: str) -> str:
     the quantity; those without an estimate bear on all."""
     choice = outcome.budget.choice
     named = [
-        name
+        EFFECTS[name].label
         for name in EFFECTS
         if name in choice.contained and quantity in choice.estimates.get(name, [quantity])
     ]

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.numbers import given_percent, percent, plain
 from comparisons.common.quantities import QUANTITIES, label
@@ -63,8 +64,8 @@ def parts_in_words(own: ModelError) -> tuple[str, ...]:
     """What the half-plane lacks, as shares of its error: an effect that raises the finite
     elements' figure makes the half-plane's too low. Norms have no sign."""
     signed = not QUANTITIES[own.quantity].of_pair
-    sizes = {name: -share.value for name, share in own.effects.items()}
-    sizes["together"] = -own.interaction
+    sizes = {EFFECTS[name].label: -share.value for name, share in own.effects.items()}
+    sizes["interaction"] = -own.interaction
     least = max(SHOWN, 0.1 * abs(own.value))
     by_size = sorted(sizes.items(), key=lambda item: -abs(item[1]))
     return tuple(
@@ -80,10 +81,10 @@ def left_out_line(outcome: Outcome) -> str:
     choice = outcome.budget.choice
     judged = set(outcome.problem.scene.tolerance)
     alike: dict[str, list[str]] = {}
-    for name in (*choice.impossible, *choice.left_out):
+    for name in (*choice.impossible, *choice.negligible):
         sizes = choice.estimates[name]
         largest = max((sizes[q] for q in judged & set(sizes)), default=max(sizes.values()))
         why = choice.impossible.get(name, "")
-        alike.setdefault(why, []).append(f"{name} (at most {percent(largest)})")
+        alike.setdefault(why, []).append(f"{EFFECTS[name].label} (at most {percent(largest)})")
     parts = [", ".join(named) + (f": {why}" if why else "") for why, named in alike.items()]
     return "; ".join(parts) or "nothing"

@@ -122,15 +122,16 @@ def effects_table(outcome: Outcome) -> TextTable | None:
     if outcome.budget is None:
         return None
     judged, rows = set(outcome.problem.scene.tolerance), []
-    for name, effect in outcome.result["budget"]["effects"].items():
+    for name, effect in outcome.result["error_budget"]["effects"].items():
         estimate = effect["estimate"]
-        if effect["status"] == "none":
+        if effect["status"] == "does not apply":
             continue
         largest = ""
         if estimate is not None:
             sizes = [estimate[q] for q in judged & set(estimate)] or list(estimate.values())
             largest = percent(max(sizes))
-        rows.append((name, EFFECTS[name].words, effect["status"], largest, effect["because"]))
+        kind = EFFECTS[name]
+        rows.append((kind.label, kind.words, effect["status"], largest, effect["because"]))
     head = ("effect", "what the half-plane lacks", "status", "estimate, at most", "because")
     return TextTable("", head, tuple(rows)) if rows else None
 

@@ -54,7 +54,7 @@ def test_the_rule_turns_at_its_bounds_and_nowhere_else(sign):
     """|e| + U + E on the tolerance holds, |e| - U - E on it does not fail; numbers are exact."""
 
     def verdict(value, uncertainty):
-        not_modelled = {"one": 0.0, "other": 0.125}
+        not_modelled = {"exact_circle": 0.0, "coating": 0.125}
         rows = [ToleranceCheck("peak_pressure", 0.0, sign * value, uncertainty, not_modelled, 0.5)]
         return validity_verdict(rows)[0]
 
@@ -91,30 +91,30 @@ def test_an_uncertain_error_leaves_it_open():
 
 def test_what_no_model_shows_can_move_an_error_either_way():
     rows = [
-        judged(not_modelled={"plastic flow": 0.03}),
-        judged("tau1_max", not_modelled={"disc": 0.001}),
+        judged(not_modelled={"plastic_flow": 0.03}),
+        judged("tau1_max", not_modelled={"finite_roller": 0.001}),
     ]
     verdict, why = validity_verdict(rows)
     assert verdict == "inconclusive"
-    assert "plastic flow 3.0%" in why and "disc" not in why
-    beyond = judged(value=-0.04, not_modelled={"plastic flow": 0.03})
+    assert "plastic flow 3.0%" in why and "finite roller" not in why
+    beyond = judged(value=-0.04, not_modelled={"plastic_flow": 0.03})
     assert validity_verdict([beyond])[0] == "inconclusive"
     assert (
-        validity_verdict([judged(value=-0.06, not_modelled={"plastic flow": 0.03})])[0] == "fails"
+        validity_verdict([judged(value=-0.06, not_modelled={"plastic_flow": 0.03})])[0] == "fails"
     )
 
 
 def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
-    outside = judged("tau1_max", -0.026, 0.0035, {"finite strain": 0.046})
+    outside = judged("tau1_max", -0.026, 0.0035, {"finite_strain": 0.046})
     verdict, why = validity_verdict([outside])
     assert verdict == "inconclusive"
     assert "finite strain 4.6%" in why and "cannot be told" not in why
-    blurred = judged("tau1_max", -0.026, 0.0065, {"finite strain": 0.046})
+    blurred = judged("tau1_max", -0.026, 0.0065, {"finite_strain": 0.046})
     assert "cannot be told from its tolerance" in validity_verdict([blurred])[1]
 
 
 def test_effects_that_are_not_shown_add_as_squares():
-    both = {"one": 0.012, "other": 0.012}  # 0.024 by sum, 0.0170 by squares
+    both = {"exact_circle": 0.012, "coating": 0.012}  # 0.024 by sum, 0.0170 by squares
     assert judged(not_modelled=both).doubt == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
     assert validity_verdict([judged(value=0.001, not_modelled=both)])[0] == "holds"
     assert validity_verdict([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"

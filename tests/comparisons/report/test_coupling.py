@@ -62,7 +62,9 @@ def half_plane_of(problem) -> ModelRun:
 
 def coupling_estimate(problem, couplings) -> dict | None:
     """How much friction may change by moving the surfaces, by quantity."""
-    return estimates(problem, problem.hertz.peak_pressure, (), couplings).get("coupling")
+    return estimates(problem, problem.hertz.peak_pressure, (), couplings).get(
+        "normal_tangential_coupling"
+    )
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +86,7 @@ class TestFigures:
         reference = REFERENCES[entry - 1]
         model = rigid.result["models"]["half_plane"][entry]
         assert model["friction"] == float(reference["mu"]) and reference["beta"] == "2/7"
-        found, hertz = model["coupling"], rigid.problem.hertz
+        found, hertz = model["normal_tangential_coupling"], rigid.problem.hertz
         wider = float(reference["ahalf_over_aHertz_same_load"])
         peak = float(reference["peak_over_p0Hertz_same_load"])
         shift = float(reference["load_line_x_over_ahalf"]) * wider
@@ -97,7 +99,7 @@ class TestFigures:
         )
         assert found[SHIFT]["difference"] == pytest.approx(shift, rel=1e-3)
         assert found[SHIFT]["value"] == pytest.approx(shift * hertz.half_width, rel=1e-3)
-        assert found["converged"] is True and model["coupling_why"] is None
+        assert found["converged"] is True and model["normal_tangential_coupling_why"] is None
 
     def test_the_model_s_own_figures_stay_without_it(self, rigid):
         own = [model["contact"] for model in rigid.result["models"]["half_plane"]]
@@ -106,11 +108,14 @@ class TestFigures:
 
     def test_no_friction_no_change(self, rigid):
         model = rigid.result["models"]["half_plane"][0]
-        assert model["coupling"] is None and model["coupling_why"] == "there is no friction"
+        assert (
+            model["normal_tangential_coupling"] is None
+            and model["normal_tangential_coupling_why"] == "there is no friction"
+        )
         assert "coupling" not in {item["step"] for item in rigid.result["skipped"]}
 
     def test_stresses_are_compared_too(self, rigid):
-        found = rigid.result["models"]["half_plane"][2]["coupling"]
+        found = rigid.result["models"]["half_plane"][2]["normal_tangential_coupling"]
         # on the surface tau1 = mu p where sx + p is what the coupling changes most
         assert -0.05 < found["tau1_max"]["difference"] < -0.005
         assert found["tau1_field_near"]["value"] is None
@@ -147,8 +152,11 @@ class TestFigures:
         model = outcome.result["models"]["half_plane"][0]
         skipped = {item["step"]: item["because"] for item in outcome.result["skipped"]}
         why = "equal constants" if friction else "no friction"
-        assert model["coupling"] is None and why in model["coupling_why"]
-        assert skipped["coupling"] == model["coupling_why"]
+        assert (
+            model["normal_tangential_coupling"] is None
+            and why in model["normal_tangential_coupling_why"]
+        )
+        assert skipped["coupling"] == model["normal_tangential_coupling_why"]
         assert outcome.couplings == () and coupling_table(outcome) is None
         assert coupling_line(outcome) is None
 

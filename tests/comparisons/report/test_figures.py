@@ -98,12 +98,12 @@ def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Out
         return {row.quantity: row.reference for row in rows}
 
     assert set(references().values()) == {"the same problem"}
-    both = frozenset({"real boundary", "finite body"})
-    assert set(references(contained=both).values()) == {"finite body, real boundary"}
-    sizes = {"finite body": {"peak_pressure": 0.1}, "real boundary": {"pressure_l2": 0.1}}
+    both = frozenset({"rough_boundary", "finite_size"})
+    assert set(references(contained=both).values()) == {"finite thickness or width, rough boundary"}
+    sizes = {"finite_size": {"peak_pressure": 0.1}, "rough_boundary": {"pressure_l2": 0.1}}
     found = references(contained=both, estimates=sizes)
-    assert found["peak_pressure"] == "finite body"
-    assert found["pressure_l2"] == "real boundary"
+    assert found["peak_pressure"] == "finite thickness or width"
+    assert found["pressure_l2"] == "rough boundary"
     assert found["contact_length"] == "the same problem"
 
 

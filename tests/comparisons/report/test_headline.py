@@ -13,7 +13,7 @@ NONE = Choice(frozenset(), frozenset(), {}, {}, {})
 
 
 def own(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
-    shares = {name.replace("_", " "): Estimate(size, 1e-4) for name, size in effects.items()}
+    shares = {name: Estimate(size, 1e-4) for name, size in effects.items()}
     return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
 
 
@@ -51,15 +51,15 @@ def test_it_says_no_more_than_the_uncertainty_supports(smooth_outcome: Outcome):
 def test_failure_names_what_is_farthest_outside_and_what_makes_most_of_it(smooth_outcome: Outcome):
     errors = (
         own("peak_pressure", 0.5, 1e-3),
-        own("contact_length", -0.7, 1e-3, finite_body=0.5, circle=0.1),
+        own("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1),
         own("tau1_max", 0.0, 1e-3),
     )
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "fails"
     assert "contact length is −70 %" in said.sentence
-    assert "most of it finite body" in said.sentence
+    assert "most of it finite thickness or width" in said.sentence
     assert "1 more of 3 judged errors is outside" in said.sentence
-    shared = own("contact_length", -0.7, 1e-3, finite_body=0.3, circle=0.3)
+    shared = own("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
     assert "most of it" not in headline(judged(smooth_outcome, shared)).sentence
 
 
@@ -74,12 +74,12 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
     said = headline(judged(smooth_outcome, own("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"
     assert "uncertainty that reaches across the tolerance" in said.sentence
-    sizes = {"plastic flow": {"contact_length": 0.1}, "circle": {"contact_length": 0.001}}
+    sizes = {"plastic_flow": {"contact_length": 0.1}, "exact_circle": {"contact_length": 0.001}}
     missing = Choice(
         frozenset(),
         frozenset(),
-        {"circle": sizes["circle"]},
-        {"plastic flow": "the body has no yield stress"},
+        {"exact_circle": sizes["exact_circle"]},
+        {"plastic_flow": "the body has no yield stress"},
         sizes,
     )
     said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), choice=missing))

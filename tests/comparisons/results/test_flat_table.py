@@ -45,13 +45,12 @@ def test_figures_are_those_of_the_result(runs, wavy_outcome):
             r for r in result["comparison"][row["quantity"]] if r["friction"] == row["friction"]
         ]
         assert {name: row[name] for name in said} == said
-        (part,) = [
-            r
-            for r in result["budget"]["quantities"][row["quantity"]]
-            if r["friction"] == row["friction"]
+        (error,) = [
+            r for r in result["model_error"][row["quantity"]] if r["friction"] == row["friction"]
         ]
-        assert row["model_error"] == part["model_error"]["value"]
-        assert row["own_error_uncertainty"] == part["model_error"]["uncertainty"]
+        assert row["model_error"] == error["value"]
+        assert row["model_error_uncertainty"] == error["uncertainty"]
+        assert row["model_error_verdict"] == error["verdict"]
         assert {name: row[name] for name in GROUPS} == result["groups"]
         assert row["validity"] == result["validity"]["verdict"]
     units = {row["quantity"]: row["unit"] for row in tidy_rows([runs])}
@@ -62,8 +61,9 @@ def test_figures_are_those_of_the_result(runs, wavy_outcome):
 def test_effects_have_columns(runs, tmp_path):
     result = json.loads((runs / "a" / "result.json").read_text())
     for quantity in ("peak_pressure", "pressure_l2"):
-        part = result["budget"]["quantities"][quantity][0]
-        part["effects"] = {"finite strain": {"value": 0.25, "uncertainty": 0.1}}
+        result["model_error"][quantity][0]["effects"] = {
+            "finite_strain": {"value": 0.25, "uncertainty": 0.1}
+        }
     (tmp_path / "result.json").write_text(json.dumps(result))
     of = {r["quantity"]: r for r in reversed(tidy_rows([tmp_path]))}
     row = of["peak_pressure"]
@@ -125,8 +125,9 @@ def test_without_pyarrow_one_line_says_how_to_get_it(runs, tmp_path, capsys, mon
     [
         (None, "holds no run"),
         ("{", "is not JSON"),
-        ('{"schema": 99}', "schema: is 99; allowed is 1"),
-        ('{"schema": 1, "scene": {}}', "is no result of a run"),
+        ('{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
+        ('{"schema": 1}', "schema: is 1, of an earlier crosscheck; allowed is 2: run the scene"),
+        ('{"schema": 2, "scene": {}}', "is no result of a run"),
     ],
 )
 def test_what_is_no_run_is_one_line(tmp_path, capsys, content, words):

@@ -79,11 +79,11 @@ def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
     monkeypatch.setattr("comparisons.assessment.effects.budget._settled", lambda *_: False)
-    assert figures["budget"]["levels"] == 2
+    assert figures["error_budget"]["levels"] == 2
     before = contents(both)
     repetition = rerun(both)
     assert repetition.levels[1] > 2
-    assert repetition.outcome.result["budget"]["levels"] == 2
+    assert repetition.outcome.result["error_budget"]["levels"] == 2
     assert repetition.movement.moved == ()
     assert repetition.movement.rounding == repetition.movement.new == 0
     assert repetition.movement.same > 150
@@ -224,11 +224,16 @@ def test_a_made_surface_is_taken_from_the_record(tmp_path, monkeypatch):
         ("record.json", "[]", "record.json: is no table"),
         ("record.json", "{}", "record.json: schema: is missing; allowed is a whole number"),
         ("record.json", '{"schema": "2"}', "record.json: schema: is str"),
-        ("record.json", '{"schema": 1}', "schema: is 1, which lacks .* run the scene again"),
+        (
+            "record.json",
+            '{"schema": 1}',
+            "schema: is 1, of an earlier crosscheck; .* run the scene again",
+        ),
         ("record.json", '{"schema": 99}', "schema: is 99, of a later crosscheck; allowed is 2"),
         ("record.json", '{"schema": 2}', "record.json: models: is missing"),
-        ("result.json", '{"schema": 1}', "result.json: figures are missing"),
-        ("result.json", '{"schema": 1, "models": {"half_plane": 3}, "scene": 4}', "result.json: "),
+        ("result.json", '{"schema": 1}', "is 1, of an earlier crosscheck; .* run the scene again"),
+        ("result.json", '{"schema": 2}', "result.json: figures are missing"),
+        ("result.json", '{"schema": 2, "models": {"half_plane": 3}, "scene": 4}', "result.json: "),
     ],
 )
 def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, words):

@@ -55,8 +55,8 @@ def figures(outcome) -> dict:
             del entry["cost"]["seconds"], entry["cost"]["peak_memory"]
             for level in entry["cost"]["levels"]:
                 del level["seconds"]
-    if result["budget"]:
-        del result["budget"]["cost"]
+    if result["error_budget"]:
+        del result["error_budget"]["cost"]
     return result
 
 

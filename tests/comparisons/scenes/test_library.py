@@ -74,7 +74,7 @@ class TestGroundUnrun:
         assert unrun.exit_status == ExitStatus.DONE
         validity = unrun.result["validity"]
         assert validity["verdict"] == "inconclusive"
-        for effect in ("displaced gap", "real boundary", "finite strain"):
+        for effect in ("deformed gap", "rough boundary", "finite strain"):
             assert effect in validity["why"]
         assert unrun.result["refinement"] == "every judged quantity is resolved"
         assert len(unrun.runs["finite_element"].levels) == 4

@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 from comparisons.assessment.effects.budget import ErrorBudget
-from comparisons.assessment.effects.content import budget_content
+from comparisons.assessment.effects.content import error_budget_content, model_error_content
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import Choice
@@ -21,21 +21,21 @@ from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
 
 ESTIMATES = {
-    "circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},
-    "plastic flow": {"peak_pressure": 0.08},
-    "displaced gap": {"peak_pressure": 0.02},
+    "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},
+    "plastic_flow": {"peak_pressure": 0.08},
+    "deformed_gap": {"peak_pressure": 0.02},
 }
 CHOICE = Choice(
-    frozenset({"finite body"}),
-    frozenset({"displaced gap", "finite strain"}),
-    {"circle": ESTIMATES["circle"]},
-    {"plastic flow": "the body has no yield stress"},
+    frozenset({"finite_size"}),
+    frozenset({"deformed_gap", "finite_strain"}),
+    {"exact_circle": ESTIMATES["exact_circle"]},
+    {"plastic_flow": "the body has no yield stress"},
     ESTIMATES,
 )
 EFFECTS_HERE = {
-    "finite body": Estimate(0.04, 0.001),
-    "displaced gap": Estimate(-0.012, 0.0005),
-    "finite strain": Estimate(0.0001, 0.0001),
+    "finite_size": Estimate(0.04, 0.001),
+    "deformed_gap": Estimate(-0.012, 0.0005),
+    "finite_strain": Estimate(0.0001, 0.0001),
 }
 
 
@@ -53,8 +53,11 @@ def split(wavy_outcome: Outcome) -> Outcome:
         for row in wavy_outcome.comparisons
         if (row.quantity, row.friction) in {(o.quantity, o.friction) for o in own}
     )
-    content = budget_content(wavy_outcome.problem, wavy_outcome.runs, rows, budget)
-    result = wavy_outcome.result | {"budget": content}
+    problem = wavy_outcome.problem
+    result = wavy_outcome.result | {
+        "error_budget": error_budget_content(problem, wavy_outcome.runs, rows, budget),
+        "model_error": model_error_content(problem, budget),
+    }
     return replace(wavy_outcome, budget=budget, comparisons=rows, result=result)
 
 
@@ -63,20 +66,22 @@ def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
     assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
     assert (peak.own, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
     # an effect that raises the finite elements' figure makes the half-plane's too low
-    assert peak.parts == ("finite body −4.0 %", "displaced gap +1.2 %")
-    assert norm.own == "5.0 %" and "finite body 4.0 %" in norm.parts  # norms have no sign
+    assert peak.parts == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
+    assert (
+        norm.own == "5.0 %" and "finite thickness or width 4.0 %" in norm.parts
+    )  # norms have no sign
     assert [row.quantity for row in budget_rows(split, judged=True)] == ["peak_pressure"]
 
 
 def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
     assert left_out_line(split) == (
-        "plastic flow (at most 8.0 %): the body has no yield stress; circle (at most 0.15 %)"
+        "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
     )
-    why = dict.fromkeys(("circle", "plastic flow"), "not asked for")
-    choice = replace(split.budget.choice, impossible=why, left_out=())
+    why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
+    choice = replace(split.budget.choice, impossible=why, negligible=())
     both = replace(split, budget=replace(split.budget, choice=choice))
     assert left_out_line(both) == (
-        "circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
+        "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
     )
 
 
@@ -84,20 +89,20 @@ def test_every_effect_that_applies_is_in_the_table(split: Outcome):
     table = effects_table(split)
     status = {row[0]: row[2] for row in table.rows}
     assert status == {
-        "finite body": "contained",
-        "displaced gap": "computed",
-        "circle": "left out",
+        "finite thickness or width": "contained",
+        "deformed gap": "computed",
+        "exact circle": "negligible",
         "finite strain": "computed",
         "plastic flow": "not computed",
     }
     said = {row[0]: row[4] for row in table.rows}
     assert said["plastic flow"] == "the body has no yield stress"
-    assert {row[0]: row[1] for row in table.rows}["circle"] == EFFECTS["circle"].words
+    assert {row[0]: row[1] for row in table.rows}["exact circle"] == EFFECTS["exact_circle"].words
 
 
 def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: dict):
     outcome = finish(smooth_tables, ("half_plane",))
-    assert outcome.budget is None and outcome.result["budget"] is None
+    assert outcome.budget is None and outcome.result["error_budget"] is None
     assert effects_table(outcome) is None
     with drawing():
         assert budget_picture(outcome) is None
@@ -106,10 +111,10 @@ def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: 
 class TestBars:
     def test_they_are_as_long_as_their_parts(self, split: Outcome):
         peak = next(bar for bar in budget_bars(split) if bar.parts["sampling"])
-        assert peak.parts["finite body"] == 0.04 and peak.parts["displaced gap"] == 0.012
-        assert peak.parts["together"] == 0.002 and peak.parts["sampling"] == 0.003
+        assert peak.parts["finite_size"] == 0.04 and peak.parts["deformed_gap"] == 0.012
+        assert peak.parts["interaction"] == 0.002 and peak.parts["sampling"] == 0.003
         assert peak.parts["estimated only"] == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
-        numerical = split.result["budget"]["quantities"]["peak_pressure"][0]["numerical"]
+        numerical = split.result["error_budget"]["quantities"]["peak_pressure"][0]["numerical"]
         for model, name in (
             ("half_plane", "half-plane's discretisation"),
             ("finite_element", "finite elements' discretisation"),
@@ -136,5 +141,7 @@ def test_the_terminal_shows_it_in_80_columns(split: Outcome):
     text = stream.getvalue()
     assert max(map(len, text.splitlines())) <= 80
     flat = " ".join(text.split())
-    assert re.search(r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite body -4\.0 displaced gap", flat)
+    assert re.search(
+        r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 deformed gap", flat
+    )
     assert "left out plastic flow (at most 8.0%" in flat

@@ -13,7 +13,7 @@ from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.variants import Body, combined_body, strain_doubt, strain_share
 from comparisons.assessment.effects.variants import problem_with as body_problem
 
-LINEAR = ("displaced gap", "circle", "coupling")
+LINEAR = ("deformed_gap", "exact_circle", "normal_tangential_coupling")
 
 
 def choice_of(contained=(), added=()):
@@ -38,27 +38,29 @@ def test_effects_and_interaction_add_up_to_the_whole(
     own = Body(frozenset())
     for names in itertools.combinations(LINEAR, count):
         bodies = made_bodies(own)
-        choice = choice_of(added={*names, *(["finite strain"] if strained else [])})
+        choice = choice_of(added={*names, *(["finite_strain"] if strained else [])})
         parts = parts_of(problem, bodies, choice, friction, 1)
         total = sum(parts.effects.values(), start=parts.interaction)
         assert close(total, parts.lacking)  # the scene's own has none of them
-        expected = set(names) - ({"coupling"} if friction == 0.0 else set())
-        assert set(parts.effects) == expected | ({"finite strain"} if strained else set())
+        expected = set(names) - ({"normal_tangential_coupling"} if friction == 0.0 else set())
+        assert set(parts.effects) == expected | ({"finite_strain"} if strained else set())
 
 
 def test_one_effect_does_not_interact(problem_with, made_bodies):
     problem = problem_with(roller={"rigid": True})
-    parts = parts_of(problem, made_bodies(Body(frozenset())), choice_of(added={"circle"}), 0.0, 1)
+    parts = parts_of(
+        problem, made_bodies(Body(frozenset())), choice_of(added={"exact_circle"}), 0.0, 1
+    )
     assert not np.any(parts.interaction.pressure)
-    assert close(parts.effects["circle"], parts.lacking)
+    assert close(parts.effects["exact_circle"], parts.lacking)
 
 
 def test_what_the_scene_has_is_split_but_not_lacking(problem_with, made_bodies):
     problem = problem_with(roller={"rigid": True}, finite_element={"gap": "displaced"})
-    own = Body(frozenset({"displaced gap"}))
-    parts = parts_of(problem, made_bodies(own), choice_of({"displaced gap"}), 0.0, 1)
-    assert set(parts.effects) == {"displaced gap"}
-    assert np.any(parts.effects["displaced gap"].pressure)
+    own = Body(frozenset({"deformed_gap"}))
+    parts = parts_of(problem, made_bodies(own), choice_of({"deformed_gap"}), 0.0, 1)
+    assert set(parts.effects) == {"deformed_gap"}
+    assert np.any(parts.effects["deformed_gap"].pressure)
     assert not np.any(parts.lacking.pressure)
 
 
@@ -68,19 +70,29 @@ def test_friction_coefficients_share_bodies_that_it_does_not_press_otherwise(
     problem = problem_with(roller={"rigid": True}, load={"friction": [0.1, 0.3]})
     bodies = made_bodies(Body(frozenset()))
     for friction in problem.scene.friction:
-        parts_of(problem, bodies, choice_of(added={"circle", "coupling"}), friction, 1)
-    assert {body.friction for body in bodies.asked if "coupling" in body.effects} == {0.1, 0.3}
-    assert {body.friction for body in bodies.asked if "coupling" not in body.effects} == {None}
+        parts_of(
+            problem,
+            bodies,
+            choice_of(added={"exact_circle", "normal_tangential_coupling"}),
+            friction,
+            1,
+        )
+    assert {
+        body.friction for body in bodies.asked if "normal_tangential_coupling" in body.effects
+    } == {0.1, 0.3}
+    assert {
+        body.friction for body in bodies.asked if "normal_tangential_coupling" not in body.effects
+    } == {None}
 
 
 def test_strain_is_measured_beside_all_that_it_cannot_be_without(problem_with, made_bodies):
     wavy = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
     problem = problem_with(roller={"rigid": True}, profile=wavy, load={"friction": 0.2})
     bodies = made_bodies(Body(frozenset()))
-    parts_of(problem, bodies, choice_of(added={"finite strain"}), 0.2, 1)
-    [strained] = {body for body in bodies.asked if "finite strain" in body.effects}
-    beside = {"displaced gap", "real boundary", "coupling"}
-    assert strained.effects == beside | {"finite strain"}
+    parts_of(problem, bodies, choice_of(added={"finite_strain"}), 0.2, 1)
+    [strained] = {body for body in bodies.asked if "finite_strain" in body.effects}
+    beside = {"deformed_gap", "rough_boundary", "normal_tangential_coupling"}
+    assert strained.effects == beside | {"finite_strain"}
     assert Body(frozenset(beside), 0.2) in bodies.asked
     scene = body_problem(problem, strained).scene
     assert scene.finite_element.coupled and scene.friction == (0.2,)
@@ -115,11 +127,11 @@ class TestStandIn:
     def test_half_of_its_strain_is_that_of_like_bodies(self, problem_with, made_bodies):
         problem = problem_with()
         bodies = made_bodies(Body(frozenset()))
-        parts = parts_of(problem, bodies, choice_of(added={"finite strain"}), 0.0, 1)
-        beside = frozenset({"displaced gap"})
-        strained = bodies.answer(Body(beside | {"finite strain"}, 0.0, True), 1, 0.0)
+        parts = parts_of(problem, bodies, choice_of(added={"finite_strain"}), 0.0, 1)
+        beside = frozenset({"deformed_gap"})
+        strained = bodies.answer(Body(beside | {"finite_strain"}, 0.0, True), 1, 0.0)
         change = strained - bodies.answer(Body(beside, 0.0, True), 1, 0.0)
-        assert close(parts.effects["finite strain"], change * 0.5)
+        assert close(parts.effects["finite_strain"], change * 0.5)
 
     def test_it_is_solved_as_finite_deformation_is(self, problem_with):
         settings = {"far_field": "half-plane", "element": "P3"}
@@ -145,7 +157,13 @@ def test_sizes_are_relative_to_the_figure_or_to_hertz(problem_with):
 def test_bodies_have_names_of_their_own():
     bodies = [
         Body(frozenset(names), friction, stand_in)
-        for names in ((), ("circle",), ("disc",), ("circle", "disc"), ("finite strain",))
+        for names in (
+            (),
+            ("exact_circle",),
+            ("finite_roller",),
+            ("exact_circle", "finite_roller"),
+            ("finite_strain",),
+        )
         for friction in (None, 0.1, 0.2)
         for stand_in in (False, True)
     ]

@@ -11,24 +11,24 @@ from comparisons.assessment.effects.effects import (
 )
 
 SWITCHED = {
-    "finite body": {"body": {"thickness": 1e-3}},
+    "finite_size": {"body": {"thickness": 1e-3}},
     "coating": {
         "coating": {"thickness": 2e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.2},
     },
-    "real boundary": {
+    "rough_boundary": {
         "profile": {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6},
         "finite_element": {"geometry": "rough", "gap": "reference"},
     },
-    "displaced gap": {"finite_element": {"gap": "displaced"}},
-    "circle": {"finite_element": {"roller_shape": "circle"}},
-    "disc": {"finite_element": {"roller_body": "disc"}},
-    "coupling": {
+    "deformed_gap": {"finite_element": {"gap": "displaced"}},
+    "exact_circle": {"finite_element": {"roller_shape": "circle"}},
+    "finite_roller": {"finite_element": {"roller_body": "disc"}},
+    "normal_tangential_coupling": {
         "roller": {"rigid": True},
         "load": {"friction": 0.2},
         "finite_element": {"coupled": True},
     },
-    "finite strain": {"roller": {"rigid": True}, "finite_element": {"deformation": "finite"}},
-    "plastic flow": {
+    "finite_strain": {"roller": {"rigid": True}, "finite_element": {"deformation": "finite"}},
+    "plastic_flow": {
         "body": {"yield_stress": 1e9, "hardening_modulus": 1e9},
         "finite_element": {"plastic": True},
     },
@@ -42,7 +42,7 @@ def test_every_effect_is_tried():
 @pytest.mark.parametrize("name", EFFECTS)
 def test_a_scene_with_one_switch_has_that_effect_alone(problem_with, name):
     scene = problem_with(**SWITCHED[name]).scene
-    expected = {name, "displaced gap"} if name == "finite strain" else {name}
+    expected = {name, "deformed_gap"} if name == "finite_strain" else {name}
     assert contained(scene) == expected
     assert is_taken_apart(scene)
 
@@ -58,7 +58,7 @@ def test_without_its_effects_it_is_what_the_half_plane_takes(problem_with, name)
 @pytest.mark.parametrize("name", EFFECTS)
 def test_an_effect_is_given_whatever_else_is_there(problem_with, name):
     scene = problem_with(**SWITCHED[name]).scene
-    others = {"displaced gap", "circle"}
+    others = {"deformed_gap", "exact_circle"}
     assert contained(with_effects(scene, {name, *others})) == {name, *others}
 
 

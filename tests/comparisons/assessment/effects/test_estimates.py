@@ -36,7 +36,7 @@ def test_they_bound_every_point_of_a_finished_map(name):
         tables = tables_with(base.tables, groups, origin)
         problem = problem_of(resolve_tables(tables, name="point", folder=FINISHED, source=name))
         found = point["quantities"]
-        linear = {"displaced gap"} | ({"real boundary"} if "profile" in base.tables else set())
+        linear = {"deformed_gap"} | ({"rough_boundary"} if "profile" in base.tables else set())
         sizes = estimates(problem, found["peak_pressure"]["half_plane"], linear)
         for quantity, error in found.items():
             if error["uncertainty"] is None:

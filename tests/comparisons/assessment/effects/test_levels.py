@@ -22,7 +22,7 @@ from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
-CHOICE = Choice(frozenset(), frozenset({"displaced gap", "finite strain"}), {}, {}, {})
+CHOICE = Choice(frozenset(), frozenset({"deformed_gap", "finite_strain"}), {}, {}, {})
 
 
 @pytest.fixture(scope="module")
@@ -68,15 +68,15 @@ def test_what_a_process_cannot_finish_is_solved_here(made, always):
         raise ProcessEnded
 
     bodies = made([ends])
-    bodies.prepare([Body(frozenset({"displaced gap"})), Body(frozenset({"circle"}))], 1)
+    bodies.prepare([Body(frozenset({"deformed_gap"})), Body(frozenset({"exact_circle"}))], 1)
     assert {body.effects for body, _, _ in bodies.answers} == {
-        frozenset({"displaced gap"}),
-        frozenset({"circle"}),
+        frozenset({"deformed_gap"}),
+        frozenset({"exact_circle"}),
     }
 
 
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made, always):
-    gap, circle = Body(frozenset({"displaced gap"})), Body(frozenset({"circle"}))
+    gap, circle = Body(frozenset({"deformed_gap"})), Body(frozenset({"exact_circle"}))
     bodies = made(())
     with patch.object(solve, "_solved", side_effect=NotComputedError(gap, "no\nmesh")):
         bodies.prepare([gap], 1)

@@ -78,7 +78,7 @@ def test_of_a_layer_it_is_the_exact_one_within_its_uncertainty(case, nu):
         assert own.value == pytest.approx(error, abs=own.uncertainty)
         assert own.uncertainty < 0.006
         # and it is the body's doing, measured against the same block without an end
-        body = own.effects["finite body"]
+        body = own.effects["finite_size"]
         assert -body.value == pytest.approx(error, abs=own.uncertainty + body.uncertainty)
         assert own.interaction == 0.0
 
@@ -92,11 +92,13 @@ def outcomes() -> list[Outcome]:
 class TestSmooth:
     def test_the_displaced_gap_and_strain_are_computed(self, outcomes):
         for outcome in outcomes:
-            assert outcome.budget.choice.added == {"displaced gap", "finite strain"}
-            assert outcome.result["budget"]["effects"]["circle"]["status"] == "left out"
+            assert outcome.budget.choice.added == {"deformed_gap", "finite_strain"}
+            assert (
+                outcome.result["error_budget"]["effects"]["exact_circle"]["status"] == "negligible"
+            )
             assert outcome.budget.unsplit is None and outcome.budget.levels >= 2
 
-    @pytest.mark.parametrize("name", ["displaced gap", "finite strain"])
+    @pytest.mark.parametrize("name", ["deformed_gap", "finite_strain"])
     def test_effects_of_first_order_double(self, outcomes, name):
         one, other = (o.budget.of("peak_pressure", 0.0).effects[name].value for o in outcomes)
         assert 1.85 < other / one < 2.15
@@ -161,11 +163,11 @@ def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
     with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
         outcome = outcome_of(smooth(2.0e9))
     choice = outcome.budget.choice
-    assert choice.impossible["finite strain"] == "no mesh is possible"
-    assert choice.added == {"displaced gap"}
-    assert set(outcome.budget.of("peak_pressure", 0.0).effects) == {"displaced gap"}
-    assert "finite strain" in choice.not_modelled("peak_pressure")
-    effect = outcome.result["budget"]["effects"]["finite strain"]
+    assert choice.impossible["finite_strain"] == "no mesh is possible"
+    assert choice.added == {"deformed_gap"}
+    assert set(outcome.budget.of("peak_pressure", 0.0).effects) == {"deformed_gap"}
+    assert "finite_strain" in choice.not_modelled("peak_pressure")
+    effect = outcome.result["error_budget"]["effects"]["finite_strain"]
     assert effect["status"] == "not computed" and effect["because"] == "no mesh is possible"
 
 

@@ -20,13 +20,13 @@ def judged(problem, **tolerance):
 
 def test_an_effect_is_computed_from_a_tenth_of_a_tolerance_on(problem_with):
     problem = problem_with(**RIGID)
-    size = chosen(problem).estimates["circle"]["peak_pressure"]
+    size = chosen(problem).estimates["exact_circle"]["peak_pressure"]
     above = judged(problem, peak_pressure=size / SHARE_OF_TOLERANCE * 0.999)
     below = judged(problem, peak_pressure=size / SHARE_OF_TOLERANCE * 1.001)
-    assert "circle" in chosen(above).added and "circle" not in chosen(above).left_out
-    assert "circle" in chosen(below).left_out and "circle" not in chosen(below).added
-    assert chosen(below).not_modelled("peak_pressure")["circle"] == size
-    assert "circle" not in chosen(above).not_modelled("peak_pressure")
+    assert "exact_circle" in chosen(above).added and "exact_circle" not in chosen(above).negligible
+    assert "exact_circle" in chosen(below).negligible and "exact_circle" not in chosen(below).added
+    assert chosen(below).not_modelled("peak_pressure")["exact_circle"] == size
+    assert "exact_circle" not in chosen(above).not_modelled("peak_pressure")
 
 
 def test_only_what_is_judged_asks_for_effects(problem_with):
@@ -38,19 +38,23 @@ def test_only_what_is_judged_asks_for_effects(problem_with):
 
 def test_what_does_not_apply_is_not_spoken_of(problem_with):
     smooth = chosen(problem_with())
-    assert not {"real boundary", "finite body", "coating", "coupling", "plastic flow"} & set(
-        smooth.estimates
-    )
-    assert "disc" in smooth.estimates
-    assert "disc" not in chosen(problem_with(**RIGID)).estimates
+    assert not {
+        "rough_boundary",
+        "finite_size",
+        "coating",
+        "normal_tangential_coupling",
+        "plastic_flow",
+    } & set(smooth.estimates)
+    assert "finite_roller" in smooth.estimates
+    assert "finite_roller" not in chosen(problem_with(**RIGID)).estimates
 
 
 def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
     choice = chosen(problem_with(**RIGID, finite_element={"gap": "displaced"}))
-    assert choice.contained == {"displaced gap"}
-    assert "displaced gap" not in choice.added | set(choice.left_out)
-    assert "displaced gap" not in choice.not_modelled("peak_pressure")
-    assert "displaced gap" in choice.whole
+    assert choice.contained == {"deformed_gap"}
+    assert "deformed_gap" not in choice.added | set(choice.negligible)
+    assert "deformed_gap" not in choice.not_modelled("peak_pressure")
+    assert "deformed_gap" in choice.whole
 
 
 @pytest.mark.parametrize(
@@ -69,29 +73,29 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
 )
 def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with, tables, why):
     choice = chosen(problem_with(**tables))
-    assert why in choice.impossible["finite strain"]
-    assert choice.not_modelled("peak_pressure")["finite strain"] > 0.0
+    assert why in choice.impossible["finite_strain"]
+    assert choice.not_modelled("peak_pressure")["finite_strain"] > 0.0
 
 
 def test_under_mpirun_finite_strain_is_not_solved(problem_with, monkeypatch):
-    assert "finite strain" in chosen(problem_with()).added
+    assert "finite_strain" in chosen(problem_with()).added
     monkeypatch.setenv(RANKS[0], "0")
-    assert "one process" in chosen(problem_with()).impossible["finite strain"]
+    assert "one process" in chosen(problem_with()).impossible["finite_strain"]
 
 
 def test_a_cap_stands_for_flow_only_where_nothing_flows(problem_with):
     problem = problem_with(body={"hardness": 6e9})
-    assert "plastic flow" not in chosen(problem, peak=3.5e9).estimates  # below first yield
+    assert "plastic_flow" not in chosen(problem, peak=3.5e9).estimates  # below first yield
     capped = chosen(problem, peak=6e9)
-    assert capped.estimates["plastic flow"]["peak_pressure"] == pytest.approx(0.1)
-    assert "no yield stress" in capped.impossible["plastic flow"]
+    assert capped.estimates["plastic_flow"]["peak_pressure"] == pytest.approx(0.1)
+    assert "no yield stress" in capped.impossible["plastic_flow"]
 
 
 def test_what_is_given_up_stands_with_its_reason(problem_with):
-    choice = chosen(problem_with()).without(frozenset({"disc"}), "its mesh failed")
-    assert "disc" not in choice.added
-    assert choice.impossible["disc"] == "its mesh failed"
-    assert "disc" in choice.not_modelled("peak_pressure")
+    choice = chosen(problem_with()).without(frozenset({"finite_roller"}), "its mesh failed")
+    assert "finite_roller" not in choice.added
+    assert choice.impossible["finite_roller"] == "its mesh failed"
+    assert "finite_roller" in choice.not_modelled("peak_pressure")
 
 
 def test_strain_takes_back_what_linear_bodies_overdo(problem_with):
@@ -99,5 +103,5 @@ def test_strain_takes_back_what_linear_bodies_overdo(problem_with):
     problem = problem_with(**RIGID)
     alone = judged(problem, peak_pressure=1.0)
     beside = judged(problem, tau1_field_near=0.02)
-    sizes = [chosen(p).estimates["finite strain"]["tau1_field_near"] for p in (alone, beside)]
+    sizes = [chosen(p).estimates["finite_strain"]["tau1_field_near"] for p in (alone, beside)]
     assert sizes[1] > 5.0 * sizes[0]

@@ -57,7 +57,8 @@ def refused(capsys, *arguments: object) -> str:
     [
         ("result.json", None, ("groups",), "make up no report (KeyError('groups'))"),
         ("result.json", {}, ("models",), "make up no report"),
-        ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 1"),
+        ("result.json", 99, ("schema",), "schema: is 99, of a later crosscheck; allowed is 2"),
+        ("result.json", 1, ("schema",), "is 1, of an earlier crosscheck; allowed is 2: run the"),
         ("result.json", float("nan"), (*CONTACT, "peak_pressure"), "NaN is no number"),
         ("record.json", None, ("versions",), "make up no report (KeyError('versions'))"),
     ],

@@ -113,7 +113,7 @@ class TestRun:
         assert header == "x [m],height before running-in [m],height [m]"
         assert table[:, 0] == pytest.approx(worn.profile.x, rel=1e-11)
         assert table[:, 1] - table[:, 2] == pytest.approx(worn.lowering, abs=1e-17)
-        assert json.loads((out / "result.json").read_text())["running_in"]["shaken_down"] is True
+        assert json.loads((out / "result.json").read_text())["running_in"]["settled"] is True
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
     def test_the_record_holds_the_surface_before_and_repeats_the_run(self, done: Outcome, tmp_path):

@@ -33,7 +33,7 @@ class TestTelling:
         assert told["passes"] == len(worn.passes) == 5 * told["sweeps"]
         assert told["volume_moved"] == worn.volume == sum(told["volume_by_pass"])
         assert told["largest_lowering"] == worn.largest_lowering > 0.0
-        assert told["shaken_down"] is True and told["converged"] is True
+        assert told["settled"] is True and told["converged"] is True
         assert told["at_ends_of_trace"] == []
         assert told["roughness_before"]["rq"] > told["roughness_after"]["rq"] > 0.0
         assert outcome.result["groups"]["rms_slope"] == told["roughness_after"]["rms_slope"]
