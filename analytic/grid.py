@@ -104,3 +104,13 @@ def _roller_gap(
     twice = 2.0 * radius if shape == "parabola" else radius + np.sqrt(radius**2 - x**2)
     sagitta = x**2 / twice
     return sagitta if height is None else sagitta - height(x)
+
+
+def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:
+    """Integrals over the coarse hats (n // 2,) from those over the fine ones (n,)."""
+    half, odd = divmod(len(values), 2)
+    coarse = values[1::2] + 0.5 * values[0 : 2 * half : 2]
+    coarse[:-1] += 0.5 * values[2 : 2 * half : 2]
+    # an even count leaves the last coarse hat half a fine one short: a copy stands for it
+    coarse[-1] += 0.5 * (values[-1] if odd or not periodic else values[0])
+    return coarse

@@ -1,6 +1,11 @@
-"""What many modules demand of their arguments."""
+"""Checks of arguments, array work on threads, and functions that would cancel near zero."""
+
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 def check_positive(**named: float) -> None:
@@ -8,3 +13,59 @@ def check_positive(**named: float) -> None:
     for name, value in named.items():
         if not (np.isfinite(value) and value > 0.0):
             raise ValueError(f"{name} must be positive and finite, not {value:g}")
+
+
+def thread_count() -> int:
+    """OMP_NUM_THREADS where it is a number, else the machine's cores."""
+    asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
+    return max(1, int(asked)) if asked.isdigit() else os.cpu_count() or 1
+
+
+def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:
+    """Call `work` on every piece. Pieces write to places of their own: threads change no result."""
+    pieces = list(pieces)
+    workers = min(thread_count(), len(pieces))
+    if workers < 2:
+        for piece in pieces:
+            work(piece)
+        return
+    with ThreadPoolExecutor(workers) as pool:
+        for _ in pool.map(work, pieces):
+            pass
+
+
+_TERMS = np.arange(1.0, 21.0)
+
+
+def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
+    """y - sin y for 0 <= y <= pi."""
+    y = np.asarray(angle, dtype=float)
+    square = np.minimum(y, 1.0) ** 2
+    series = np.ones_like(square)
+    for n in range(9, 0, -1):  # the next term is below 1e-19
+        series = 1.0 - square / ((2.0 * n + 2.0) * (2.0 * n + 3.0)) * series
+    return np.where(y < 1.0, y**3 / 6.0 * series, y - np.sin(y))
+
+
+def sinh_minus_argument(argument: ArrayLike) -> np.ndarray:
+    """sinh y - y for y >= 0."""
+    y = np.asarray(argument, dtype=float)
+    ratios = 1.0 / ((2.0 * _TERMS[1:] + 1.0) * 2.0 * _TERMS[1:])
+    series = _odd_series(np.minimum(y, 1.0), np.cumprod([1.0 / 6.0, *ratios]))
+    return np.where(y < 1.0, series, np.sinh(y) - y)
+
+
+def artanh_minus_argument(argument: ArrayLike, artanh: ArrayLike) -> np.ndarray:
+    """artanh y - y for 0 <= y <= 1, given y and artanh y: next to 1 only the caller knows it."""
+    y = np.asarray(argument, dtype=float)
+    series = _odd_series(np.minimum(y, 0.4), 1.0 / (2.0 * _TERMS + 1.0))
+    return np.where(y < 0.4, series, artanh - y)
+
+
+def _odd_series(y: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
+    """c_0 y^3 + c_1 y^5 + …, the tail first."""
+    square = y**2
+    total = np.zeros_like(y)
+    for coefficient in coefficients[::-1]:
+        total = total * square + coefficient
+    return total * y * square

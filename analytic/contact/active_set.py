@@ -1,20 +1,32 @@
-"""Which nodes carry pressure: exchanges of sides until every sign condition holds.
+"""The active set: which nodes are held at zero pressure or at the hardness, and their exchange.
 
-Primal-dual active set (block principal pivoting): every node that breaks its sign condition
-changes sides at once, and with it those that will at the same edge
-(`analytic.contact.edge_extrapolation`); where too few are free to bear the load, sides are balanced
-instead. Block exchanges may cycle; when the number of broken conditions has not fallen for
-`PATIENCE` exchanges, the primal active-set method takes over from a feasible point. Its energy
-falls strictly from one equilibrium to the next, so that no set returns and it ends after finitely
-many. Symbols as in `analytic.contact.problem`.
+Primal-dual active set (block principal pivoting): every node that violates its sign condition
+changes its state at once. Where too few nodes are free to carry the load, the set is balanced
+instead. Block exchanges may cycle: when the number of violations has not fallen for PATIENCE
+exchanges, the primal active-set method takes over from a feasible point. Its energy falls strictly
+from one equilibrium to the next, so that no set returns and it ends after finitely many.
+
+Edge extrapolation. Beside an edge that stands s too far out, pressures and gaps go as
+
+    p ~ (x - s/2) / sqrt(x),    g ~ -sqrt(x) (x - 3 s/2),
+
+x counted from it (the singularity of a fixed edge and the next term): tension shows over s/2 only,
+overlap beside an edge s too far in shows over 3 s/2. Exchanging only the nodes that violate would
+approach the edge by halves from the one side and step over it from the other; the runs of
+violating nodes at an edge are therefore lengthened or shortened. Symbols as in
+`analytic.contact.problem`.
 """
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from analytic.contact.edge_extrapolation import foreseen
-from analytic.contact.equilibrium import EquilibriumProblem
-from analytic.contact.sides import Sides
+if TYPE_CHECKING:
+    from analytic.contact.equilibrium import EquilibriumProblem
 
+PLASTIC = 10  # nodes at the hardness to each free one, from which block exchanges make no progress
 PATIENCE = 8  # block exchanges without progress before the primal method
 REDUCTION = 3e-3  # of the residual by each exchange while the set moves; 0.1 may go on for long
 SHARPER = 0.1  # times that, after each exchange without progress
@@ -23,27 +35,123 @@ MAX_EXCHANGES = 200
 WORTHWHILE = 0.1  # of the energy that the equilibrium would release, taken by one step towards it
 
 
+@dataclass(frozen=True)
+class Violations:
+    """Nodes that violate: in tension, above H, overlapping at p = 0, open at p = H."""
+
+    tensile: np.ndarray
+    excessive: np.ndarray
+    joining: np.ndarray
+    softening: np.ndarray
+
+    def count(self) -> int:
+        return int(np.count_nonzero(self.tensile | self.excessive | self.joining | self.softening))
+
+
+@dataclass(frozen=True)
+class ActiveSet:
+    """Which nodes are held at p = 0 (`lower`) and at p = H (`upper`); the others are free."""
+
+    lower: np.ndarray
+    upper: np.ndarray
+
+    @classmethod
+    def of(cls, pressure: np.ndarray, hardness: float) -> "ActiveSet":
+        return cls(pressure <= 0.0, pressure >= hardness)
+
+    @cached_property
+    def free(self) -> np.ndarray:
+        return ~(self.lower | self.upper)
+
+    def edges(self) -> int:
+        """Places where the free nodes begin or end."""
+        return int(np.count_nonzero(self.free[1:] != self.free[:-1]))
+
+    def mostly_upper(self) -> bool:
+        """Whether PLASTIC times as many nodes are at the hardness as are free."""
+        return bool(np.count_nonzero(self.upper) > PLASTIC * np.count_nonzero(self.free))
+
+    def exchanged(self, violated: Violations) -> "ActiveSet":
+        return ActiveSet(
+            (self.lower & ~violated.joining) | violated.tensile,
+            (self.upper & ~violated.softening) | violated.excessive,
+        )
+
+
+def extrapolated(violated: Violations, active: ActiveSet) -> Violations:
+    """Violations with the runs of two nodes or more at edges extrapolated."""
+    tensile = _retreat(violated.tensile, active.free)
+    joining = _advance(violated.joining, active.free)
+    return Violations(tensile, violated.excessive, joining, violated.softening)
+
+
+def _retreat(tensile: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """Runs of tension that begin at an edge of their patch, nearly twice as long."""
+    starts, stops = _runs(tensile)
+    more = stops - starts - 1
+    if not more.any():
+        return tensile
+    before, after = _free_beside(free, starts, stops)
+    starts = np.maximum(starts - np.where(before & ~after, more, 0), 0)
+    stops = np.minimum(stops + np.where(after & ~before, more, 0), len(tensile))
+    return _marked(starts, stops, len(tensile)) & free
+
+
+def _advance(joining: np.ndarray, free: np.ndarray) -> np.ndarray:
+    """Runs of overlap beside a patch, two thirds as long."""
+    starts, stops = _runs(joining)
+    fewer = (stops - starts) // 3
+    if not fewer.any():
+        return joining
+    before, after = _free_beside(free, starts, stops)
+    starts = starts + np.where(after & ~before, fewer, 0)
+    stops = stops - np.where(before & ~after, fewer, 0)
+    return _marked(starts, stops, len(joining))
+
+
+def _runs(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First nodes of the runs of marks, and the nodes that follow each."""
+    padded = np.concatenate(([False], marks, [False]))
+    changes = np.flatnonzero(padded[1:] != padded[:-1])
+    return changes[0::2], changes[1::2]
+
+
+def _marked(starts: np.ndarray, stops: np.ndarray, count: int) -> np.ndarray:
+    """Marks (count,) on runs, which may overlap."""
+    steps = np.bincount(starts, minlength=count + 1) - np.bincount(stops, minlength=count + 1)
+    return np.cumsum(steps[:-1]) > 0
+
+
+def _free_beside(
+    free: np.ndarray, starts: np.ndarray, stops: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Whether the nodes before and after each run are free; beyond the ends of the grid none is."""
+    padded = np.concatenate(([False], free, [False]))
+    return padded[starts], padded[stops + 1]
+
+
 def exchange_blocks(
-    problem: EquilibriumProblem, start: np.ndarray, settled: float = 0.0
+    problem: "EquilibriumProblem", start: np.ndarray, settled: float = 0.0
 ) -> np.ndarray:
-    """Primal-dual active set: every node that breaks its sign condition changes sides at once.
+    """Primal-dual active set: every node that violates its sign condition changes its state at
+    once.
 
     It ends when no more than `settled` of the edges' number break theirs, and with settled = 0
     when none does in an accurate equilibrium. With settled > 0 it gives up instead of starting
     the primal method.
     """
     pressure, reduction = start, REDUCTION
-    sides = Sides.of(start, problem.constraints.hardness)
+    active = ActiveSet.of(start, problem.constraints.hardness)
     fewest, patience = len(start) + 1, PATIENCE
     for _ in range(MAX_EXCHANGES):
-        sides = problem.with_a_free_node(sides)
-        rest = problem.equilibrium(pressure, sides, reduction)
+        active = problem.with_a_free_node(active)
+        rest = problem.equilibrium(pressure, active, reduction)
         pressure = rest.pressure
-        broken = problem.broken_signs(rest, sides)
-        count = broken.count()
+        violated = problem.violations(rest, active)
+        count = violated.count()
         if count == 0 and rest.accurate:
             return pressure
-        if settled and count <= settled * sides.edges():
+        if settled and count <= settled * active.edges():
             return pressure
         if count < fewest:
             fewest, patience = count, PATIENCE
@@ -54,52 +162,54 @@ def exchange_blocks(
             if settled:
                 return pressure
             break
-        if count == 0 or (not settled and count <= max(2, NEARLY * sides.edges())):
+        if count == 0 or (not settled and count <= max(2, NEARLY * active.edges())):
             reduction = 0.0
-        if count > 0 and problem.short_of_free_nodes(sides):
-            sides = problem.balanced(rest)
+        if count > 0 and problem.short_of_free_nodes(active):
+            active = problem.balanced(rest)
         else:
             moving = count > 2 and patience == PATIENCE
-            sides = sides.exchanged(foreseen(broken, sides) if moving else broken)
-    return exchange_feasibly(problem, pressure, sides)
+            active = active.exchanged(extrapolated(violated, active) if moving else violated)
+    return exchange_feasibly(problem, pressure, active)
 
 
-def exchange_feasibly(problem: EquilibriumProblem, start: np.ndarray, sides: Sides) -> np.ndarray:
+def exchange_feasibly(
+    problem: "EquilibriumProblem", start: np.ndarray, active: ActiveSet
+) -> np.ndarray:
     """Primal active set: pressures stay in the box and carry the load, and the energy falls.
 
-    On the way to the equilibrium of the free nodes those that leave the box stay at its sides:
+    On the way to the equilibrium of the free nodes those that leave the box stay on its sides:
     all of them where that lowers the energy by WORTHWHILE, else the first that are met. At the
     equilibrium every node whose gap calls for it is freed; those that would leave the box at
     once go back before anything has moved.
     """
     hardness = problem.constraints.hardness
-    if problem.can_carry(sides):
-        pressure = problem.feasible(start, sides.free)
+    if problem.can_carry(active):
+        pressure = problem.feasible(start, active.free)
     else:
         pressure = problem.feasible(start, np.full(len(start), True))
-        sides = Sides.of(pressure, hardness)
+        active = ActiveSet.of(pressure, hardness)
     gap = problem.gap + problem.apply(pressure)
     for _ in range(20 * len(start)):
-        sides = problem.with_a_free_node(sides)
-        rest = problem.equilibrium(pressure, sides, 0.0)
+        active = problem.with_a_free_node(active)
+        rest = problem.equilibrium(pressure, active, 0.0)
         rest_gap = rest.gap + problem.approach * problem.weights
         if np.all((rest.pressure >= 0.0) & (rest.pressure <= hardness)):
             pressure, gap = rest.pressure, rest_gap
-            broken = problem.broken_signs(rest, sides)
-            if not (broken.joining.any() or broken.softening.any()):
+            violated = problem.violations(rest, active)
+            if not (violated.joining.any() or violated.softening.any()):
                 return pressure
-            sides = Sides(sides.lower & ~broken.joining, sides.upper & ~broken.softening)
+            active = ActiveSet(active.lower & ~violated.joining, active.upper & ~violated.softening)
             continue
         step = rest.pressure - pressure
-        trial = problem.feasible(rest.pressure, sides.free)
+        trial = problem.feasible(rest.pressure, active.free)
         trial_gap = problem.gap + problem.apply(trial)
         gain = _energy_lost(pressure, gap, trial, trial_gap)
         if gain < WORTHWHILE * _energy_lost(pressure, gap, rest.pressure, rest_gap):
-            trial = _first_met(pressure, step, hardness, sides.free)
+            trial = _first_met(pressure, step, hardness, active.free)
             trial_gap = problem.gap + problem.apply(trial)
-        down, up = sides.free & (step < 0.0), sides.free & (step > 0.0)
-        sides = Sides(
-            sides.lower | (down & (trial <= 0.0)), sides.upper | (up & (trial >= hardness))
+        down, up = active.free & (step < 0.0), active.free & (step > 0.0)
+        active = ActiveSet(
+            active.lower | (down & (trial <= 0.0)), active.upper | (up & (trial >= hardness))
         )
         pressure, gap = trial, trial_gap
     return pressure

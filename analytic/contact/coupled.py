@@ -5,10 +5,13 @@
 with a compliance C that is positive definite but not symmetric (`analytic.operators.tangential`);
 symbols as in `analytic.contact.problem`.
 
-Method: the primal-dual active set of `analytic.contact.active_set` on nested grids, each started
-from the next coarser one; on a fixed set GMRES, preconditioned by the operator's approximate
-inverse (`analytic.contact.coupled_equilibrium`). Block exchanges have no proof of convergence.
-Where a set comes back, or too many have been tried, a contraction takes over:
+Method: block exchanges of the active set on nested grids. On a fixed set GMRES (Saad 2003,
+algorithm 9.4, left preconditioning) takes the place of conjugate gradients, which need symmetry.
+Its residual is the gap turned into pressures by the approximate inverse, and so measures the error
+of the pressures themselves. Under a prescribed load every direction keeps w'p = P.
+
+Block exchanges have no proof of convergence. Where a set comes back, or too many have been tried, a
+contraction takes over:
 
     p_k+1 = argmin 1/2 q'Nq + (t (G + C p_k) - N p_k)'q   over the constraints,   N = (C + C')/2,
 
@@ -18,13 +21,13 @@ iterates approach each other by sqrt((1-t)^2 + t^2 k^2), k the size of the skew 
 halved whenever a step has hardly shortened. Each step is a contact problem of N, `solve_contact`.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact.active_set import REDUCTION
-from analytic.contact.coupled_equilibrium import CoupledEquilibrium
-from analytic.contact.equilibrium import Constraints
+from analytic.contact.active_set import REDUCTION, ActiveSet
+from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
 from analytic.contact.nested_start import SETTLED, coarse_start
 from analytic.contact.problem import (
     ContactSolution,
@@ -33,8 +36,96 @@ from analytic.contact.problem import (
     common_gap,
     solve_contact,
 )
-from analytic.contact.sides import Sides
 from analytic.operators.tangential import CoupledOperator
+
+TIGHT = 1e-10  # error of accurate pressures, in the 2-norm
+SPAN = 60  # directions at most; rough contacts were seen to take up to 25
+
+_Vectors = Callable[[np.ndarray], np.ndarray]
+
+
+class CoupledEquilibrium(EquilibriumProblem):
+    """Contact on one grid as a family of linear problems; nothing is asked of the operator but
+    that its symmetric part is positive definite."""
+
+    def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
+        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
+
+        The error of the pressures falls to `reduction` of what it is at the start, or to TIGHT.
+        """
+        rest = super().equilibrium(start, active, reduction)
+        if not self.by_load:
+            return rest
+        # GMRES has not applied C to its result: the approach is what that leaves on the average
+        weights = self.weights[active.free]
+        left = float((weights @ rest.gap[active.free]) / (weights @ weights))
+        self.approach += left
+        return replace(rest, gap=rest.gap - left * self.weights)
+
+    def _iterate(
+        self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
+    ) -> tuple[np.ndarray, bool]:
+        """Bring the free nodes of `pressure` (n,) to rest by GMRES; Cp, and whether accurately."""
+        weights, search = self.weights[nodes], self.search(nodes)
+        if self.by_load:
+            pressure[nodes] += (self.constraints.load - self.weights @ pressure) * search.lift
+        gap = self.gap[nodes] + self.displacement(pressure)[nodes]
+        if self.by_load:
+            self.approach = float((weights @ gap) / (weights @ weights))
+
+        def moved(values: np.ndarray) -> np.ndarray:
+            line = np.zeros_like(pressure)
+            line[nodes] = values
+            return search.step(self.apply(line)[nodes])
+
+        error = search.step(gap - self.approach * weights)
+        tight = TIGHT * np.linalg.norm(pressure[nodes])
+        goal = max(reduction * np.linalg.norm(error), tight)
+        step, left = krylov_step(moved, error, goal)
+        pressure[nodes] -= step
+        return self.apply(pressure), left <= tight
+
+
+def krylov_step(apply: _Vectors, target: np.ndarray, goal: float) -> tuple[np.ndarray, float]:
+    """y (m,) with the least |target - A y| in the Krylov space of A, until that is `goal`; and
+    what it is.
+
+    One call of `apply` a direction, SPAN directions at most.
+    """
+    size = float(np.linalg.norm(target))
+    if size <= goal:
+        return np.zeros(len(target)), size
+    basis, columns = [target / size], []
+    rotations: list[tuple[float, float]] = []
+    right = [size]
+    for step in range(SPAN):
+        image = apply(basis[step])
+        column = np.empty(step + 2)
+        for k, vector in enumerate(basis):
+            column[k] = vector @ image
+            image = image - column[k] * vector
+        column[-1] = left = np.linalg.norm(image)
+        for k, (cosine, sine) in enumerate(rotations):
+            one, other = column[k], column[k + 1]
+            column[k], column[k + 1] = cosine * one + sine * other, cosine * other - sine * one
+        radius = np.hypot(column[-2], column[-1])
+        if radius == 0.0:
+            break  # nothing left but round-off
+        cosine, sine = column[-2] / radius, column[-1] / radius
+        rotations.append((cosine, sine))
+        columns.append(np.append(column[:-2], radius))
+        right[-1:] = [cosine * right[-1], -sine * right[-1]]
+        if abs(right[-1]) <= goal or left == 0.0:
+            break
+        basis.append(image / left)
+    found = np.zeros(len(target))
+    shares = np.zeros(len(columns))
+    for k in reversed(range(len(columns))):
+        later = sum(columns[j][k] * shares[j] for j in range(k + 1, len(columns)))
+        shares[k] = (right[k] - later) / columns[k][k]
+        found += shares[k] * basis[k]
+    return found, abs(float(right[-1]))
+
 
 MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
 COARSEST = 128  # nodes; below this a coarser start saves nothing
@@ -98,24 +189,24 @@ def _exchange(
     """Block exchanges until no more than `settled` of the edges' number break their sign
     conditions, with 0 until none does in an accurate equilibrium; and whether that was reached."""
     pressure, reduction = start, REDUCTION
-    sides = Sides.of(start, problem.constraints.hardness)
+    active = ActiveSet.of(start, problem.constraints.hardness)
     seen: set[tuple[bytes, bytes]] = set()
     for _ in range(MAX_EXCHANGES):
-        sides = problem.with_a_free_node(sides)
-        rest = problem.equilibrium(pressure, sides, reduction)
+        active = problem.with_a_free_node(active)
+        rest = problem.equilibrium(pressure, active, reduction)
         pressure = rest.pressure
-        broken = problem.broken_signs(rest, sides)
-        count = broken.count()
+        violated = problem.violations(rest, active)
+        count = violated.count()
         if count == 0 and rest.accurate:
             return pressure, True
-        if settled and count <= settled * sides.edges():
+        if settled and count <= settled * active.edges():
             return pressure, True
         if count == 0:
             reduction = 0.0
             continue
-        short = problem.short_of_free_nodes(sides)
-        sides = problem.balanced(rest) if short else sides.exchanged(broken)
-        key = np.packbits(sides.lower).tobytes(), np.packbits(sides.upper).tobytes()
+        short = problem.short_of_free_nodes(active)
+        active = problem.balanced(rest) if short else active.exchanged(violated)
+        key = np.packbits(active.lower).tobytes(), np.packbits(active.upper).tobytes()
         if key in seen:
             if reduction == 0.0:
                 break

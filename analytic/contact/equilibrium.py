@@ -1,19 +1,150 @@
-"""Pressures in equilibrium with given sides: which nodes are free, at zero, at the hardness.
+"""Pressures in equilibrium on a fixed active set, by conjugate gradients.
 
-With the sides fixed the contact conditions are linear, g = 0 on the free nodes and w'p = P. A few
-free nodes are solved for directly. More of them take conjugate gradients, projected on the load
-constraint (Gould, Hribar and Nocedal 2001, algorithm 2) and preconditioned by the approximate
-inverse over the whole grid of displacements continued from the free nodes
-(`analytic.contact.extension`). Symbols as in `analytic.contact.problem`.
+With the active set fixed the contact conditions are linear, g = 0 on the free nodes and w'p = P. A
+few free nodes are solved for directly; more take conjugate gradients, projected on the load
+constraint (Gould, Hribar and Nocedal 2001, algorithm 2). Symbols as in `analytic.contact.problem`.
+
+The preconditioner is E' B E. B, the approximate inverse of the whole grid's compliance, needs
+displacements on the whole grid; E extends those of the free nodes. Zeros beyond the set would jump
+at every edge, and the number of iterations would grow with that of the patches. The extension of
+least energy would give the exact inverse of the set's own compliance; between two half-lines held
+at u0 and u1 it is, over a gap -1 < s < 1,
+
+    u = u0 + (u1 - u0) (1/2 + asin(s)/pi)          (Johnson 1985, section 2.7).
+
+E bridges every gap in this way, and the number of iterations hardly depends on that of the patches.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact.search_directions import FreeSearch
-from analytic.contact.sides import Broken, Sides
+from analytic.contact.active_set import ActiveSet, Violations
 from analytic.operators.half_plane import ModelOperator
+
+
+class Extension:
+    """E for one set of free nodes.
+
+    nodes   (m,) ascending indices of the free nodes, m >= 1
+    count   nodes of the line
+    closed  whether node `count` is node 0; else the outermost displacement holds up to the ends
+    """
+
+    def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
+        marks = np.zeros(count, dtype=np.intp)
+        marks[nodes] = 1
+        before = np.cumsum(marks) - 1  # the last free node, here -1 before the first of them
+        widths = np.diff(nodes, append=nodes[0] + count)  # from each free node to the next
+        steps = np.arange(count) - nodes[before]
+        steps[: nodes[0]] += count
+        share = _share_of_next(steps, widths[before])
+        if not closed:
+            share[: nodes[0]] = 1.0
+            share[nodes[-1] :] = 0.0
+        self._before, self._share = before, share
+        # the line before the first free node belongs to the gap behind the last
+        self._split = bool(nodes[0] > 0)
+        self._gaps = np.concatenate(([0], nodes)) if self._split else nodes
+
+    def extend(self, values: np.ndarray) -> np.ndarray:
+        """E v: displacements (count,) from those (m,) of the free nodes."""
+        rise = np.concatenate((values[1:], values[:1])) - values  # over each gap
+        extended = rise[self._before]
+        extended *= self._share
+        extended += values[self._before]
+        return extended
+
+    def gather(self, values: np.ndarray) -> np.ndarray:
+        """E' v: the grid's (count,) forces as forces (m,) on the free nodes."""
+        whole = np.add.reduceat(values, self._gaps)
+        of_next = np.add.reduceat(values * self._share, self._gaps)
+        if self._split:
+            whole[-1] += whole[0]
+            of_next[-1] += of_next[0]
+            whole, of_next = whole[1:], of_next[1:]
+        whole -= of_next
+        whole[1:] += of_next[:-1]
+        whole[0] += of_next[-1]
+        return whole
+
+
+class RowExtension:
+    """`Extension` of free nodes in a row, which leave one gap: quicker."""
+
+    def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
+        first, last = int(nodes[0]), int(nodes[-1])
+        self._row, self._count = slice(first, last + 1), count
+        self._gap = np.concatenate((np.arange(last + 1, count), np.arange(first)))
+        behind = count - 1 - last
+        steps = np.arange(1, len(self._gap) + 1)
+        self._share = _share_of_next(steps, np.array(first + count - last))
+        if not closed:
+            self._share[:behind], self._share[behind:] = 0.0, 1.0
+
+    def extend(self, values: np.ndarray) -> np.ndarray:
+        """E v: displacements (count,) from those (m,) of the free nodes."""
+        extended = np.empty(self._count)
+        extended[self._row] = values
+        extended[self._gap] = values[-1] + self._share * (values[0] - values[-1])
+        return extended
+
+    def gather(self, values: np.ndarray) -> np.ndarray:
+        """E' v: the grid's (count,) forces as forces (m,) on the free nodes."""
+        gathered, outside = values[self._row].copy(), values[self._gap]
+        of_first = self._share @ outside
+        gathered[0] += of_first
+        gathered[-1] += outside.sum() - of_first
+        return gathered
+
+
+def extension_from(nodes: np.ndarray, count: int, closed: bool) -> Extension | RowExtension:
+    """E for one set of free nodes; arguments as of `Extension`."""
+    in_a_row = nodes[-1] - nodes[0] == len(nodes) - 1
+    return (RowExtension if in_a_row else Extension)(nodes, count, closed)
+
+
+def _share_of_next(steps: np.ndarray, widths: np.ndarray) -> np.ndarray:
+    """Share of the next free node, `steps` nodes from the last one in a gap `widths` nodes wide."""
+    return 0.5 + np.arcsin(2.0 * steps / widths - 1.0) / np.pi
+
+
+class SearchDirections:
+    """The preconditioner on some nodes (m,), projected on w'p = const where `weights` are given.
+
+    operator  of a stretch of the line that holds the nodes
+    stretch   its place on the line: all of it where `cropped` is False
+    lift      (m,) pressures that carry a unit load
+    """
+
+    def __init__(
+        self, operator: ModelOperator, nodes: np.ndarray, weights: np.ndarray | None
+    ) -> None:
+        shorter = operator.cropped(int(nodes[-1] - nodes[0]) + 1)
+        self.nodes, self._weights = nodes, weights
+        self.cropped = shorter is not None
+        self.operator = shorter or operator
+        count = self.operator.count
+        first = min(int(nodes[0]), operator.count - count)
+        self.stretch = slice(first, first + count)
+        ring = self.operator.ring
+        self._extension = extension_from(nodes - first, ring or count, closed=ring is not None)
+        if weights is not None:
+            lift = self.inverse(weights)
+            self.lift = lift / (weights @ lift)
+
+    def inverse(self, displacement: np.ndarray) -> np.ndarray:
+        """Pressures (m,) under which the nodes sink by about `displacement` (m,)."""
+        extended = self._extension.extend(displacement)
+        return self._extension.gather(self.operator.precondition(extended))
+
+    def step(self, residual: np.ndarray) -> np.ndarray:
+        """`inverse` less the load that it carries."""
+        step = self.inverse(residual)
+        if self._weights is not None:
+            step -= self.lift * (self._weights @ step)
+        return step
+
 
 ROUNDING = 4.0 * np.finfo(float).eps
 SET_TOLERANCE = 1e-10  # sign conditions, relative to the largest pressure and displacement
@@ -43,7 +174,7 @@ class Constraints:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] with given sides, the load carried.
+    """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] on a fixed active set, the load carried.
 
     overlap   (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
     accurate  whether g vanishes on the free nodes to `tight`, or as far as rounding lets it
@@ -56,7 +187,7 @@ class Equilibrium:
 
 
 class EquilibriumProblem:
-    """Contact on one grid as a family of linear problems, one for each choice of sides.
+    """Contact on one grid as a family of linear problems, one for each active set.
 
     spent     counters that it adds to: exchanges, applications
     tight     residual of an accurate equilibrium, over the displacements that it balances
@@ -80,28 +211,28 @@ class EquilibriumProblem:
         self._own_compliance: float | None = None
         self._applied: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
         self._last: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
-        self._search: FreeSearch | None = None
+        self._search: SearchDirections | None = None
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         self.spent["applications"] += 1
         return self.operator.apply(pressure)
 
     def applied(self, pressure: np.ndarray) -> np.ndarray:
-        """Cp (n,) [m^2] by the operator itself, which a direct solution has just asked for it."""
+        """Cp (n,) [m^2] by the operator itself; known for the pressures of a direct solution."""
         if self._applied is not None and np.array_equal(pressure, self._applied[0]):
             return self._applied[1]
         return self.apply(pressure)
 
-    def can_carry(self, sides: Sides) -> bool:
+    def can_carry(self, active: ActiveSet) -> bool:
         """Whether some pressures of the free nodes within the box make up a prescribed load."""
         if not self.by_load:
             return True
-        rest = self.constraints.load - self._load_of(sides.upper)
-        return bool(0.0 < rest <= self._load_of(sides.free))
+        rest = self.constraints.load - self._load_of(active.upper)
+        return bool(0.0 < rest <= self._load_of(active.free))
 
-    def short_of_free_nodes(self, sides: Sides) -> bool:
-        """Whether so few nodes are free that they cannot balance a prescribed load, or hardly."""
-        return self.by_load and (sides.mostly_upper() or not self.can_carry(sides))
+    def short_of_free_nodes(self, active: ActiveSet) -> bool:
+        """Whether too few nodes are free to balance a prescribed load."""
+        return self.by_load and (active.mostly_upper() or not self.can_carry(active))
 
     def _load_of(self, nodes: np.ndarray) -> float:
         """What these nodes carry at the hardness [N/m]."""
@@ -124,25 +255,24 @@ class EquilibriumProblem:
         feasible[free] = np.clip(inside + high, 0.0, hardness)
         return feasible
 
-    def with_a_free_node(self, sides: Sides) -> Sides:
-        """The sides, but for one node freed where a prescribed load would find none to balance it.
+    def with_a_free_node(self, active: ActiveSet) -> ActiveSet:
+        """The set itself, or with one node freed where none would balance a prescribed load.
 
-        The sides' own load then lacks something, and the node is the one that is reached first, or
-        it is too much, and the node is the one that is reached last.
+        Of a load too small, that is the node that is reached first, of one too large the last.
         """
-        if not self.by_load or sides.free.any():
-            return sides
+        if not self.by_load or active.free.any():
+            return active
         reach = self.gap / self.weights
-        if self._load_of(sides.upper) < self.constraints.load:
-            node = np.argmin(np.where(sides.lower, reach, np.inf))
+        if self._load_of(active.upper) < self.constraints.load:
+            node = np.argmin(np.where(active.lower, reach, np.inf))
         else:
-            node = np.argmax(np.where(sides.upper, reach, -np.inf))
-        lower, upper = sides.lower.copy(), sides.upper.copy()
+            node = np.argmax(np.where(active.upper, reach, -np.inf))
+        lower, upper = active.lower.copy(), active.upper.copy()
         lower[node] = upper[node] = False
-        return Sides(lower, upper)
+        return ActiveSet(lower, upper)
 
-    def balanced(self, rest: Equilibrium) -> Sides:
-        """Sides that carry the prescribed load while each node sinks for itself.
+    def balanced(self, rest: Equilibrium) -> ActiveSet:
+        """ActiveSet that carry the prescribed load while each node sinks for itself.
 
         Where nearly all that touches is at the hardness, few free nodes bear what is missing of
         the load, and exchanges by their signs move the approach from node to node.
@@ -153,34 +283,36 @@ class EquilibriumProblem:
             self._own_compliance = self.apply(one)[len(one) // 2]
         free = np.full(len(self.gap), True)
         pressure = self.feasible(rest.pressure - rest.gap / self._own_compliance, free)
-        return Sides.of(pressure, self.constraints.hardness)
+        return ActiveSet.of(pressure, self.constraints.hardness)
 
-    def broken_signs(self, rest: Equilibrium, sides: Sides) -> Broken:
-        """Sign conditions of the module's head, pressures to SET_TOLERANCE of the largest."""
+    def violations(self, rest: Equilibrium, active: ActiveSet) -> Violations:
+        """Where sign conditions fail, pressures by more than SET_TOLERANCE of the largest."""
         hardness, pressure = self.constraints.hardness, rest.pressure
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
         tensile, joining = (
-            sides.free & (pressure < -slack),
-            sides.lower & (rest.gap < -rest.overlap),
+            active.free & (pressure < -slack),
+            active.lower & (rest.gap < -rest.overlap),
         )
         if not np.isfinite(hardness):
-            return Broken(tensile, sides.upper, joining, sides.upper)  # none is at the hardness
-        return Broken(
+            return Violations(
+                tensile, active.upper, joining, active.upper
+            )  # none is at the hardness
+        return Violations(
             tensile=tensile,
-            excessive=sides.free & (pressure > hardness + slack),
+            excessive=active.free & (pressure > hardness + slack),
             joining=joining,
-            softening=sides.upper & (rest.gap > rest.overlap),
+            softening=active.upper & (rest.gap > rest.overlap),
         )
 
-    def equilibrium(self, start: np.ndarray, sides: Sides, reduction: float) -> Equilibrium:
+    def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
         """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
 
         The residual falls to `reduction` of what it is at the start, or to `tight`.
         """
         self.spent["exchanges"] += 1
-        nodes = np.flatnonzero(sides.free)
+        nodes = np.flatnonzero(active.free)
         pressure = np.zeros_like(start)
-        pressure[sides.upper] = self.constraints.hardness
+        pressure[active.upper] = self.constraints.hardness
         found = self._solve(nodes, pressure)
         if found is not None:
             pressure[nodes] = found
@@ -231,7 +363,7 @@ class EquilibriumProblem:
         search, weights = self.search(nodes), self.weights[nodes]
         if self.by_load:
             missing = self.constraints.load - self.weights @ pressure
-            # rounding of a load that is carried needs no correction, and no application
+            # a load that is right to rounding needs no correction, and no application
             if abs(missing) > ROUNDING * self.constraints.load:
                 pressure[nodes] += missing * search.lift
         displacement = self.displacement(pressure)
@@ -287,9 +419,9 @@ class EquilibriumProblem:
             return self._last[1]
         return self.apply(pressure)
 
-    def search(self, nodes: np.ndarray) -> FreeSearch:
-        """Where to look for the pressures of these nodes; kept until others are asked for."""
+    def search(self, nodes: np.ndarray) -> SearchDirections:
+        """The search directions on these nodes; cached until others are asked for."""
         if self._search is None or not np.array_equal(nodes, self._search.nodes):
             weights = self.weights[nodes] if self.by_load else None
-            self._search = FreeSearch(self.operator, nodes, weights)
+            self._search = SearchDirections(self.operator, nodes, weights)
         return self._search

@@ -11,6 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from analytic.contact.equilibrium import EquilibriumProblem
+from analytic.grid import restricted
 
 COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
@@ -22,7 +23,7 @@ Settle = Callable[[EquilibriumProblem, np.ndarray], np.ndarray]
 def coarse_start(
     problem: EquilibriumProblem, settle: Settle, coarsest: int = COARSEST
 ) -> np.ndarray:
-    """Pressures (n,) [Pa] to start from: nested grids, each solved until its sides settle.
+    """Pressures (n,) [Pa] to start from: nested grids, each solved until its edges settle.
 
     settle    pressures of a coarse problem, whose edges may be off, from a start
     coarsest  nodes below which no coarser grid is made
@@ -61,16 +62,6 @@ def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
         level = shared[np.argmax(np.append(shared[:-1] <= reached[1:], True))]
     pressure = np.maximum(level - height, 0.0) / softness
     return np.minimum(pressure, constraints.hardness)
-
-
-def restricted(values: np.ndarray, periodic: bool) -> np.ndarray:
-    """Integrals over the coarse hats (n // 2,) from those over the fine ones (n,)."""
-    half, odd = divmod(len(values), 2)
-    coarse = values[1::2] + 0.5 * values[0 : 2 * half : 2]
-    coarse[:-1] += 0.5 * values[2 : 2 * half : 2]
-    # an even count leaves the last coarse hat half a fine one short: a copy stands for it
-    coarse[-1] += 0.5 * (values[-1] if odd or not periodic else values[0])
-    return coarse
 
 
 def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:

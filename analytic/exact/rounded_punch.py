@@ -34,8 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from analytic.exact.differences import angle_minus_sine, artanh_minus_argument
-from analytic.numerics import check_positive
+from analytic.numerics import angle_minus_sine, artanh_minus_argument, check_positive
 
 _NEWTON_STEPS = 60  # convex and started below the root: three to eight suffice
 

@@ -32,8 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic.exact.differences import sinh_minus_argument
-from analytic.numerics import check_positive
+from analytic.numerics import check_positive, sinh_minus_argument
 from analytic.stress_state import StressState
 
 # Depth pi z/lambda from which nothing of the wave is left and its hyperbolic functions overflow.

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.layers.waves import Contrast, coupling, normal
+from analytic.layers.layered import Contrast, coupling, normal
 from analytic.operators.elements import hat_galerkin
 from analytic.operators.tangential import hat_sign
 

@@ -5,8 +5,35 @@
     ///////// or E2, nu2, G2     a rigid base, or another half-plane that the layer is bonded to
             z                    plane strain; u positive into the body and in +x
 
-The solution is in `analytic.layers.waves`. Where k is large the layer is a half-plane; what the
-base adds to that decays like e^-2kt on the surface and like e^-k(2t - z) below it.
+Where k is large the layer is a half-plane; what the base adds to that decays like e^-2kt on the
+surface and like e^-k(2t - z) below it.
+
+Elasticity turns into four equations in the depth Z = k z for (2 G k uz, 2 G k ux, sz, txz) with the
+eigenvalues 1 and -1, each twice. On the surface, in terms of w = k t,
+
+    uz cos kx:  2 G k uz = m11 p + m12 q          ux sin kx:  2 G k ux = m12 p + m22 q
+
+and with s = sinh w, c = cosh w, e = 1 - 2 nu, n = 1 + 2 e = 3 - 4 nu, g = G/G2, a bonded layer has
+
+    D   = (1+e)^2 + n s^2 + w^2 + 2 g (1+e)(1+e2) c s + g^2 n2 (s^2 - w^2) + 2 g e2 (e s^2 + w^2)
+    m11 = (1+e) (n c s - w + 2 g e2 (e c s - w) + g^2 n2 (c s + w) + g (1+e)(1+e2)(c^2 + s^2)) / D
+    m22 = (1+e) (n c s + w + 2 g e2 (e c s + w) + g^2 n2 (c s - w) + g (1+e)(1+e2)(c^2 + s^2)) / D
+    m12 = -(e n s^2 - w^2 + g (1+e) (2 (1+e2) e c s + e2 (1+e)) + g^2 n2 (e s^2 + w^2)
+            + 2 g e2 (e^2 s^2 - w^2)) / D
+
+(g = 0: the base is rigid), and a layer that slides on a rigid base without lifting off
+
+    m11, m22 = (1+e) (s^2, c^2) / (c s + w),      m12 = -e + (1+e) w / (c s + w).
+
+Multiplied by 4 e^-2w all of this is without overflow; m11 and m22 are sums of positive terms, right
+to rounding down to w = 0, where m11 may be as small as w^3. What the base adds to the half-plane's
+1+e, -e and 1+e, r = (m - that)/(1+e), decays like e^-2w: with A = (g - 1)(g n2 + 1), B = g e2 - e,
+
+    r11, r22 D = (1+e)(B + g - 1) + A (w^2 +- w) - (g - 1)(n - g n2)(1 - e^-2w)/2
+    r12 D      = -A w^2 - (1+e) B
+
+The substrate enters by g and e2; stresses depend on Dundurs' constants of the pair alone,
+alpha = (1 + e - g (1+e2)) / (1 + e + g (1+e2)) and beta = (e - g e2) / (1 + e + g (1+e2)).
 """
 
 from dataclasses import dataclass
@@ -15,8 +42,136 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic.layers.waves import Contrast, added, coupling, normal, tangential
 from analytic.material import Material
+
+_SERIES = 0.5  # w below which sinh 2w - 2w is summed; 12 terms leave less than rounding
+
+
+@dataclass(frozen=True)
+class Contrast:
+    """Constants of a layer and of what it lies on.
+
+    e, base_e  1 - 2 nu of both      softness  g = G/G2, zero on a rigid base
+    slides     along the base, without friction
+    """
+
+    e: float
+    base_e: float = 0.0
+    softness: float = 0.0
+    slides: bool = False
+
+
+def normal(layer: Contrast, w: np.ndarray) -> np.ndarray:
+    """m11/w at real or complex w != 0, Re w >= 0: uz under p times 2 G/t."""
+    e, wave = layer.e, _Wave.of(w)
+    if layer.slides:
+        return (1.0 + e) * wave.ss / w / (wave.cs + wave.w)
+    total = (2.0 * e * wave.cs + wave.bulge) / w
+    if layer.softness:
+        e2, g = layer.base_e, layer.softness
+        total = total + 2.0 * g * e2 * (e * wave.cs - wave.w) / w
+        total = total + g**2 * (1.0 + 2.0 * e2) * (wave.cs + wave.w) / w
+        total = total + g * (1.0 + e) * (1.0 + e2) * (wave.cc + wave.ss) / w
+    return (1.0 + e) * total / _denominator(layer, wave)
+
+
+def coupling(layer: Contrast, w: np.ndarray) -> np.ndarray:
+    """m12."""
+    e, wave = layer.e, _Wave.of(w)
+    if layer.slides:
+        return ((1.0 - e) * wave.w - e * wave.bulge) / (wave.cs + wave.w)
+    total = e * (1.0 + 2.0 * e) * wave.ss - wave.ww
+    if layer.softness:
+        e2, g = layer.base_e, layer.softness
+        total = total + g * (1.0 + e) * (2.0 * (1.0 + e2) * e * wave.cs + e2 * (1.0 + e) * wave.one)
+        total = total + g**2 * (1.0 + 2.0 * e2) * (e * wave.ss + wave.ww)
+        total = total + 2.0 * g * e2 * (e**2 * wave.ss - wave.ww)
+    return -total / _denominator(layer, wave)
+
+
+def tangential(layer: Contrast, w: np.ndarray) -> np.ndarray:
+    """m22."""
+    e, wave = layer.e, _Wave.of(w)
+    if layer.slides:
+        return (1.0 + e) * wave.cc / (wave.cs + wave.w)
+    total = (1.0 + 2.0 * e) * wave.cs + wave.w
+    if layer.softness:
+        e2, g = layer.base_e, layer.softness
+        total = total + 2.0 * g * e2 * (e * wave.cs + wave.w)
+        total = total + g**2 * (1.0 + 2.0 * e2) * wave.bulge
+        total = total + g * (1.0 + e) * (1.0 + e2) * (wave.cc + wave.ss)
+    return (1.0 + e) * total / _denominator(layer, wave)
+
+
+def added(layer: Contrast, w: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """r11, r12, r22 over 4 e^-2w."""
+    e, wave, gap = layer.e, _Wave.of(w), -np.expm1(-2.0 * w)
+    if layer.slides:
+        below = wave.cs + wave.w
+        return -(0.5 * gap + w) / below, w / below, (1.0 - 0.5 * gap - w) / below
+    below, g = _denominator(layer, wave), layer.softness
+    e2 = layer.base_e
+    mismatch, lift = (g - 1.0) * (g * (1.0 + 2.0 * e2) + 1.0), g * e2 - e
+    rest = (1.0 + e) * (lift + g - 1.0)
+    rest = rest - 0.5 * (g - 1.0) * (1.0 + 2.0 * e - g * (1.0 + 2.0 * e2)) * gap
+    return (
+        (mismatch * (w**2 + w) + rest) / below,
+        -(mismatch * w**2 + (1.0 + e) * lift) / below,
+        (mismatch * (w**2 - w) + rest) / below,
+    )
+
+
+def _denominator(layer: Contrast, wave: "_Wave") -> np.ndarray:
+    """4 e^-2w D."""
+    e = layer.e
+    total = (1.0 + e) ** 2 * wave.one + (1.0 + 2.0 * e) * wave.ss + wave.ww
+    if not layer.softness:
+        return total
+    e2, g = layer.base_e, layer.softness
+    total = total + 2.0 * g * (1.0 + e) * (1.0 + e2) * wave.cs
+    total = total + g**2 * (1.0 + 2.0 * e2) * wave.swell
+    return total + 2.0 * g * e2 * (e * wave.ss + wave.ww)
+
+
+@dataclass(frozen=True)
+class _Wave:
+    """1, w, w^2, s^2, c s, c^2, c s - w and s^2 - w^2, all times 4 e^-2w."""
+
+    one: np.ndarray
+    w: np.ndarray
+    ww: np.ndarray
+    ss: np.ndarray
+    cs: np.ndarray
+    cc: np.ndarray
+    bulge: np.ndarray
+    swell: np.ndarray
+
+    @classmethod
+    def of(cls, w: np.ndarray) -> "_Wave":
+        root = np.exp(-w)
+        one, gap = 4.0 * root**2, -np.expm1(-2.0 * w)
+        return cls(
+            one=one,
+            w=one * w,
+            ww=one * w**2,
+            ss=gap**2,
+            cs=-np.expm1(-4.0 * w),
+            cc=(1.0 + root**2) ** 2,
+            bulge=_bulge(w),
+            swell=_bulge(0.5 * w) * (gap + 2.0 * root * w),
+        )
+
+
+def _bulge(w: np.ndarray) -> np.ndarray:
+    """4 e^-2w (c s - w) = 2 e^-2w (sinh 2w - 2w), right to rounding at any w."""
+    decay = np.exp(-2.0 * w)
+    small = np.abs(w) < _SERIES
+    v = np.where(small, 2.0 * w, 0.0)
+    series = np.zeros_like(v)
+    for n in range(12, 0, -1):
+        series = v**2 / (2.0 * n * (2.0 * n + 1.0)) * (1.0 + series)
+    return np.where(small, 2.0 * decay * v * series, -np.expm1(-4.0 * w) - 4.0 * decay * w)
+
 
 Base = Literal["bonded", "frictionless"]
 

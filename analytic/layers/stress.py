@@ -16,8 +16,8 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from analytic.layers.kernel import finest_scale, wave_panels
 from analytic.layers.layered import LayeredBody, added_stress
+from analytic.stress.elements import uniform_pitch
 from analytic.stress.field import StressField, friction_field
-from analytic.stress.grid import uniform_pitch
 from analytic.stress_state import StressState
 
 _FADED = 45.0  # w (2 - z/t) from which nothing is added: e^-45 45^2 is 6e-17

@@ -8,8 +8,10 @@ under q is sx under p. Four arrays therefore hold what any friction needs.
 
 Written as in the sources, the formulas are sums of angles and logarithms that cancel: sz falls
 like z^3/x^4 while its terms do not fall at all. Each is recast here into terms of one sign, or,
-for hats away from the element, replaced by `stress_multipoles`; every component keeps its
+for hats away from the element, replaced by `hat_multipoles`; every component keeps its
 relative accuracy at any distance along the surface and away from it.
+
+The uniform line of nodes that pressures stand on, as the stresses take it.
 """
 
 from dataclasses import dataclass
@@ -18,8 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
-from analytic.exact.differences import angle_minus_sine
-from analytic.stress.multipoles import NEAREST, hat_multipoles
+from analytic.numerics import angle_minus_sine
+from analytic.stress.potential import NEAREST, Element, hat_multipoles
 from analytic.stress_state import StressState
 
 
@@ -116,6 +118,11 @@ def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     return FrictionStress(StressState(*parts[:3]), parts[3])
 
 
+def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStress:
+    """Of a unit element at 0, by x and z in pitches."""
+    return hat_at(x, z) if element == "hat" else strip_between(x + 0.5, x, x - 0.5, z)
+
+
 def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """sx, sz, txz under p and sx under q (4, n) close to the hat, lengths in pitches.
 
@@ -188,3 +195,40 @@ def _points(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     if np.any(z < 0.0):
         raise ValueError("z must not be negative: it points into the body")
     return x, z
+
+
+_PITCH_TOLERANCE = 1e-6  # of the pitch: how far a node may stand from its place on the grid
+
+
+def uniform_pitch(x_nodes: np.ndarray, pressure: np.ndarray) -> float:
+    """Pitch [m] of the grid that carries `pressure`; ValueError where it is not uniform."""
+    if np.ndim(x_nodes) != 1 or np.shape(x_nodes) != np.shape(pressure):
+        raise ValueError("x_nodes and pressure must be one-dimensional and of equal length")
+    if len(x_nodes) < 2:
+        raise ValueError(f"a grid of pressures needs at least 2 nodes, not {len(x_nodes)}")
+    if not (np.all(np.isfinite(x_nodes)) and np.all(np.isfinite(pressure))):
+        raise ValueError("x_nodes and pressure must be finite")
+    pitch = (x_nodes[-1] - x_nodes[0]) / (len(x_nodes) - 1)
+    grid = x_nodes[0] + pitch * np.arange(len(x_nodes))
+    if not (pitch > 0.0 and np.max(np.abs(x_nodes - grid)) <= _PITCH_TOLERANCE * pitch):
+        raise ValueError("x_nodes must be uniform and ascending")
+    return float(pitch)
+
+
+def from_nearest(
+    nodes: np.ndarray, pitch: float, x: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places x (m,) [m] and nodes (n,) [m], ascending, by whole pitches, which rounding spares.
+
+    Whole pitches (n,) from the first node to each; those to the node nearest to each place (m,),
+    and the pitches from there to the place (m,), 0 at a node as it was given.
+    """
+    whole = np.rint((nodes - nodes[0]) / pitch).astype(int)
+    nearest = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
+    return whole, whole[nearest], (x - nodes[nearest]) / pitch
+
+
+def check_element(element: str) -> None:
+    """ValueError unless `element` is "hat" or "strip"."""
+    if element not in ("hat", "strip"):
+        raise ValueError(f'element must be "hat" or "strip", not {element!r}')

@@ -11,12 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from analytic.stress.convolution import EACH, Products, convolve, mixed, on_grid, surface_load
-from analytic.stress.elements import FrictionStress
-from analytic.stress.grid import check_element, uniform_pitch
-from analytic.stress.kernels import circle
+from analytic.stress.convolution import (
+    EACH,
+    Products,
+    circle,
+    convolve,
+    mixed,
+    on_grid,
+    surface_load,
+)
+from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
+from analytic.stress.periodic import ring
 from analytic.stress.potential import Element
-from analytic.stress.ring import ring
 from analytic.stress_state import StressState
 
 
@@ -63,7 +69,7 @@ def stress_field(
     right to rounding of its own largest stress.
 
     With `periodic` the nodes are one period of n pitches, repeated without end; what the mean
-    pressure then does to sx is told in `stress_periodic`.
+    pressure then does to sx is told in `analytic.stress.periodic`.
 
     Raises ValueError for input out of these bounds, for a window without a grid point, and for
     strips whose ends, where sx under q is infinite, fall on points of the surface.

@@ -1,19 +1,29 @@
-"""Stresses under a line of elements that repeats itself without end, at any points.
+"""Stresses under a line of elements that repeats itself without end: at points, and as a kernel.
 
 Near the surface the three periods about a point are summed as a free line is; all others reach it
-in one inner expansion (`stress_translations`), whose lattice sums are values of Riemann's zeta
-function. A quarter of a period down a few waves of the load are all that is left of it:
+in one inner expansion, whose lattice sums are values of Riemann's zeta function. A quarter of a
+period down a few waves of the load are all that is left of it:
 
     I = -i [P_0 + 2 sum_{k>0} P_k e^(i k w)],   P_k the load's Fourier coefficients, k in 2 pi / L,
 
 so a pressure p0 cos kx gives sx, sz = -p0 (1 -+ kz) e^(-kz) cos kx, txz = -p0 kz e^(-kz) sin kx
 (Westergaard 1939; Johnson 1985, section 13.2).
 
+Kernels of a field. One period is the circle of the convolution. From one step of the grid downwards
+a kernel's spectrum is known: with f waves a period, and their aliases f + a N on a grid of N
+points, each wave of the element brings
+
+    sx, sz, txz = (kz - 1, -kz - 1, i kz) e^(-kz)      sx under q = i (2 - kz) e^(-kz)
+
+times its shape factor, k > 0; those of -k are the conjugates. Closer to the surface the aliases
+fade slowly: there the kernel is taken from the element, its two next images and the inner
+expansion.
+
 The mean. A uniform pressure leaves sx of a half-plane open: any uniform sx keeps its surface free.
-Here it is what the images add up to, summed from the middle outwards: the mean pressure makes
-sx = sz = -P_0, and a mean traction makes txz = -Q_0 and no sx. For another state far below add a
-uniform stress to sx: (1 - nu/(1 - nu)) P_0 where the body may not widen (plane strain), P_0 where
-it is free to.
+Here it is the sum over the images, from the middle outwards: the mean pressure makes sx = sz =
+-P_0, and a mean traction makes txz = -Q_0 and no sx. For another state far below add a uniform
+stress to sx: (1 - nu/(1 - nu)) P_0 where the body may not widen (plane strain), P_0 where it is
+free to.
 
 Nomenclature: L period [m], R = L/2, u = (w - middle)/R.
 """
@@ -21,10 +31,9 @@ Nomenclature: L period [m], R = L/2, u = (w - middle)/R.
 import numpy as np
 from scipy.special import comb, zetac
 
-from analytic.stress.line import line_stress
-from analytic.stress.multipoles import far_moments
-from analytic.stress.potential import Element, stresses
-from analytic.stress.translations import ORDER
+from analytic.stress.convolution import MIRRORED, Circle, half_line, mirrored_spectra
+from analytic.stress.potential import ORDER, Element, element_moments, far_moments, stresses
+from analytic.stress.tree import line_stress
 
 DEEP = 0.25  # periods: below, the waves alone
 _WAVES = 25  # exp(-2 pi 0.25 * 25) is 1e-17
@@ -114,3 +123,73 @@ def _complex(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
     number = np.empty(len(real), dtype=complex)
     number.real, number.imag = real, imaginary
     return number
+
+
+_FADED = 44.0  # e^-44 (1 + 44) is 4e-18
+_SHALLOW = 1.0  # grid steps: levels above are summed over images
+
+
+def ring(
+    depths: np.ndarray,
+    sources: int,
+    first: int,
+    last: int,
+    stride: int,
+    subdivisions: int,
+    element: Element,
+) -> Circle:
+    """`convolution.circle` for `sources` grid points that are one period."""
+    shallow = int(np.searchsorted(depths, _SHALLOW / subdivisions))
+
+    def spectra(block: slice) -> tuple[np.ndarray, ...]:
+        middle = min(max(shallow, block.start), block.stop)
+        parts = [
+            kernel(depths[levels], sources, subdivisions, element)
+            for kernel, levels in (
+                (_by_images, slice(block.start, middle)),
+                (_by_waves, slice(middle, block.stop)),
+            )
+            if levels.start < levels.stop
+        ]
+        return tuple(np.concatenate(rows) for rows in zip(*parts, strict=True))
+
+    points = np.arange(first, last + 1, stride) % sources
+    return Circle(sources, 0, points, spectra, MIRRORED)
+
+
+def _by_waves(
+    depths: np.ndarray, size: int, subdivisions: int, element: Element
+) -> tuple[np.ndarray, ...]:
+    """From the spectrum of the element on depths of a grid step and more."""
+    spectra = np.zeros((4, len(depths), size // 2 + 1))
+    base = np.arange(size // 2 + 1)
+    aliases = int(_FADED / (2.0 * np.pi * depths[0] * subdivisions)) + 1
+    for alias in range(-aliases, aliases + 1):
+        waves = (base + alias * size) * (subdivisions / size)
+        decay = 2.0 * np.pi * np.abs(waves) * depths[:, None]
+        amount = np.exp(-decay) * (subdivisions * shape_factor(waves, element))
+        slope = decay * amount
+        side = np.sign(waves)
+        spectra[0] += slope - amount
+        spectra[1] -= slope + amount
+        spectra[2] += side * slope
+        spectra[3] += side * (2.0 * amount - slope)
+    return tuple(spectra)
+
+
+def _by_images(
+    depths: np.ndarray, size: int, subdivisions: int, element: Element
+) -> tuple[np.ndarray, ...]:
+    """From the element, the images next to it and the expansion of the others."""
+    reach = size // 2
+    alone = half_line(depths, size + reach, subdivisions, element)(slice(None))
+    here, right = alone[:, :, : reach + 1], alone[:, :, size:]
+    # The image at +L stands `size - offset` to the right: Re I and Im I' are odd.
+    left = alone[:, :, size - reach : size + 1][:, :, ::-1]
+    left = left * np.array([-1.0, 1.0, 1.0, -1.0])[:, None, None]
+    half = 0.5 * size / subdivisions
+    outer = element_moments(element, ORDER) * half ** -np.arange(ORDER, dtype=float)
+    u = (np.arange(reach + 1) / subdivisions + 1j * depths[:, None]) / half
+    potential, derivative = np.array(images(outer, u)) / (np.pi * half)
+    rest = np.array([potential.real, potential.imag, derivative.real, derivative.imag])
+    return mirrored_spectra(here + right + left + rest, size)

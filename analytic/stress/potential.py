@@ -1,4 +1,4 @@
-"""The complex potential that all stresses under a loaded line derive from, away from its elements.
+"""The complex potential of a loaded line away from its elements: expansions and their translation.
 
     w   x + i z [pitches]          I(w) = (1/pi) int p(t)/(w - t) dt        I' = dI/dw
     M_k  moments int p(t) (t - c)^k dt about a centre c on the surface
@@ -10,11 +10,35 @@ With tension positive, z into the body, p in compression and q = p acting in +x,
 (Johnson 1985, section 2.5, written for the potential of the traction's resultant). Away from the
 load I = (1/pi) sum_k M_k / (w - c)^(k+1). Taken as complex numbers I and z I' are right to rounding
 of the largest of the four stresses at a point; a component far smaller than that one may cancel.
+
+Translation. A box of half-width b about c, in u = (w - c)/b, has for the load inside and far
+outside
+
+    outer  I = 1/(pi b) sum_k M_k / u^(k+1)        inner  I = 1/(pi b) sum_l L_l u^l
+
+with M_k the load's moments over b^k. Loads and centres stand on the surface, so both kinds of
+coefficients are real, and boxes that are halved again and again share their matrices (Greengard
+and Rokhlin 1987, lemmas 2.3 to 2.5, on a line).
+
+Multipoles. Where every component must keep its own digits, point loads P phi(s) ds are summed
+instead: with X = x - s and k = 1/(X^2 + z^2)^2 (Flamant; Johnson 1985, section 2.2 and 2.3),
+
+    sz, txz, sx = -(2/pi) int phi (z^3, X z^2, X^2 z) k ds,  sx under q = -(2/pi) int phi X^3 k ds.
+
+Expanding k in s/r gives Gegenbauer polynomials of order 2 in cos(angle to the surface),
+
+    k = r^-4 sum_n U_n s^n,   U_n = C_n(x/r) / r^n,   r^2 = x^2 + z^2:
+
+the moments turn every integral into a sum in which the next term is smaller by 1/r^2, and nothing
+cancels in front of the factors z^3, z^2, z, x.
 """
 
+import math
+from functools import cache
 from typing import Literal
 
 import numpy as np
+from scipy.special import comb
 
 Element = Literal["hat", "strip"]
 
@@ -119,4 +143,127 @@ def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:
     even, turn = derivative.real, derivative.imag
     return np.array(
         [potential.imag + even, potential.imag - even, -turn, turn - 2.0 * potential.real]
+    )
+
+
+# Coefficients kept: with the boxes of `analytic.stress.tree` the rest is less than 1e-15 of the
+# load.
+ORDER = 56
+_K = np.arange(ORDER)
+
+
+@cache
+def outer_to_parent(side: int) -> np.ndarray:
+    """Outer coefficients of a half, `side` -1 or 1 of the box's centre, to those of the box."""
+    return comb(_K[:, None], _K) * _power(0.5 * side, _K[:, None] - _K) * 0.5**_K
+
+
+@cache
+def inner_to_child(side: int) -> np.ndarray:
+    """Inner coefficients of a box to those of its half on `side` -1 or 1."""
+    return 0.5 * comb(_K, _K[:, None]) * _power(0.5 * side, _K - _K[:, None]) * 0.5 ** _K[:, None]
+
+
+@cache
+def outer_to_inner(boxes: int) -> np.ndarray:
+    """Outer coefficients to the inner ones of a box of the same size, so many boxes to its left."""
+    total = _K[:, None] + _K
+    return (-1.0) ** (_K + 1) * comb(total, _K) * (2.0 * boxes) ** -(total + 1.0)
+
+
+@cache
+def nodes_to_outer(count: int, element: Element) -> np.ndarray:
+    """Values at the `count` nodes of a box to its outer coefficients (ORDER, count), in pitches."""
+    place = (np.arange(count) - 0.5 * (count - 1)) / (0.5 * count)
+    moments = element_moments(element, ORDER) * (0.5 * count) ** -_K.astype(float)
+    powers = place[:, None] ** _K
+    return np.array([powers[:, k::-1] @ (comb(k, _K[: k + 1]) * moments[: k + 1]) for k in _K])
+
+
+def _power(base: float, exponent: np.ndarray) -> np.ndarray:
+    """base^exponent, zero for negative exponents."""
+    return np.where(exponent >= 0, base ** np.maximum(exponent, 0), 0.0)
+
+
+# Distances [half-widths of the load] from which the terms up to that number leave less than 1e-17
+# of the sum. A hat's moments fall faster than a line's, and need fewer.
+_HAT_TERMS = ((3.0, 40), (6.0, 24), (16.0, 17), (128.0, 10), (2048.0, 6))
+_LINE_TERMS = ((2.0, 72), (3.0, 46), (6.0, 28), (16.0, 19), (128.0, 11), (2048.0, 7))
+NEAREST, FARTHER = _HAT_TERMS[0][0], _LINE_TERMS[0][0]
+_HAT_MOMENTS = element_moments("hat", _HAT_TERMS[0][1] + 4)
+
+
+def hat_multipoles(x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """sx, sz, txz under unit p and sx under unit q (4, n), x and z (n,) in pitches.
+
+    Holds where x^2 + z^2 >= NEAREST^2.
+    """
+    return _in_tiers(x, z, _HAT_MOMENTS, _HAT_TERMS)
+
+
+def line_multipoles(x: np.ndarray, z: np.ndarray, moments: np.ndarray) -> np.ndarray:
+    """The same of a load with these `far_moments`, lengths in its half-widths from its middle.
+
+    Holds where x^2 + z^2 >= FARTHER^2.
+    """
+    return _in_tiers(x, z, moments, _LINE_TERMS)
+
+
+def far_moments(
+    places: np.ndarray, load: np.ndarray, pitch: float, half: float, element: Element
+) -> np.ndarray:
+    """Moments for `line_multipoles` of nodal loads [Pa] at places from the load's middle [m].
+
+    `half` is the half-width of the load [m], feet of the hats included.
+    """
+    count = _LINE_TERMS[0][1] + 4
+    powers = np.empty(count)
+    values, ratio = load * (pitch / half), places / half
+    for order in range(count):
+        powers[order] = values.sum()
+        values = values * ratio
+    own = element_moments(element, count) * (pitch / half) ** np.arange(count)
+    return np.array(
+        [
+            sum(math.comb(k, j) * own[j] * powers[k - j] for j in range(0, k + 1, 2))
+            for k in range(count)
+        ]
+    )
+
+
+def _in_tiers(
+    x: np.ndarray, z: np.ndarray, moments: np.ndarray, tiers: tuple[tuple[float, int], ...]
+) -> np.ndarray:
+    parts = np.empty((4, *x.shape))
+    tier = np.digitize(np.hypot(x, z), [start for start, _ in tiers[1:]])
+    for index, (_, terms) in enumerate(tiers):
+        here = tier == index
+        if here.all():
+            return _sum_of_moments(x, z, moments, terms)
+        if here.any():
+            parts[:, here] = _sum_of_moments(x[here], z[here], moments, terms)
+    return parts
+
+
+def _sum_of_moments(x: np.ndarray, z: np.ndarray, given: np.ndarray, terms: int) -> np.ndarray:
+    """The integrals of phi s^j k, j = 0 … 3, from the first `terms` polynomials, combined."""
+    inverse = 1.0 / (x**2 + z**2)
+    cosine = x * inverse
+    moments = np.zeros((4, *x.shape))
+    before, now = np.zeros_like(x), np.ones_like(x)
+    for n in range(terms):
+        for power in range(4):
+            if given[n + power] != 0.0:
+                moments[power] += given[n + power] * now
+        ahead = 2.0 * (n + 2.0) * cosine * now - (n + 3.0) * inverse * before
+        before, now = now, ahead / (n + 1.0)
+    zeroth, first, second, third = moments
+    factor = -2.0 / np.pi * inverse**2
+    return factor * np.stack(
+        [
+            z * (x * (x * zeroth - 2.0 * first) + second),
+            z**3 * zeroth,
+            z**2 * (x * zeroth - first),
+            x * (x * (x * zeroth - 3.0 * first) + 3.0 * second) - third,
+        ]
     )

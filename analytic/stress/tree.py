@@ -1,27 +1,226 @@
-"""Stresses of many elements at many points: a tree of boxes on the surface, n + m instead of n m.
+"""Stresses of a line of elements at points: element by element, or by a tree of boxes for many.
 
 The line is cut into boxes of 8 nodes, and these are joined two by two. A point belongs to the
-smallest box on whose level its depth is at most 3.5 half-widths b. What stands in that box and in
-its three neighbours on either side is near: on the finest level it is summed over the nodes, else
-over the boxes' outer expansions, whose radius is then at most 0.6 of the distance. All the rest
-stands at least 7 b from the centre and reaches the point, at most 3.6 b away from it, in one inner
-expansion. Only boxes over points, and their ancestors, have one.
+smallest box on whose level its depth is at most 3.5 half-widths b. That box and its three
+neighbours on either side are near: on the finest level their nodes are summed, else the boxes'
+outer expansions, whose radius is then at most 0.6 of the distance. All the rest stands at least 7 b
+from the centre and reaches the point, at most 3.6 b away from it, in one inner expansion: its
+coefficients are the parent's, moved, and the outer ones of those halves of the parent's near boxes
+that are not near themselves. Only boxes over points, and their ancestors, have one. The work grows
+with n + m in place of n m.
 
-Where all of the load is farther than twice its half-width, its moments are summed as in
-`stress_multipoles`, and every component keeps its own digits. Elsewhere all are right to 1e-14 of
-the largest pressure, at places that are known to rounding as `stress` says.
+Where all of the load is farther than twice its half-width, its moments are summed
+(`line_multipoles`), and every component keeps its own digits. Elsewhere all are right to 1e-14 of
+the largest pressure, at places that are known to rounding as `analytic.stress.points` says.
 """
 
+from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 
-from analytic.stress.boxes import LEAF, NEIGHBOURS, box_levels, inner_sum, outer_sum
-from analytic.stress.grid import from_nearest
-from analytic.stress.multipoles import FARTHER, far_moments, line_multipoles
-from analytic.stress.near import Line, near_stress
-from analytic.stress.potential import Element, stresses
-from analytic.threads import for_each
+from analytic.numerics import for_each
+from analytic.stress.elements import (
+    FrictionStress,
+    from_nearest,
+    hat_at,
+    strip_between,
+    unit_stress,
+)
+from analytic.stress.potential import (
+    FARTHER,
+    ORDER,
+    Element,
+    far_moments,
+    inner_to_child,
+    line_multipoles,
+    nodes_to_outer,
+    outer_to_inner,
+    outer_to_parent,
+    stresses,
+)
+
+LEAF = 8  # nodes of the smallest box
+NEIGHBOURS = 3
+# Outer coefficients summed for a box so many boxes away: less than 1e-15 of its load is left out.
+_OUTER_ORDERS = (ORDER, 46, 28, 22)
+_BOXES = 2048  # boxes at a time
+
+
+@dataclass(frozen=True)
+class BoxLevel:
+    """Boxes of `half` pitches half-width: `ids` (b,) of those over points, sorted.
+
+    outer  (ORDER, boxes + 1) of all boxes over the load, and zero
+    inner  (ORDER, b)
+    """
+
+    half: float
+    ids: np.ndarray
+    outer: np.ndarray
+    inner: np.ndarray
+
+
+def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
+    """Expansions on each level of boxes, the finest first; `boxes` of the points on each."""
+    count = -(-len(load) // LEAF)
+    padded = np.zeros(count * LEAF)
+    padded[: len(load)] = load
+    outer = [nodes_to_outer(LEAF, element) @ padded.reshape(count, LEAF).T]
+    while outer[-1].shape[1] > 1 or len(outer) < len(boxes):
+        finer = outer[-1]
+        if finer.shape[1] % 2:
+            finer = np.column_stack([finer, np.zeros(ORDER)])
+        outer.append(outer_to_parent(-1) @ finer[:, ::2] + outer_to_parent(1) @ finer[:, 1::2])
+    ids = []
+    for index in range(len(outer)):
+        own = np.unique(boxes[index]) if index < len(boxes) else np.empty(0, dtype=int)
+        ids.append(np.union1d(own, ids[-1] // 2) if ids else own)
+    levels = []
+    for index in reversed(range(len(outer))):
+        sources = np.column_stack([outer[index], np.zeros(ORDER)])
+        inner = np.zeros((ORDER, len(ids[index])))
+        # From the third level on, counted from the box that holds the whole load, boxes are far.
+        for right in (0, 1) if len(levels) > 1 else ():
+            here = np.flatnonzero(ids[index] % 2 == right)
+            parent = np.searchsorted(levels[-1].ids, ids[index][here] // 2)
+            inner[:, here] = inner_to_child(2 * right - 1) @ levels[-1].inner[:, parent]
+            for i in range(0, len(here), _BOXES):
+                inner[:, here[i : i + _BOXES]] += _from_far(
+                    sources, ids[index][here[i : i + _BOXES]], right
+                )
+        levels.append(BoxLevel(0.5 * LEAF * 2.0**index, ids[index], sources, inner))
+    return levels[::-1]
+
+
+def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
+    """Inner coefficients of boxes, all `right` or left halves, from what only their parents had."""
+    away, matrix = _far_boxes(right)
+    found = inside(box + away[:, None], sources.shape[1] - 1)
+    if np.all(found == sources.shape[1] - 1):
+        return np.zeros((ORDER, len(box)))
+    return matrix @ sources.T[found].transpose(0, 2, 1).reshape(-1, len(box))
+
+
+@cache
+def _far_boxes(right: int) -> tuple[np.ndarray, np.ndarray]:
+    """Distances [boxes] to the halves of the parent's near boxes that are not near themselves.
+
+    And the matrix (ORDER, distances * ORDER) that takes their outer coefficients to inner ones.
+    """
+    away = np.arange(-2 * NEIGHBOURS - right, 2 * NEIGHBOURS + 2 - right)
+    away = away[np.abs(away) > NEIGHBOURS]
+    return away, np.hstack([outer_to_inner(int(boxes)) for boxes in away])
+
+
+def inside(box: np.ndarray, count: int) -> np.ndarray:
+    """Boxes of the load by number, and `count` for those beyond it."""
+    return np.where((box >= 0) & (box < count), box, count)
+
+
+def inner_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """sum L_l u^l of each point's box (points,), and its derivative in u."""
+    column = np.searchsorted(tree.ids, box)
+    value, slope = np.zeros_like(u), np.zeros_like(u)
+    for row in tree.inner[::-1]:
+        slope *= u
+        slope += value
+        value *= u
+        value += row[column]
+    return value, slope
+
+
+def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """sum M_k / u^(k+1) over the near boxes, and its derivative in u."""
+    total, change = np.zeros_like(u), np.zeros_like(u)
+    for away in range(-NEIGHBOURS, NEIGHBOURS + 1):
+        column = inside(box + away, tree.outer.shape[1] - 1)
+        v = 1.0 / (u - 2.0 * away)
+        value, slope = np.zeros_like(u), np.zeros_like(u)
+        for row in tree.outer[_OUTER_ORDERS[abs(away)] - 1 :: -1]:
+            slope *= v
+            slope += value
+            value *= v
+            value += row[column]
+        total += v * value
+        change -= v * v * (value + v * slope)
+    return total, change
+
+
+@dataclass(frozen=True)
+class Line:
+    """The load (n,) [Pa], one pitch from node to node."""
+
+    load: np.ndarray
+    element: Element
+
+
+def near_stress(
+    line: Line,
+    nearest: np.ndarray,
+    rest: np.ndarray,
+    z: np.ndarray,
+    start: np.ndarray,
+    count: int,
+) -> np.ndarray:
+    """The four stresses (4, points) of `count` elements from number `start` (points,) on.
+
+    At places (points,) `rest` from the node of number `nearest`, and z below, in pitches. Elements
+    beyond the line's ends carry nothing.
+    """
+    unique, which = np.unique(start, return_inverse=True)
+    index = unique[:, None] + np.arange(-1, count + 1)
+    loaded = (index >= 0) & (index < len(line.load))
+    load = np.where(loaded, line.load[np.where(loaded, index, 0)], 0.0)
+    load[:, [0, -1]] = 0.0
+    offset = rest[:, None] + (nearest[:, None] - index[which])
+    z = z[:, None]
+    if line.element == "strip":
+        unit = unit_stress(offset, np.broadcast_to(z, offset.shape), "strip")
+        return _weighted(unit, load[which])
+    bend = np.zeros_like(load)
+    bend[:, 1:-1] = load[:, 2:] - 2.0 * load[:, 1:-1] + load[:, :-2]
+    bend[:, [0, -1]] = load[:, [1, -2]]
+    return _bends(offset, z, load[which], bend[which])
+
+
+def _weighted(unit: FrictionStress, load: np.ndarray) -> np.ndarray:
+    normal = unit.normal
+    rows = (normal.sx, normal.sz, normal.txz, unit.traction_sx)
+    return np.array([np.einsum("ij,ij->i", row, load) for row in rows])
+
+
+def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> np.ndarray:
+    """The stresses (4, points) of a load that is linear between nodes, lengths in pitches.
+
+    x (points, nodes), z (points, 1), `load` and its change of slope c at each node (points, nodes).
+    With y = x + i z, I = (1/pi) sum c y ln y and I' = (1/pi) sum c ln y. As sum c = 0, angles count
+    from the vertical and lengths from half the span of the nodes; sum c |x| = 2 p(x) is taken from
+    the load itself, which leaves terms of the order of the depth in sz.
+    """
+    distance = np.abs(x)
+    rise = np.arctan2(z, distance)
+    square = x * x
+    square += z * z
+    square *= 4.0 / x.shape[1] ** 2
+    log = np.log(np.where(square > 0.0, square, 1.0))
+    lean = np.copysign(0.5 * np.pi - rise, x)
+    angle, log_sum = np.einsum("ij,ij->i", bend, lean), np.einsum("ij,ij->i", bend, log)
+    rise_moment = np.einsum("ij,ij->i", bend, distance * rise)
+    log_moment = np.einsum("ij,ij->i", bend, x * log)
+    own = np.einsum("ij,ij->i", load, np.maximum(1.0 - distance, 0.0))
+    z = z[:, 0]
+    sz = rise_moment / np.pi - own
+    return np.array(
+        [
+            sz + z * log_sum / np.pi,
+            sz,
+            z * angle / np.pi,
+            -(3.0 * z * angle + log_moment) / np.pi,
+        ]
+    )
+
 
 _DEEPEST = 3.5  # half-widths of a box: points below belong to a larger one
 _BLOCK, _NEAR_BLOCK = 4096, 256  # points at a time
@@ -90,4 +289,59 @@ def _among(line: Line, nearest: np.ndarray, rest: np.ndarray, down: np.ndarray) 
             for i in range(start, stop, _BLOCK)
         ),
     )
+    return parts
+
+
+_PAIRS = 2**14  # pairs of point and element at a time, which stay in the cache
+# From so many elements, and pairs of point and element, on a tree is quicker.
+_TREE_ELEMENTS, _TREE_PAIRS = 64, 20_000
+
+
+def line_stress(
+    nodes: np.ndarray,
+    load: np.ndarray,
+    pitch: float,
+    x: np.ndarray,
+    z: np.ndarray,
+    element: Element,
+) -> np.ndarray:
+    """sx, sz, txz under p = `load` and sx under q = `load` (4, m) [Pa], at x, z (m,) [m].
+
+    Idle nodes at the ends cost nothing.
+    """
+    loaded = np.flatnonzero(load)
+    if len(loaded) == 0:
+        return np.zeros((4, len(x)))
+    if len(loaded) < _TREE_ELEMENTS or len(loaded) * len(x) < _TREE_PAIRS:
+        return direct_stress(nodes[loaded], load[loaded], pitch, x, z, element)
+    run = slice(loaded[0], loaded[-1] + 1)
+    return tree_stress(nodes[run], load[run], pitch, x, z, element)
+
+
+def direct_stress(
+    nodes: np.ndarray,
+    load: np.ndarray,
+    pitch: float,
+    x: np.ndarray,
+    z: np.ndarray,
+    element: Element,
+) -> np.ndarray:
+    """`line_stress` as the sum over all elements, each component with its own digits."""
+    parts = np.empty((4, len(x)))
+    step = max(1, _PAIRS // len(nodes))
+    whole, nearest, rest = from_nearest(nodes, pitch, x)
+    down = z / pitch
+
+    def add_up(here: slice) -> None:
+        offset = rest[here, None] + (nearest[here, None] - whole)
+        depth = np.broadcast_to(down[here, None], offset.shape)
+        if element == "hat":
+            unit = hat_at(offset, depth)
+        else:
+            unit = strip_between(offset + 0.5, offset, offset - 0.5, depth)
+        normal = unit.normal
+        for row, values in enumerate((normal.sx, normal.sz, normal.txz, unit.traction_sx)):
+            parts[row, here] = values @ load
+
+    for_each(add_up, (slice(i, i + step) for i in range(0, len(x), step)))
     return parts

@@ -6,9 +6,31 @@ from pathlib import Path
 import numpy as np
 
 from analytic.profile import MAX_SAMPLES, Profile
-from analytic.surface.readers.dropouts import bridge
-from analytic.surface.readers.lines import ProfileError, shown
-from analytic.surface.readers.rows import DECIMAL_COMMAS, NAMES, Table, read_table
+from analytic.surface.readers.text import (
+    DECIMAL_COMMAS,
+    NAMES,
+    ProfileError,
+    TextTable,
+    read_table,
+    shown,
+)
+
+
+def bridge(
+    x: np.ndarray, height: np.ndarray, lost: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x and height (m,) [m] without gaps, and the m samples that they come from.
+
+    x      (n,) [m] in any order; NaN only where nothing is to be kept
+    lost   (n,) which heights are; at least one is not
+    Lost samples beyond the outermost ones that are known are left out.
+    """
+    good = np.flatnonzero(~lost)
+    good = good[np.argsort(x[good], kind="stable")]
+    inside = np.flatnonzero((x >= x[good[0]]) & (x <= x[good[-1]]))
+    height = np.where(lost, np.interp(x, x[good], height[good]), height)
+    return x[inside], height[inside], inside
+
 
 __all__ = ["ProfileError", "ReadProfile", "read_profile"]
 
@@ -96,7 +118,7 @@ def read_profile(
     )
 
 
-def _check_shape(table: Table, spacing: float | None, max_samples: int) -> None:
+def _check_shape(table: TextTable, spacing: float | None, max_samples: int) -> None:
     count = len(table.lines)
     if table.numbers.shape[1] == 2 and spacing is not None:
         message = "two columns bring their own x; the sample spacing is for heights alone"
@@ -112,7 +134,7 @@ def _check_shape(table: Table, spacing: float | None, max_samples: int) -> None:
         raise ProfileError(table.path, f"has {count} samples; at most {max_samples} are allowed")
 
 
-def _dropout_error(table: Table, lost: np.ndarray) -> ProfileError:
+def _dropout_error(table: TextTable, lost: np.ndarray) -> ProfileError:
     row = int(np.argmax(lost))
     what = "height" if np.isnan(table.numbers[row, -1]) else "x"
     others = int(np.count_nonzero(lost)) - 1
@@ -125,7 +147,7 @@ def _dropout_error(table: Table, lost: np.ndarray) -> ProfileError:
 
 
 def _bridge(
-    table: Table, x: np.ndarray, height: np.ndarray, lost: np.ndarray
+    table: TextTable, x: np.ndarray, height: np.ndarray, lost: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x and height without gaps, and the rows that they come from (the ends may go)."""
     if np.all(lost):
@@ -141,7 +163,7 @@ def _bridge(
     return bridge(x, height, lost)
 
 
-def _check_places(table: Table, x: np.ndarray, rows: np.ndarray) -> None:
+def _check_places(table: TextTable, x: np.ndarray, rows: np.ndarray) -> None:
     """Refuse samples at one place: `x` ascends, `rows` are theirs in the table."""
     length = x[-1] - x[0]
     hint = f"; {DECIMAL_COMMAS}" if table.commas_may_be_decimal() else ""

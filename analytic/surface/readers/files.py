@@ -12,23 +12,21 @@ from pathlib import Path
 import numpy as np
 
 from analytic.profile import MAX_SAMPLES, Profile
-from analytic.surface.readers.columns import MIN_SAMPLES, read_profile
-from analytic.surface.readers.dropouts import bridge
+from analytic.surface.readers.columns import MIN_SAMPLES, bridge, read_profile
 from analytic.surface.readers.instruments import (
     AbsentReaderError,
     install_command,
     read_instrument_file,
 )
-from analytic.surface.readers.lines import (
+from analytic.surface.readers.text import (
     NOT_TEXT,
+    ColumnsError,
     NotTextError,
     ProfileError,
     regular_file,
     unreadable,
 )
-from analytic.surface.readers.rows import ColumnsError
-from analytic.surface.readers.sdf import is_sdf, read_sdf
-from analytic.surface.readers.topography import MapLine, Topography, trace_of
+from analytic.surface.readers.topography import MapLine, Topography, is_sdf, read_sdf, trace_of
 
 HEAD = 4096  # bytes that tell text from other files without reading them
 MAX_BYTES = 2**31  # of a topography

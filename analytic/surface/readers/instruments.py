@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.lines import ProfileError, shown
+from analytic.surface.readers.text import ProfileError, shown
 from analytic.surface.readers.topography import Topography
 
 WORKER = (sys.executable, "-m", "analytic.surface.readers.instrument_worker")

@@ -21,11 +21,11 @@ from typing import TypeVar
 import numpy as np
 
 from analytic.exact.hertz import hertz_from_peak_pressure
+from analytic.stress.convolution import circle
 from analytic.stress.elements import FrictionStress
 from analytic.stress.field import friction_field, stress_field
-from analytic.stress.kernels import circle
-from analytic.stress.line import direct_stress
 from analytic.stress.points import stress_at
+from analytic.stress.tree import direct_stress
 from analytic.stress_state import StressState
 from comparisons.benchmarks.stress_field.direct import FRICTION, direct, hats, shared_nodes, strips
 

@@ -10,8 +10,8 @@ from analytic.contact.defect_correction import solve_with_coupled_model, solve_w
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
-from analytic.operators.dense_tangential import DenseCoupledCompliance
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
+from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.models.finite_element.bodies import Bodies
 from comparisons.models.problem import Problem
 from fem.body.elasticity import ElasticBody

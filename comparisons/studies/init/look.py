@@ -10,8 +10,7 @@ from analytic.profile import MAX_SAMPLES, Profile
 from analytic.surface.form import remove_form
 from analytic.surface.readers.columns import BYTES_OF_HEADER, BYTES_PER_SAMPLE
 from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
-from analytic.surface.readers.lines import ProfileError, read_lines
-from analytic.surface.readers.rows import read_table
+from analytic.surface.readers.text import ProfileError, read_lines, read_table
 from analytic.surface.readers.topography import MapLine, UnchosenLineError
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import with_unit

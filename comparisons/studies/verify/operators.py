@@ -11,7 +11,7 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.cases import ExactContact
 from analytic.exact.gallery import exact_contacts
-from analytic.exact.layer_references import LayerReference, layer_references
+from analytic.exact.layers import LayerReference, layer_references
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface

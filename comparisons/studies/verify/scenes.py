@@ -17,7 +17,7 @@ import numpy as np
 
 from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, sliding_case
 from analytic.exact.gallery import STEEL, exact_contacts
-from analytic.exact.layer_references import LayerReference, layer_references
+from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
 
 BOTH = ("half_plane", "finite_element")

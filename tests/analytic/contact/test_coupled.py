@@ -55,8 +55,8 @@ def exact_pressure(roller, friction_dundurs: float):
     b, c = 2.0 * leading * half, 2.0 * trailing * half
 
     def pressure(x):
-        sides = np.maximum(c - x, 0.0) ** leading * np.maximum(x + b, 0.0) ** trailing
-        return roller.modulus / (2.0 * roller.radius) * np.sin(np.pi * leading) * sides
+        active = np.maximum(c - x, 0.0) ** leading * np.maximum(x + b, 0.0) ** trailing
+        return roller.modulus / (2.0 * roller.radius) * np.sin(np.pi * leading) * active
 
     return np.array([-b, c]), pressure
 

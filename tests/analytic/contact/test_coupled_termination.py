@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from analytic.contact import coupled as coupled_contact
-from analytic.contact.coupled_equilibrium import CoupledEquilibrium
+from analytic.contact.coupled import CoupledEquilibrium
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactError
 from analytic.grid import HatGrid
@@ -58,16 +58,16 @@ class TestContraction:
 
 
 def test_a_set_that_returns_ends_the_exchanges(roller, monkeypatch):
-    """A node that changes sides for ever: the contraction finishes what they cannot."""
-    own = CoupledEquilibrium.broken_signs
+    """A node that changes active for ever: the contraction finishes what they cannot."""
+    own = CoupledEquilibrium.violations
 
-    def restless(self, rest, sides):
-        broken = own(self, rest, sides)
+    def restless(self, rest, active):
+        broken = own(self, rest, active)
         tensile, joining = broken.tensile.copy(), broken.joining.copy()
-        tensile[0], joining[0] = not sides.lower[0], sides.lower[0]
+        tensile[0], joining[0] = not active.lower[0], active.lower[0]
         return replace(broken, tensile=tensile, joining=joining)
 
-    monkeypatch.setattr(CoupledEquilibrium, "broken_signs", restless)
+    monkeypatch.setattr(CoupledEquilibrium, "violations", restless)
     found = roller.sliding(roller.grid, roller.rough(1), 0.3)
     assert found.converged and found.iterations["contractions"] > 1
     assert found.iterations["exchanges"] < 100

@@ -1,11 +1,10 @@
-"""Edges that are foreseen from the tension or the overlap that a wrong set shows."""
+"""Edges that are extrapolated from the tension or the overlap that a wrong set shows."""
 
 import numpy as np
 import pytest
 
-from analytic.contact.edge_extrapolation import foreseen
+from analytic.contact.active_set import ActiveSet, Violations, extrapolated
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
-from analytic.contact.sides import Broken, Sides
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
@@ -16,7 +15,7 @@ GRID = HatGrid.within(-2.0 * HERTZ.half_width, 2.0 * HERTZ.half_width, HERTZ.hal
 NONE = np.zeros(GRID.count, dtype=bool)
 
 
-def broken_with_edges(half_nodes: int) -> tuple[Broken, Sides]:
+def broken_with_edges(half_nodes: int) -> tuple[Violations, ActiveSet]:
     """What Hertz's contact shows with this many nodes free on either side of its centre."""
     operator = HalfPlane(GRID.count, GRID.pitch, MODULUS)
     weighted_gap = GRID.hat_integrals(roller_gap(RADIUS))
@@ -24,29 +23,29 @@ def broken_with_edges(half_nodes: int) -> tuple[Broken, Sides]:
     spent = {"exchanges": 0, "applications": 0}
     problem = EquilibriumProblem(operator, weighted_gap, GRID.weights, constraints, spent)
     free = np.abs(np.arange(GRID.first, GRID.last + 1)) <= half_nodes
-    sides = Sides(~free, NONE)
-    rest = problem.equilibrium(HERTZ.pressure(GRID.x), sides, 0.0)
-    return problem.broken_signs(rest, sides), sides
+    active = ActiveSet(~free, NONE)
+    rest = problem.equilibrium(HERTZ.pressure(GRID.x), active, 0.0)
+    return problem.violations(rest, active), active
 
 
 @pytest.mark.parametrize("excess", [10, 20, 40])
 def test_tension_shows_half_of_an_excess(excess):
-    broken, sides = broken_with_edges(400 + excess)
+    broken, active = broken_with_edges(400 + excess)
     assert np.count_nonzero(broken.tensile) == pytest.approx(excess, abs=0.2 * excess + 2)
     assert not broken.joining.any()
-    better = sides.exchanged(foreseen(broken, sides))
-    plain = sides.exchanged(broken)
+    better = active.exchanged(extrapolated(broken, active))
+    plain = active.exchanged(broken)
     wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
     assert wrong <= 0.3 * wrong_plain
 
 
 @pytest.mark.parametrize("lack", [12, 24, 48])
 def test_overlap_shows_one_and_a_half_times_a_lack(lack):
-    broken, sides = broken_with_edges(400 - lack)
+    broken, active = broken_with_edges(400 - lack)
     assert np.count_nonzero(broken.joining) == pytest.approx(3 * lack, abs=0.4 * lack + 2)
     assert not broken.tensile.any()
-    better = sides.exchanged(foreseen(broken, sides))
-    plain = sides.exchanged(broken)
+    better = active.exchanged(extrapolated(broken, active))
+    plain = active.exchanged(broken)
     wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
     assert wrong <= 0.4 * wrong_plain
 
@@ -68,9 +67,9 @@ def marks(text: str) -> np.ndarray:
     ],
 )
 def test_tensile_runs_grow_inwards(free, tensile, expected):
-    sides = Sides(~marks(free), np.zeros(len(free), dtype=bool))
+    active = ActiveSet(~marks(free), np.zeros(len(free), dtype=bool))
     none = np.zeros(len(free), dtype=bool)
-    found = foreseen(Broken(marks(tensile), none, none, none), sides)
+    found = extrapolated(Violations(marks(tensile), none, none, none), active)
     assert found.tensile.tolist() == marks(expected).tolist()
 
 
@@ -85,7 +84,7 @@ def test_tensile_runs_grow_inwards(free, tensile, expected):
     ],
 )
 def test_joining_runs_shrink_towards_their_patch(free, joining, expected):
-    sides = Sides(~marks(free), np.zeros(len(free), dtype=bool))
+    active = ActiveSet(~marks(free), np.zeros(len(free), dtype=bool))
     none = np.zeros(len(free), dtype=bool)
-    found = foreseen(Broken(none, none, marks(joining), none), sides)
+    found = extrapolated(Violations(none, none, marks(joining), none), active)
     assert found.joining.tolist() == marks(expected).tolist()

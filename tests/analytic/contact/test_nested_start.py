@@ -7,9 +7,9 @@ import pytest
 
 from analytic.contact.active_set import exchange_blocks
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
-from analytic.contact.nested_start import COARSEST, SETTLED, coarse_start, prolonged, restricted
+from analytic.contact.nested_start import COARSEST, SETTLED, coarse_start, prolonged
 from analytic.contact.problem import solve_contact
-from analytic.grid import HatGrid, roller_gap
+from analytic.grid import HatGrid, restricted, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
 
@@ -38,7 +38,7 @@ class TestRestricted:
         def wave(x):
             return np.sin(2.0 * np.pi * x / 8.0) + np.cos(6.0 * np.pi * x / 8.0)
 
-        # piecewise integration of the same wave: fine cells on both sides, so equal to rounding
+        # piecewise integration of the same wave: fine cells on both active, so equal to rounding
         fine, coarse = HatGrid(0.5, 0, 15), HatGrid(1.0, 0, 7)
         knots = np.arange(-4, 24) * 0.5
         shifted = coarse.hat_integrals(lambda x: wave(x + 0.5), knots)

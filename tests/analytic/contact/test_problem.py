@@ -155,9 +155,9 @@ def test_the_primal_method_lowers_the_energy_at_every_step(roller, monkeypatch):
     energies = []
     original = EquilibriumProblem.equilibrium
 
-    def watched(problem, start, sides, reduction):
+    def watched(problem, start, active, reduction):
         energies.append(start @ (0.5 * operator.apply(start) + weighted_gap))
-        return original(problem, start, sides, reduction)
+        return original(problem, start, active, reduction)
 
     monkeypatch.setattr(EquilibriumProblem, "equilibrium", watched)
     everywhere = np.ones(grid.count)

@@ -6,7 +6,7 @@ import pytest
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import solve_contact
-from analytic.exact.layer_cases import LayerContact, layer_contacts
+from analytic.exact.gallery import LayerContact, layer_contacts
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.operator import LayeredSurface
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.exact.stress_cases import ExactStress, exact_stresses
+from analytic.exact.gallery import ExactStress, exact_stresses
 from analytic.stress.points import stress_at
 
 CASES = {case.name: case for case in exact_stresses()}

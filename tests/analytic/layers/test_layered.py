@@ -5,8 +5,7 @@ from decimal import Decimal, localcontext
 import numpy as np
 import pytest
 
-from analytic.layers.layered import LayeredBody, wave_compliance, wave_stress
-from analytic.layers.waves import added
+from analytic.layers.layered import LayeredBody, added, wave_compliance, wave_stress
 from analytic.material import Material, dundurs_constants
 
 THICKNESS = 0.7e-3

@@ -8,7 +8,7 @@ from scipy.linalg import circulant, toeplitz
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.exact.layer_references import TABLE
+from analytic.exact.layers import TABLE
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.kernel import hat_compliance
 from analytic.layers.layered import LayeredBody, normal_compliance, wave_compliance

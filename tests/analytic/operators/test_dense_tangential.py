@@ -6,8 +6,7 @@ import pytest
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
-from analytic.operators.dense_tangential import DenseCoupledCompliance
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance
 
 RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 1.0e6
 GRID = HatGrid.within(-0.5e-3, 0.5e-3, 2e-6)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from analytic.stress.elements import FrictionStress, hat_stress, strip_stress
-from analytic.stress.multipoles import hat_multipoles
+from analytic.stress.potential import hat_multipoles
 
 DATA = Path(__file__).parents[2] / "data"
 STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]

@@ -5,8 +5,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
-from analytic.stress.points import stress_at
-from analytic.stress.sections import depth_profile, section
+from analytic.stress.points import depth_profile, section, stress_at
 
 NAMES = ("sx", "sz", "txz")
 UNIT = hertz_from_peak_pressure(1.0, 1.0, 2.0)

@@ -3,22 +3,19 @@
 import numpy as np
 import pytest
 
-from analytic.stress.line import direct_stress
 from analytic.stress.points import friction_stress_at, stress_at
 from analytic.stress.potential import (
     FAR_TERMS,
+    ORDER,
     element_moments,
     element_potential,
-    stresses,
-)
-from analytic.stress.translations import (
-    ORDER,
     inner_to_child,
     nodes_to_outer,
     outer_to_inner,
     outer_to_parent,
+    stresses,
 )
-from analytic.stress.tree import tree_stress
+from analytic.stress.tree import direct_stress, tree_stress
 from analytic.stress_state import StressState
 
 PITCH = 2.0**-9

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from analytic.exact.layer_references import TABLE
+from analytic.exact.layers import TABLE
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement

@@ -19,9 +19,8 @@ from analytic.contact.patches import contact_patches
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.dense_tangential import DenseCoupledCompliance
 from analytic.operators.half_plane import SumOfBodies
-from analytic.operators.tangential import CoupledHalfPlane
+from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance
 from analytic.surface.synthetic import self_affine
 from fem.body.elasticity import Support, elastic_body
 from fem.body.surface import hat_nodes

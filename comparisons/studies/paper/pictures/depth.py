@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.stress.sections import depth_profile
+from analytic.stress.points import depth_profile
 from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, significant
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure

@@ -12,7 +12,7 @@ import numpy as np
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.exact.layer_limits import (
+from analytic.exact.layers import (
     LayerLimit,
     thick_layer,
     thin_compressible_layer,

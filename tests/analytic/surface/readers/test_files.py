@@ -8,7 +8,7 @@ import pytest
 
 import analytic.surface.readers.instruments as instruments
 from analytic.surface.readers.files import MissingUnitError, read_measured
-from analytic.surface.readers.lines import ProfileError
+from analytic.surface.readers.text import ProfileError
 from analytic.surface.readers.topography import MapLine
 
 SCAN = b"0,1\n1,2\n2,4\n3,3\n4,0\n"

@@ -14,7 +14,7 @@ from analytic.surface.readers.instruments import (
     install_command,
     read_instrument_file,
 )
-from analytic.surface.readers.lines import ProfileError
+from analytic.surface.readers.text import ProfileError
 
 HAS_READER = importlib.util.find_spec("SurfaceTopography") is not None
 needs_reader = pytest.mark.skipif(not HAS_READER, reason="SurfaceTopography is not installed")

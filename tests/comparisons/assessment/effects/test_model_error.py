@@ -8,7 +8,7 @@ from unittest.mock import patch
 import pytest
 
 import comparisons.models.finite_element.level
-from analytic.exact.layer_references import TABLE
+from analytic.exact.layers import TABLE
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.verdict import validity_verdict
 from comparisons.common.exit_status import ExitStatus

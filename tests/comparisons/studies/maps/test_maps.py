@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.exact.layer_references import layer_references
+from analytic.exact.layers import layer_references
 from analytic.exact.sliding import sliding_from_load
 from comparisons.common.errors import SceneError
 from comparisons.models.problem import problem_of

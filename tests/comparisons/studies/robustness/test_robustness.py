@@ -17,7 +17,7 @@ from rich.console import Console
 
 import comparisons.studies.robustness.run as stability_run
 from analytic.contact import problem as contact
-from analytic.exact.layer_limits import base_deficit
+from analytic.exact.layers import base_deficit
 from analytic.layers import layered
 from analytic.layers.layered import LayeredBody
 from analytic.material import Material

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from analytic.exact.layer_references import layer_references
+from analytic.exact.layers import layer_references
 from comparisons import cli
 from comparisons.assessment import uncertainty
 from comparisons.common.errors import InputError

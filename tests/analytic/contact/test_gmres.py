@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.contact.coupled_equilibrium import krylov_step
+from analytic.contact.coupled import krylov_step
 
 
 @pytest.mark.parametrize("size", [1, 2, 12])

@@ -4,10 +4,15 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from analytic.contact import search_directions as free_search
-from analytic.contact.equilibrium import Constraints, EquilibriumProblem
-from analytic.contact.extension import Extension, RowExtension, extension_from
-from analytic.contact.sides import Sides
+from analytic.contact import equilibrium as equilibrium
+from analytic.contact.active_set import ActiveSet
+from analytic.contact.equilibrium import (
+    Constraints,
+    EquilibriumProblem,
+    Extension,
+    RowExtension,
+    extension_from,
+)
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
 
@@ -147,8 +152,8 @@ class TestIterations:
         gap = np.cumsum(rng.standard_normal(count)) * 1e-3
         spent = {"exchanges": 0, "applications": 0}
         problem = EquilibriumProblem(operator, gap, weights, Constraints(load=count), spent)
-        sides = Sides(lower, np.zeros(count, dtype=bool))
-        rest = problem.equilibrium(np.ones(count), sides, 1e-8)
+        active = ActiveSet(lower, np.zeros(count, dtype=bool))
+        rest = problem.equilibrium(np.ones(count), active, 1e-8)
         touching = ~lower
         assert np.abs(rest.gap[touching]).max() < 1e-5 * np.ptp(rest.gap)
         return spent["applications"]
@@ -161,7 +166,7 @@ class TestIterations:
     def test_without_the_continuation_it_does(self, monkeypatch):
         continued = [self.applications(patches) for patches in (20, 400)]
 
-        monkeypatch.setattr(free_search, "extension_from", CutOff)
+        monkeypatch.setattr(equilibrium, "extension_from", CutOff)
         cut = [self.applications(patches) for patches in (20, 400)]
         assert cut[1] > 2.0 * continued[1]
         assert cut[1] / cut[0] > 1.3 * continued[1] / continued[0]

@@ -1,7 +1,7 @@
-"""Rigid cylinder on an elastic layer of thickness t on a rigid base: the limits of thick and thin.
+r"""Rigid cylinder on an elastic layer of thickness t on a rigid base: the limits of thick and thin.
 
-        \\     /          cylinder of radius R, without friction
-    -----\\___/-----       contact on |x| < a
+        \     /          cylinder of radius R, without friction
+    -----\___/-----       contact on |x| < a
       layer, t
     ///////////////       base: "bonded", or "frictionless" (the layer slides but stays on it)
 
@@ -30,10 +30,15 @@ Range: what is left out of the load for a given half-width, relative to it
     compressible    0.53 t/a frictionless, 0.37 t/a bonded with nu = 0.3; the full load is larger.
                     No limit any more where (1 - 2 nu)(a/t)^2 is not large
     incompressible  8 t/a, the full load is larger
+
+Between the limits no closed form exists: layer_contact.json holds ten digits, and says how they
+were found by two independent derivations.
 """
 
+import json
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -145,3 +150,41 @@ def _base_integrals(base: Base, poissons_ratio: float) -> tuple[float, float]:
 def _check_base(base: str) -> None:
     if base not in ("bonded", "frictionless"):
         raise ValueError(f'base must be "bonded" or "frictionless", not {base!r}')
+
+
+TABLE = Path(__file__).with_name("layer_contact.json")
+
+
+@dataclass(frozen=True)
+class LayerReference:
+    """A contact in units of the layer.
+
+    half_width      a/t
+    poissons_ratio  nu; None where figures over E' are the same at any
+    peak_pressure   p0 R/(E' t)
+    load            P R/(E' t^2)
+    error           of both, relative, by the two derivations
+    """
+
+    half_width: float
+    poissons_ratio: float | None
+    base: Base
+    peak_pressure: float
+    load: float
+    error: float
+
+
+@cache
+def layer_references() -> tuple[LayerReference, ...]:
+    """All contacts of the table."""
+    return tuple(
+        LayerReference(
+            half_width=float(row["a_over_t"]),
+            poissons_ratio=None if row["nu"] == "any" else float(row["nu"]),
+            base=row["base"],
+            peak_pressure=float(row["p0_R_over_Eprime_t"]),
+            load=float(row["P_R_over_Eprime_t2"]),
+            error=float(row["rel_error_estimate"]),
+        )
+        for row in json.loads(TABLE.read_text(encoding="utf-8"))["cases"]
+    )

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_from_load
-from analytic.exact.layer_limits import (
+from analytic.exact.layers import (
+    TABLE,
     LayerLimit,
     base_deficit,
     thick_layer,
@@ -15,7 +16,6 @@ from analytic.exact.layer_limits import (
     thin_incompressible_layer,
     thin_modulus,
 )
-from analytic.exact.layer_references import TABLE
 from analytic.material import Material
 
 CASES = json.loads(TABLE.read_text())["cases"]

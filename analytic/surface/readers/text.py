@@ -1,7 +1,9 @@
-"""Rows of numbers from the lines of a profile's file, whatever program wrote it.
+"""Rows of numbers in the text file of a profile, whatever program wrote it.
 
 How a file is understood, always by looking at all of it:
 
+text       UTF-8, UTF-16 with its byte-order mark, or else Latin-1; lines end in LF, CRLF or CR
+quotes     "1,5" in quotes is a number with a decimal comma, and comes out as 1.5
 comments   a line that starts with # % ; or //, and what follows a blank and # % or //. Not a
            comment: `#N/A` and its like, which are dropouts, and `;` with only a number behind
            it, which is a row that lost its x
@@ -27,7 +29,90 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.lines import ProfileError, read_lines, shown
+QUOTED = re.compile(r'"([^"\n]*)"')
+OTHER_BLANKS = re.compile(r"[^\S\n\t ]")  # form feed, no-break blank and the like
+NOT_TEXT = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
+
+
+class ProfileError(ValueError):
+    """A profile file that cannot be used. One line: file, line, what is wrong, what is allowed."""
+
+    def __init__(self, path: object, message: str, line: int | None = None) -> None:
+        self.message, self.line = message, line
+        place = str(path) if str(path).isprintable() else repr(str(path))
+        super().__init__(f"{place}{f', line {line}' if line else ''}: {message}")
+
+
+class NotTextError(ProfileError):
+    """The file is not text; another reader may know it."""
+
+
+def regular_file(path: Path) -> int:
+    """Size [bytes] of the file at `path`; ProfileError unless there is one that can be read."""
+    try:
+        if path.exists() and not path.is_file():  # a pipe would block
+            kind = "a directory" if path.is_dir() else "no regular file"
+            raise ProfileError(path, f"is {kind}; a profile is a text file")
+        return path.stat().st_size
+    except FileNotFoundError:
+        raise ProfileError(path, "there is no such file") from None
+    except ProfileError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> ProfileError:
+    """The error to raise where the system does not let a file be read."""
+    reason = getattr(error, "strerror", None) or str(error)
+    return ProfileError(path, f"cannot be read ({reason})")
+
+
+def read_lines(path: Path, max_bytes: int) -> list[str]:
+    """The file's lines without their ends; it may have `max_bytes` at most."""
+    raw = _bytes(path, max_bytes)
+    text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
+    if not text.strip():
+        raise ProfileError(path, "is empty; a profile has lines of numbers")
+    binary = NOT_TEXT.search(text)
+    if binary:
+        line = text.count("\n", 0, binary.start()) + 1
+        code = f"byte {ord(binary[0]):#04x}"
+        raise NotTextError(path, f"is not text ({code}); export the profile as text or CSV", line)
+    text = OTHER_BLANKS.sub(" ", text.replace("\u2212", "-"))  # the typographer's minus sign
+    if '"' in text:
+        text = QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
+    return text.split("\n")
+
+
+def _bytes(path: Path, max_bytes: int) -> bytes:
+    """The file's content; a file larger than `max_bytes` is not opened."""
+    if regular_file(path) > max_bytes:
+        raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise unreadable(path, error) from error
+
+
+def _decoded(path: Path, raw: bytes) -> str:
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            return raw.decode("utf-16")
+        except UnicodeDecodeError:
+            message = "is not text (broken UTF-16); export the profile as text or CSV"
+            raise NotTextError(path, message) from None
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+def shown(text: str) -> str:
+    """Text from a file, quoted, on one line and not too long."""
+    text = text.strip()
+    return repr(text if len(text) <= 40 else text[:37] + "...")
+
 
 NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eEdD][+-]?\d+)?", re.ASCII)
 ONE_COMMA = re.compile(r"[+-]?\d*,?\d*([eEdD][+-]?\d+)?", re.ASCII)
@@ -56,7 +141,7 @@ class ColumnsError(ProfileError):
 
 
 @dataclass(frozen=True)
-class Table:
+class TextTable:
     """The rows of a file.
 
     numbers    (rows, columns), 1 or 2 columns, NaN for a dropout
@@ -84,7 +169,7 @@ class Table:
         return self.separator == "," and not any("." in row for row in self.text)
 
 
-def read_table(path: Path, max_bytes: int, one_column: bool) -> Table:
+def read_table(path: Path, max_bytes: int, one_column: bool) -> TextTable:
     """The rows of the file at `path`, which may have `max_bytes` at most.
 
     one_column   what the caller announces; it decides only how rows like `1,5` are read
@@ -99,14 +184,14 @@ def read_table(path: Path, max_bytes: int, one_column: bool) -> Table:
     separator, decimal = _dialect(path, int(lines[0]), text, one_column)
     numbers = _fast_numbers(text, separator, decimal)
     if numbers is None:
-        table = Table(path, np.empty((0, 0)), text, lines[filled], separator, decimal, header)
+        table = TextTable(path, np.empty((0, 0)), text, lines[filled], separator, decimal, header)
         numbers = _careful_numbers(table)
     numbers = np.where(np.isfinite(numbers), numbers, np.nan)
     if some_blank and numbers.shape[1] == 1:
         every = np.full((len(rows), 1), np.nan)
         every[filled] = numbers
-        return Table(path, every, rows, lines, separator, decimal, header)
-    return Table(path, numbers, text, lines[filled], separator, decimal, header)
+        return TextTable(path, every, rows, lines, separator, decimal, header)
+    return TextTable(path, numbers, text, lines[filled], separator, decimal, header)
 
 
 def _header(path: Path, lines: list[str]) -> tuple[int, tuple[str, ...]]:
@@ -192,7 +277,7 @@ def _fast_numbers(rows: list[str], separator: str, decimal: str) -> np.ndarray |
     return numbers if len(numbers) == len(rows) and numbers.shape[1] <= 2 else None
 
 
-def _careful_numbers(table: Table) -> np.ndarray:
+def _careful_numbers(table: TextTable) -> np.ndarray:
     """The numbers row by row, dropouts as NaN; `table` has everything but its numbers."""
     cells = _split(table.text, table.separator)
     width = Counter(map(len, cells)).most_common(1)[0][0]
@@ -236,7 +321,7 @@ def _number(cell: str, decimal: str) -> float | None:
     return float("nan") if _is_dropout(cell) else None
 
 
-def _wrong_columns(table: Table, found: int, width: int) -> str:
+def _wrong_columns(table: TextTable, found: int, width: int) -> str:
     if found == width:
         message = f"{found} columns; a profile has two (x, height) or one (height)"
     else:
