@@ -30,8 +30,7 @@ from comparisons.commands import (
     table,
     verify,
 )
-from comparisons.common.errors import InputError, SolverError, one_line
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError, SolverError, one_line
 from comparisons.common.mpi import as_one, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from

@@ -20,7 +20,7 @@ from comparisons.assessment.comparison import figures
 from comparisons.assessment.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
 from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages

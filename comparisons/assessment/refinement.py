@@ -6,10 +6,10 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from comparisons.assessment.comparison import discretisations
+from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory, no_progress
 from comparisons.models.level import Level, ModelRun, Window
-from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 
@@ -44,7 +44,7 @@ def refined(
     problem: Problem,
     plan: Plan,
     window: Window | None,
-    checkpoint: LevelCache,
+    checkpoint: Cache,
     callback: ProgressCallback,
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.

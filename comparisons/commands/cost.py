@@ -8,7 +8,7 @@ import typer
 
 from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
 from comparisons.commands.output import progress, show, show_file
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 
 def cost(

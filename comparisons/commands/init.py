@@ -9,7 +9,7 @@ import typer
 
 from comparisons.commands.arguments import Job, json_option
 from comparisons.commands.output import is_watched, show, show_json
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 
 def init(

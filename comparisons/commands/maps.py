@@ -9,7 +9,7 @@ import typer
 from comparisons.commands import completion
 from comparisons.commands.arguments import RESULTS, Job, json_option
 from comparisons.commands.output import progress, show, show_json
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.mpi import from_first
 
 Axis = typer.Option(

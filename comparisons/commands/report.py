@@ -31,7 +31,7 @@ def report(
 def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool) -> int:
     if summary is None and len(folders) > 1:
         summary = RESULTS / "summary.html"
-    from comparisons.common.exit_status import ExitStatus
+    from comparisons.common.errors import ExitStatus
     from comparisons.report.redraw import draw_again, reports_content, reports_table
 
     with progress() as callback:

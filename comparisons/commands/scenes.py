@@ -5,7 +5,7 @@ from typing import Annotated
 
 from comparisons.commands.arguments import Job, json_option
 from comparisons.commands.output import show_json
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 
 def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> Job:

@@ -8,7 +8,7 @@ import typer
 
 from comparisons.commands.arguments import Job
 from comparisons.commands.output import show_json
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 
 def table(

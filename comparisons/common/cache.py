@@ -1,67 +1,117 @@
-"""One finished result as one .npz file: its arrays, and a JSON text that says how they make it up.
+"""Finished results on disk, so that a command that was stopped goes on: one .npz file a result.
 
-A file is there whole or not at all, and is good for the key that it was kept under.
+A file holds the arrays of a result, and a JSON text that says how they make it up. It is there
+whole or not at all, and is good for the key that it was saved under.
 """
 
 import json
-import os
+import shutil
+import typing
 import zlib
-from collections.abc import Iterable
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from zipfile import BadZipFile
 
 import numpy as np
 
-from comparisons.common.files import ATTEMPTS
+from comparisons.common.files import ATTEMPTS, remove_leftovers, whole_file
+from comparisons.common.mpi import from_first, is_first
 
-PART = ".part.npz"
 # What a damaged file raises, by which bit of it is wrong; of an unknown compression, RuntimeError.
 DAMAGED = (
     OSError, ValueError, KeyError, TypeError, EOFError, RuntimeError, BadZipFile, zlib.error,
 )  # fmt: skip
 
 
-def keep(path: Path, key: str, value: object) -> None:
-    """Keep a value; it is there whole, or not at all, whatever ends this process.
+@dataclass(frozen=True)
+class Cache:
+    """Results of one key in a folder, each under a name.
 
-    value  dataclasses, dictionaries, tuples, arrays, numbers, texts. Another run may remove the
-           folder at any moment; a value that is lost to that is computed again if it is needed.
+    folder  None caches nothing
+    key     hash of everything that shapes the results (`comparisons.common.provenance`)
+    kinds   the dataclasses that results are made of, by name (`kinds_of`)
+    by_all  every process that mpirun started loads: the first reads for all of them
     """
-    arrays: dict[str, np.ndarray] = {}
-    outline = {"key": key, "value": encoded(value, arrays)}
-    part = path.with_name(f"{path.stem}.{os.getpid()}{PART}")
-    for _ in range(ATTEMPTS):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            np.savez(part, outline=np.array(json.dumps(outline)), **arrays)
-            os.replace(part, path)
+
+    folder: Path | None
+    key: str
+    kinds: dict[str, type]
+    by_all: bool = False
+
+    def load(self, name: str) -> object | None:
+        """The result saved under a name; None where there is none, or not a whole one, or one of
+        another key."""
+        if self.folder is None:
+            return None
+        return from_first(lambda: self._read(name)) if self.by_all else self._read(name)
+
+    def save(self, name: str, value: object) -> None:
+        """Write a result: dataclasses, dictionaries, tuples, arrays, numbers, texts.
+
+        Another run may remove the folder at any moment; a result that is lost to that is computed
+        again where it is needed.
+        """
+        if self.folder is None or not is_first():
             return
-        except FileNotFoundError:
-            continue
+        arrays: dict[str, np.ndarray] = {}
+        outline = json.dumps({"key": self.key, "value": encoded(value, arrays)})
+        for _ in range(ATTEMPTS):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            with suppress(FileNotFoundError):
+                with whole_file(self.path(name)) as part, part.open("wb") as file:
+                    np.savez(file, outline=np.array(outline), **arrays)
+                return
+
+    def discard(self) -> None:
+        """Remove the folder."""
+        if self.folder is not None and is_first():
+            shutil.rmtree(self.folder, ignore_errors=True)
+
+    def remove_leftovers(self) -> None:
+        """Remove what a process left that was killed while it saved."""
+        remove_leftovers(self.folder)
+
+    def path(self, name: str) -> Path:
+        """The file of a result."""
+        return self.folder / f"{name}.npz"
+
+    def _read(self, name: str) -> object | None:
+        try:
+            with np.load(self.path(name), allow_pickle=False) as arrays:
+                outline = json.loads(str(arrays["outline"]))
+                if outline["key"] != self.key:
+                    return None
+                return decoded(outline["value"], arrays, self.kinds)
+        except DAMAGED:
+            return None
 
 
-def kept(path: Path, key: str, kinds: Iterable[type]) -> object | None:
-    """What a file holds, made of dataclasses of these `kinds`; None where it is not there, was cut
-    short, or is good for another key."""
-    try:
-        with np.load(path, allow_pickle=False) as arrays:
-            outline = json.loads(str(arrays["outline"]))
-            if outline["key"] != key:
-                return None
-            return decoded(outline["value"], arrays, {kind.__name__: kind for kind in kinds})
-    except DAMAGED:
-        return None
+def kinds_of(*roots: type) -> dict[str, type]:
+    """Every dataclass that values of these types may be made of, by name: those that their fields
+    mention."""
+    found: dict[str, type] = {}
+    left = list(roots)
+    while left:
+        kind = left.pop()
+        if is_dataclass(kind) and kind.__name__ not in found:
+            found[kind.__name__] = kind
+            for hint in typing.get_type_hints(kind).values():
+                left += _mentioned(hint)
+    return found
 
 
-def tidy(folder: Path) -> None:
-    """Remove what a process left that was killed while it wrote."""
-    for part in folder.glob(f"*{PART}"):
-        part.unlink(missing_ok=True)
+def _mentioned(hint: object) -> Iterator[type]:
+    """The classes in a type hint."""
+    if isinstance(hint, type):
+        yield hint
+    for part in typing.get_args(hint):
+        yield from _mentioned(part)
 
 
 def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
-    """JSON that stands for a value; its arrays go to `arrays` under the numbers it names."""
+    """JSON that stands for a value; its arrays go to `arrays` under the names it mentions."""
     if is_dataclass(value):
         parts = {f.name: encoded(getattr(value, f.name), arrays) for f in fields(value)}
         return {"kind": type(value).__name__, "fields": parts}
@@ -81,7 +131,7 @@ def encoded(value: object, arrays: dict[str, np.ndarray]) -> object:
 
 
 def decoded(given: object, arrays: dict[str, np.ndarray], kinds: dict[str, type]) -> object:
-    """The value that `encoded` took; `kinds` are the dataclasses by name."""
+    """The value that `encoded` took; `kinds` are its dataclasses by name."""
     if not isinstance(given, dict):
         return given
     if "array" in given:

@@ -1,24 +1,40 @@
-"""What the user gave is wrong: one line that says where, what, and what is allowed."""
+"""Errors of one line, and the exit statuses that the command line ends with."""
 
 import re
+from enum import IntEnum
 
 
-class InputError(ValueError):
-    """Wrong input of any kind; `str` is one line, and the command line ends with status 2."""
+class ExitStatus(IntEnum):
+    """0 to 3 are for scripts to branch on; the others follow sysexits.h and the shells."""
+
+    DONE = 0
+    OUTSIDE_TOLERANCE = 1
+    SOMETHING_MISSING = 1  # of `doctor`
+    BAD_INPUT = 2
+    NOT_CONVERGED = 3
+    DEFECT = 70  # EX_SOFTWARE: an error of the program, never of the input
+    CANNOT_WRITE = 74  # EX_IOERR
+    INTERRUPTED = 130  # 128 + SIGINT
+    BROKEN_PIPE = 141  # 128 + SIGPIPE
+
+
+class OneLineError(Exception):
+    """`str` is one line for the user."""
 
     def __init__(self, message: str) -> None:
         super().__init__(one_line(message))
+
+
+class InputError(OneLineError, ValueError):
+    """Wrong input, with what is allowed in its place; the command line ends with status 2."""
 
 
 class SceneError(InputError):
     """A scene, or a file it names, is wrong: "file: section.field: problem; allowed is …"."""
 
 
-class SolverError(RuntimeError):
-    """A solver did not converge; `str` is one line, and the command line ends with status 3."""
-
-    def __init__(self, message: str) -> None:
-        super().__init__(one_line(message))
+class SolverError(OneLineError, RuntimeError):
+    """A solver did not converge; the command line ends with status 3."""
 
 
 def one_line(text: str) -> str:

@@ -37,6 +37,7 @@ OTHER_FILES = tuple(
     for name in ("vtkhdf", "msh")
 )
 OWN_FOLDERS = ("half_plane", "finite_element")
+PART = ".part"  # ends the name of a file that is not whole yet
 ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
 
@@ -92,13 +93,29 @@ def _check_folder(out: Path, place: Path) -> None:
             ) from error
 
 
-def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a file, text as UTF-8, that is there whole or not at all."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A path to write to: what is there when the block ends replaces `path`, whole or not at all.
+
+    If the block fails or is interrupted, `path` stays as it was.
+    """
+    part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
     try:
-        part.write_bytes(content if isinstance(content, bytes) else content.encode())
+        yield part
         os.replace(part, path)
     finally:
+        part.unlink(missing_ok=True)
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file, as UTF-8, that is there whole or not at all."""
+    with whole_file(path) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove what a process left that was killed within a `whole_file` of this folder."""
+    for part in folder.glob(f".*{PART}"):
         part.unlink(missing_ok=True)
 
 

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from types import FrameType
 
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 PATIENCE = 1.5  # seconds that the child has to end by itself
 SHOW_CURSOR = "\x1b[?25h\n"  # a progress bar that was cut off has hidden it

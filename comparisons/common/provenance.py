@@ -2,12 +2,19 @@
 
 import hashlib
 import json
+import marshal
 import os
 import platform
+from functools import cache
 from importlib import metadata
+from pathlib import Path
+from types import CodeType
 
 import numpy as np
 
+PROJECT = Path(__file__).resolve().parents[2]
+# Folders and files whose code shapes a level of a scene.
+LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
 PACKAGES = (
     "crosscheck",
     "numpy",
@@ -55,6 +62,31 @@ def _processor() -> str | None:
     except OSError:
         return platform.processor() or None
     return names[0] if names else platform.processor() or None
+
+
+@cache
+def program_code(*places: str) -> str:
+    """Hash of the code in folders and files of the project: without comments, docstrings and places
+    of lines, which shape no figure."""
+    total = hashlib.sha256()
+    for place in places:
+        path = PROJECT / place
+        for source in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
+            code = compile(source.read_bytes(), source.name, "exec", dont_inherit=True, optimize=2)
+            # version 2 writes no references, so equal code gives equal bytes
+            total.update(marshal.dumps(_without_places(code), 2))
+    return total.hexdigest()
+
+
+def _without_places(code: CodeType) -> CodeType:
+    """A module's or function's code without the lines that it stands on."""
+    constants = tuple(_without_places(c) if isinstance(c, CodeType) else c for c in code.co_consts)
+    return code.replace(co_consts=constants, co_firstlineno=0, co_linetable=b"")
+
+
+def key_of(*parts: object) -> str:
+    """Hash of what cached results depend on, in JSON."""
+    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
 
 
 def digest(*arrays: np.ndarray) -> str:

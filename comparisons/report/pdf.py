@@ -6,6 +6,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from comparisons.common.files import whole_file
+
 BROWSERS = (
     "chromium",
     "chromium-browser",
@@ -17,7 +19,6 @@ BROWSERS = (
 )
 REMEDY = "apt-get install --no-install-recommends chromium"
 PATIENCE = 120.0  # s; a page of 5 MB takes two on a machine that does nothing else
-PART = ".report.pdf.part"
 
 
 class NoPdfError(RuntimeError):
@@ -58,8 +59,10 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
             f"{target}: not printed: neither Chromium nor Chrome is installed; "
             f"{REMEDY} gets one, or print {page} from any browser"
         )
-    part = target.with_name(PART)
-    with tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile:
+    with (
+        tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile,
+        whole_file(target) as part,
+    ):
         command = [
             found,
             *options(profile),
@@ -71,19 +74,16 @@ def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
             done = subprocess.run(
                 command, capture_output=True, stdin=subprocess.DEVNULL, timeout=patience
             )
-            if not _is_whole(part):
-                raise NoPdfError(
-                    f"{target}: not printed: {found} ended with {done.returncode} and left no PDF; "
-                    f"print {page} from any browser"
-                )
-            os.replace(part, target)
         except subprocess.TimeoutExpired:
             raise NoPdfError(
                 f"{target}: not printed: {found} did not end within {patience:g} s; "
                 f"print {page} from any browser"
             ) from None
-        finally:
-            part.unlink(missing_ok=True)
+        if not _is_whole(part):
+            raise NoPdfError(
+                f"{target}: not printed: {found} ended with {done.returncode} and left no PDF; "
+                f"print {page} from any browser"
+            )
 
 
 def _is_whole(path: Path) -> bool:

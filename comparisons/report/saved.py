@@ -5,17 +5,14 @@ from mesh.msh, figures and record from their own files; nothing is solved or mes
 """
 
 import json
-import typing
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cache
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
 
 from analytic.grid import roller_gap
 from analytic.profile import surface
-from comparisons.common.cache import DAMAGED, decoded, encoded
+from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
@@ -84,34 +81,12 @@ def _read(path: Path) -> dict:
         with np.load(path, allow_pickle=False) as arrays:
             outline = json.loads(str(arrays["outline"]))
             if outline["schema"] == SCHEMA:
-                return decoded(outline["outcome"], arrays, kinds())
+                return decoded(outline["outcome"], arrays, kinds_of(Outcome, ShownField))
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {_REMEDY}") from None
     except DAMAGED as error:
         raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
     raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {_REMEDY}")
-
-
-@cache
-def kinds() -> dict[str, type]:
-    """Every dataclass that an outcome may be made of, by name: those that its types mention."""
-    found: dict[str, type] = {ShownField.__name__: ShownField}
-    open_types = [Outcome]
-    while open_types:
-        kind = open_types.pop()
-        if is_dataclass(kind) and kind.__name__ not in found:
-            found[kind.__name__] = kind
-            for hint in typing.get_type_hints(kind).values():
-                open_types += _mentioned(hint)
-    return found
-
-
-def _mentioned(hint: object) -> Iterator[type]:
-    """The classes in a type hint."""
-    if isinstance(hint, type):
-        yield hint
-    for part in typing.get_args(hint):
-        yield from _mentioned(part)
 
 
 def _shown(outcome: Outcome) -> Outcome:

@@ -23,7 +23,7 @@ from pathlib import Path
 
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.common.errors import InputError
-from comparisons.common.files import write_whole
+from comparisons.common.files import whole_file, write_whole
 from comparisons.common.quantities import QUANTITIES
 from comparisons.results.recorded_run import check_schema, read_table
 from comparisons.results.result_json import SCHEMA
@@ -109,9 +109,8 @@ def write_table(path: Path, rows: list[Row]) -> None:
     from pyarrow import parquet
 
     schema = pa.schema([(n, pa.string() if n in TEXTS else pa.float64()) for n in COLUMNS])
-    content = io.BytesIO()
-    parquet.write_table(pa.Table.from_pylist(rows, schema=schema), content)
-    write_whole(path, content.getvalue())
+    with whole_file(path) as part:
+        parquet.write_table(pa.Table.from_pylist(rows, schema=schema), part)
 
 
 def _results(folders: Iterable[Path]) -> list[Path]:

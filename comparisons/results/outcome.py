@@ -7,7 +7,7 @@ from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.coupling import Coupling
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.verdict import Comparison
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.models.level import ModelRun, Window
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem

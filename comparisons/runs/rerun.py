@@ -8,8 +8,7 @@ from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from comparisons.common.errors import InputError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress

@@ -11,7 +11,7 @@ from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.running_in import run_in_scene
@@ -105,7 +105,7 @@ def solve(
 ) -> Outcome:
     """Carry out a plan; `run` with a plan of one's own."""
     window = window_of(problem) if plan.stress else None
-    checkpoint = LevelCache(out, problem.scene, plan)
+    checkpoint = level_cache(out, problem.scene, plan)
     levels, solved = WITH_EFFECTS if plan.compares and plan.effects else ALONE
     try:
         runs, stop = refined(problem, plan, window, checkpoint, within(callback, 0.0, levels))

@@ -29,7 +29,7 @@ from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
 from comparisons.common.provenance import digest
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult, Window
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.report.figures.style import Picture
@@ -148,7 +148,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
     if plan.compares:
         plan = replace(plan, effects=False)  # there are no finite elements to show any
         comparisons = compared(problem, runs, window)
-        kept = LevelCache(Path("results/made"), scene, plan)
+        kept = level_cache(Path("results/made"), scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
         with patch("comparisons.assessment.effects.budget.sampling_changes", lambda *_: rows):
             budget = error_budget(problem, plan, window, runs, comparisons, (), kept, no_progress)

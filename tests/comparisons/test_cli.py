@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli import main
-from comparisons.common.errors import InputError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.model_names import MODELS
 from comparisons.scenes.files import scene_titles
 
@@ -198,17 +197,6 @@ def test_scenes_are_listed_with_their_titles(capsys):
     listed = dict(line.split(maxsplit=1) for line in out.splitlines())
     assert listed == scene_titles()
     assert err == ""
-
-
-@pytest.mark.parametrize(("works", "status"), [(True, 0), (False, 1)])
-def test_doctor_shows_its_table(capsys, monkeypatch, works, status):
-    checks = [types.SimpleNamespace(ok=True), types.SimpleNamespace(ok=works)]
-    module = types.SimpleNamespace(
-        doctor=lambda callback: checks, doctor_table=lambda shown: f"{len(shown)} checks"
-    )
-    monkeypatch.setitem(sys.modules, "comparisons.commands.doctor_checks", module)
-    assert main(["doctor"]) == status
-    assert capsys.readouterr() == ("2 checks\n", "")
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])

@@ -11,10 +11,10 @@ from comparisons.assessment.effects.model_error import ModelError, model_errors
 from comparisons.assessment.effects.sampling import sampling_changes
 from comparisons.assessment.effects.selection import NONLINEAR, Choice, choose
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
+from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback
 from comparisons.models.level import ModelRun, Window
-from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 
@@ -69,7 +69,7 @@ def error_budget(
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
     couplings: tuple[Coupling, ...],
-    checkpoint: LevelCache,
+    checkpoint: Cache,
     callback: ProgressCallback,
 ) -> ErrorBudget:
     """Choose the effects that may matter, solve them, and split the difference of the models.

@@ -16,13 +16,13 @@ from analytic.contact.problem import ContactError
 from comparisons.assessment.effects.effects import contained, is_taken_apart
 from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest, answer_of
 from comparisons.assessment.effects.variants import Body, problem_with
+from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory
 from comparisons.models.level import Level, ModelRun, Window
-from comparisons.models.level_cache import LevelCache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from fem.solver.mumps import FemError
@@ -65,7 +65,7 @@ class Bodies:
     problem: Problem
     window: Window | None
     own: ModelRun
-    checkpoint: LevelCache
+    checkpoint: Cache
     callback: ProgressCallback
     beside: Sequence[Call] = ()
     answers: dict[tuple[Body, int, float], QuantitiesOfInterest] = field(default_factory=dict)

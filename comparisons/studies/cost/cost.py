@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
+from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
@@ -12,7 +13,7 @@ from comparisons.common.provenance import as_json, versions
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.cost.cache import CostStore, measuring_machine
+from comparisons.studies.cost.cache import LOAD, cost_cache, measuring_machine
 from comparisons.studies.cost.choice import Assessed, choices, pareto
 from comparisons.studies.cost.methods import METHODS, Method
 from comparisons.studies.cost.page import cost_page
@@ -43,8 +44,8 @@ def cost(
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
     check_writable(out)
-    store = CostStore(out, scene, repeats)
-    store.tidy()
+    store = cost_cache(out, scene, repeats)
+    store.remove_leftovers()
     try:
         problem = _problem(scene, store, callback)
         found = judged(problem, measured_study(problem, repeats, store, callback, methods))
@@ -57,18 +58,18 @@ def cost(
     return found
 
 
-def _problem(scene: ResolvedScene, store: CostStore, callback: ProgressCallback) -> Problem:
+def _problem(scene: ResolvedScene, store: Cache, callback: ProgressCallback) -> Problem:
     """The scene's problem; a prescribed approach is turned into its load."""
     callback("finding the reach of the contact")
     try:
         if scene.load.kind != "approach":
             return problem_of(scene)
-        load = store.load_per_length()
+        load = store.load(LOAD)
         if load is None:
             callback("finite elements: load of the prescribed approach")
             with fresh_process() as call:
                 load = call(_load_of_approach, scene)
-            store.save_load_per_length(load)
+            store.save(LOAD, load)
         return problem_of(scene, load)
     except ProcessEnded as error:
         raise SolverError(

@@ -3,11 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from comparisons.common.cache import Cache
 from comparisons.common.numbers import with_unit
 from comparisons.common.processes import Call, ProcessEnded, fresh_process
 from comparisons.common.progress import ProgressCallback, Step, within
 from comparisons.models.problem import Problem
-from comparisons.studies.cost.cache import CostStore
+from comparisons.studies.cost.cache import name_of
 from comparisons.studies.cost.measure import Measured, Refused, Task, measure
 from comparisons.studies.cost.methods import (
     METHODS,
@@ -75,7 +76,7 @@ class Study:
 def measured_study(
     problem: Problem,
     repeats: int,
-    store: CostStore,
+    store: Cache,
     callback: ProgressCallback,
     methods: tuple[Method, ...] = METHODS,
 ) -> Study:
@@ -153,15 +154,15 @@ def _row(method: Method, setting: float, found: Measured | Refused | None) -> Ro
     return Row(method, setting, OK, None, found)
 
 
-def _asked(store: CostStore, call: Call) -> Ask:
+def _asked(store: Cache, call: Call) -> Ask:
     """What the store has of a task, else measured by the process that is called, and kept."""
 
     def ask(task: Task) -> Measured | Refused | None:
-        found = store.load(task)
+        found = store.load(name_of(task))
         if found is None:
             found = _carried_out(call, task)
             if isinstance(found, Measured):
-                store.save(task, found)
+                store.save(name_of(task), found)
         return found
 
     return ask

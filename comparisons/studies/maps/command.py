@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from comparisons.common.errors import InputError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback
 from comparisons.studies.maps.executors import cluster, ranks

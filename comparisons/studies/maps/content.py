@@ -1,8 +1,8 @@
 """The content of map.json: all that a map shows, and nothing of when or where it was computed."""
 
+from comparisons.common.cache import Cache
 from comparisons.common.provenance import versions
 from comparisons.studies.maps.axes import Axis
-from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.groups import GROUPS
 from comparisons.studies.maps.point import SOLVED, TOLERANCES
 from comparisons.studies.maps.request import MapRequest
@@ -14,7 +14,7 @@ MISSING = "missing"
 TOLD, BELOW, UNCLEAR = "told", "below", "unclear"
 
 
-def map_content(request: MapRequest, store: PointStore) -> dict:
+def map_content(request: MapRequest, store: Cache) -> dict:
     """Every point in the order of the axes, x inside; those that the store lacks as missing."""
     points = []
     for asked in request.points:

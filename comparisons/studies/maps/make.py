@@ -5,14 +5,13 @@ import os
 from contextlib import nullcontext
 from pathlib import Path
 
-from comparisons.common.files import check_writable
+from comparisons.common.files import check_writable, write_whole
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
-from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.content import map_content
 from comparisons.studies.maps.executors import Workers
-from comparisons.studies.maps.request import MapRequest
+from comparisons.studies.maps.request import MapRequest, point_cache
 from comparisons.studies.maps.sweep import sweep
 
 GOES_ON = "finished points are kept, the same command goes on from there"
@@ -32,8 +31,8 @@ def make_map(
     """
     points = request.points
     check_writable(out)
-    store = PointStore(out)
-    store.tidy()
+    store = point_cache(out)
+    store.remove_leftovers()
     open_executor, count = processes, workers or os.cpu_count() or 1
     if isinstance(workers, Workers):
         open_executor, count = lambda count: nullcontext(workers.executor), workers.count
@@ -45,19 +44,12 @@ def make_map(
     callback("map: picture")
     from comparisons.studies.maps.picture import map_picture
 
-    _write(out / PICTURE, map_picture(content))
-    _write(out / TIMES, as_json({"seconds": [store.load(p.key)["seconds"] for p in points]}))
-    _write(out / MAP, as_json(content))
+    write_whole(out / PICTURE, map_picture(content))
+    write_whole(out / TIMES, as_json({"seconds": [store.load(p.key)["seconds"] for p in points]}))
+    write_whole(out / MAP, as_json(content))
     return content
 
 
 def read_map(path: Path) -> dict:
     """The content of a map.json."""
     return json.loads(path.read_text(encoding="utf-8"))
-
-
-def _write(path: Path, text: str) -> None:
-    """A file, whole or not at all."""
-    part = path.with_name(f".{path.name}.{os.getpid()}.part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)

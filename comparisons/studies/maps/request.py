@@ -7,15 +7,24 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError
-from comparisons.common.provenance import digest, versions
+from comparisons.common.provenance import LEVEL_CODE, digest, program_code, versions
 from comparisons.common.quantities import QUANTITIES
-from comparisons.models.level_cache import program_code
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.axes import Axis, axis_of, counts_of, usual_axes
 from comparisons.studies.maps.groups import Origin, finite_elements, tables_with
 
+FOLDER = "map_points"
+# What shapes the answer at a point, beside versions of libraries.
+CODE = (
+    *LEVEL_CODE,
+    "comparisons/common/quantities.py",
+    "comparisons/assessment",
+    "comparisons/studies/maps/groups.py",
+    "comparisons/studies/maps/point.py",
+)
 FINISHED = Path(__file__).parent / "finished"
 SIZE = "8x8"
 
@@ -77,7 +86,7 @@ class MapRequest:
 
         Raises SceneError where no point can be asked for, with what is wrong at the first.
         """
-        program = [versions(), program_code()]
+        program = [versions(), program_code(*CODE)]
         points = tuple(self._asked(x, y, program) for y in self.y.values for x in self.x.values)
         if all(point.tables is None for point in points):
             raise SceneError(points[0].why)
@@ -99,6 +108,11 @@ class MapRequest:
         parts = json.dumps([tables or [why], profile, self.quantity, program], sort_keys=True)
         key = hashlib.sha256(parts.encode()).hexdigest()[:24]
         return Asked(x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key)
+
+
+def point_cache(out: Path) -> Cache:
+    """Answers of points in the folder of a map, each under the point's key."""
+    return Cache(out / FOLDER, "", {})
 
 
 def request_of(

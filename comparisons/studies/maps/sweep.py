@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import AbstractContextManager
 
+from comparisons.common.cache import Cache
 from comparisons.common.progress import ProgressCallback, Step, no_progress
-from comparisons.studies.maps.cache import PointStore
 from comparisons.studies.maps.point import failed, solve_point
 from comparisons.studies.maps.request import Asked
 
@@ -21,7 +21,7 @@ DIED = "the process that solved it died"
 
 def sweep(
     points: Iterable[Asked],
-    store: PointStore,
+    store: Cache,
     open_executor: Open,
     workers: int,
     callback: ProgressCallback = no_progress,

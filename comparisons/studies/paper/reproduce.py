@@ -4,8 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
 
-from comparisons.common.errors import InputError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within

@@ -10,7 +10,7 @@ from comparisons.assessment.refinement import refined
 from comparisons.common.errors import SolverError
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -78,7 +78,7 @@ def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback) -> Outc
     plan = make_plan(problem, MODELS)
     window = window_of(problem)
     with TemporaryDirectory(prefix="crosscheck-") as folder:
-        checkpoint = LevelCache(Path(folder) / "run", scene, plan)
+        checkpoint = level_cache(Path(folder) / "run", scene, plan)
         runs, stop = refined(problem, plan, window, checkpoint, callback)
     comparisons = tuple(
         row

@@ -1,16 +1,14 @@
 """Carry out the stiff and extreme cases, and keep what they gave."""
 
 import json
-import os
-import tempfile
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 
-from comparisons.common.exit_status import ExitStatus
-from comparisons.common.files import check_writable
+from comparisons.common.errors import ExitStatus
+from comparisons.common.files import check_writable, write_whole
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.studies.robustness.row import Case, Row, carried_out
@@ -90,7 +88,4 @@ def _write(result: Stability) -> None:
     """stability.json, whole or not at all; other files of the folder stay as they are."""
     result.directory.mkdir(parents=True, exist_ok=True)
     text = json.dumps(result.as_dict(), indent=2, ensure_ascii=False, allow_nan=False)
-    with tempfile.TemporaryDirectory(prefix=".part-", dir=result.directory) as scratch:
-        part = Path(scratch) / FILE
-        part.write_text(text + "\n", encoding="utf-8")
-        os.replace(part, result.directory / FILE)
+    write_whole(result.directory / FILE, text + "\n")

@@ -11,7 +11,7 @@ from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.refinement import refined
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.quantities import QUANTITIES, relative_l2
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -175,7 +175,7 @@ def solved(scene: ExactScene, model: str, callback: ProgressCallback = no_progre
     plan = make_plan(problem, (model,))
     window = window_of(problem) if plan.stress else None
     with TemporaryDirectory(prefix="crosscheck-") as folder:
-        checkpoint = LevelCache(Path(folder) / "run", resolved, plan)
+        checkpoint = level_cache(Path(folder) / "run", resolved, plan)
         runs, _ = refined(problem, plan, window, checkpoint, callback)
     run, (friction,) = runs[model], resolved.friction
     stated = uncertainties(run, problem, friction)

@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from functools import cached_property
 
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.provenance import machine, versions
 from comparisons.studies.verify.checks import Check
 from comparisons.studies.verify.pairs import (

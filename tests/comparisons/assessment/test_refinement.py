@@ -8,7 +8,7 @@ import numpy as np
 from comparisons.assessment.refinement import refined
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
@@ -28,7 +28,7 @@ def levels(models, **budget):
     scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
     problem = problem_of(scene)
     plan = make_plan(problem, models)
-    return refined(problem, plan, None, LevelCache(None, scene, plan), no_progress)
+    return refined(problem, plan, None, level_cache(None, scene, plan), no_progress)
 
 
 def test_no_clock_decides(monkeypatch):

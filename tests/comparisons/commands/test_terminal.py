@@ -200,17 +200,9 @@ def test_every_command_has_json():
     assert without == set()
 
 
-def test_scenes_and_doctor_as_json(capsys, monkeypatch):
+def test_scenes_as_json(capsys):
     assert main(["scenes", "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == scene_titles()
-    from comparisons.commands import doctor_checks as doctor
-
-    found = [doctor.Check("a", True, "1.0", "")]
-    monkeypatch.setattr(doctor, "doctor", lambda callback: found)
-    assert main(["doctor", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out) == [
-        {"name": "a", "ok": True, "detail": "1.0", "remedy": ""}
-    ]
 
 
 @pytest.mark.parametrize(

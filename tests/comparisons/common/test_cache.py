@@ -1,35 +1,56 @@
-"""Kept results: whole and the same, or none, whatever happened to the file."""
+"""Cached results: whole and the same, or none, whatever happened to the file and its folder."""
 
-from dataclasses import dataclass
+import shutil
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from comparisons.common.cache import keep, kept
+from comparisons.common.cache import Cache, kinds_of
 
-FLIPS = 1200  # of one bit each; a dozen of them raise what is no BadZipFile
+FLIPS = 200  # of one bit each; some of them raise what is no BadZipFile
+
+
+@dataclass(frozen=True)
+class Part:
+    name: str
+    values: tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Some:
     x: np.ndarray
     count: int
+    parts: dict[str, Part]
+
+
+VALUE = Some(np.linspace(0.0, 1.0, 50), 3, {"one": Part("a", (0.1, 2.0)), "two": Part("b", ())})
+
+
+def same(found: Some) -> bool:
+    return np.array_equal(found.x, VALUE.x) and (found.count, found.parts) == (3, VALUE.parts)
 
 
 @pytest.fixture
-def path(tmp_path: Path) -> Path:
-    keep(tmp_path / "some.npz", "key", Some(np.linspace(0.0, 1.0, 50), 3))
-    return tmp_path / "some.npz"
+def cache(tmp_path: Path) -> Cache:
+    found = Cache(tmp_path / "cache", "key", kinds_of(Some))
+    found.save("some", VALUE)
+    return found
 
 
-def test_it_comes_back_for_its_key_alone(path):
-    found = kept(path, "key", [Some])
-    assert np.array_equal(found.x, np.linspace(0.0, 1.0, 50)) and found.count == 3
-    assert kept(path, "other", [Some]) is None
+def names(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.iterdir())
 
 
-def test_a_wrong_bit_anywhere_is_harmless(path):
+def test_a_result_comes_back_for_its_key_alone(cache):
+    assert same(cache.load("some"))
+    assert replace(cache, key="other").load("some") is None
+    assert cache.load("other") is None
+
+
+def test_a_wrong_bit_anywhere_is_harmless(cache):
+    path = cache.path("some")
     whole, random = path.read_bytes(), np.random.default_rng(4)
     refused = 0
     for place, bit in zip(
@@ -38,14 +59,65 @@ def test_a_wrong_bit_anywhere_is_harmless(path):
         spoilt = bytearray(whole)
         spoilt[place] ^= 1 << bit
         path.write_bytes(spoilt)
-        found = kept(path, "key", [Some])
+        found = cache.load("some")
         refused += found is None
-        if found is not None:  # the bit was of no account
-            assert np.array_equal(found.x, np.linspace(0.0, 1.0, 50)) and found.count == 3
+        assert found is None or same(found)  # the bit was of no account
     assert refused > 0.8 * FLIPS
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.99])
-def test_a_file_that_was_cut_short_is_none(path, share):
+def test_a_file_that_was_cut_short_is_none(cache, share):
+    path = cache.path("some")
     path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
-    assert kept(path, "key", [Some]) is None
+    assert cache.load("some") is None
+
+
+def test_what_a_killed_process_left_is_removed(cache):
+    (cache.folder / ".half.npz.7.part").write_text("PK")
+    cache.remove_leftovers()
+    assert names(cache.folder) == ["some.npz"]
+
+
+def test_a_folder_that_another_run_removed_is_made_again(cache, monkeypatch):
+    savez = np.savez
+
+    def after_the_other_ended(file, **arrays):
+        monkeypatch.setattr(np, "savez", savez)
+        shutil.rmtree(cache.folder)
+        savez(file, **arrays)
+
+    monkeypatch.setattr(np, "savez", after_the_other_ended)
+    cache.save("some", VALUE)
+    assert names(cache.folder) == ["some.npz"]
+
+
+def test_two_runs_do_not_write_the_same_part(cache, monkeypatch):
+    parts, savez = set(), np.savez
+    monkeypatch.setattr(np, "savez", lambda file, **a: (parts.add(file.name), savez(file, **a)))
+    for process in (11, 12):
+        monkeypatch.setattr("os.getpid", lambda process=process: process)
+        cache.save("some", VALUE)
+    assert len(parts) == 2 and names(cache.folder) == ["some.npz"]
+
+
+def test_discarding_twice_is_no_error(cache):
+    cache.discard()
+    cache.discard()
+    assert not cache.folder.exists() and cache.load("some") is None
+
+
+def test_one_process_of_several_writes(cache, monkeypatch):
+    monkeypatch.setenv("PMIX_RANK", "1")
+    cache.discard()
+    cache.save("other", VALUE)
+    assert names(cache.folder) == ["some.npz"]
+    monkeypatch.setenv("PMIX_RANK", "0")
+    cache.save("other", VALUE)
+    assert names(cache.folder) == ["other.npz", "some.npz"]
+
+
+def test_without_a_folder_nothing_is_cached():
+    nowhere = Cache(None, "key", {})
+    nowhere.save("some", VALUE)
+    assert nowhere.load("some") is None
+    nowhere.discard()

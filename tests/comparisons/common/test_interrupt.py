@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli import main
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 
 ROOT = Path(__file__).parents[3]
 PATIENT = 60.0  # s; far longer than anything here takes
@@ -36,7 +36,7 @@ sys.exit(main())
 """
 # A loop inside the interpreter that hears no signal, as a library's would not.
 STUCK = """
-from fem import mumps
+from fem.solver import mumps
 factorised, calls = mumps.factorised, []
 def stuck(*given):
     calls.append(1)
@@ -47,7 +47,7 @@ def stuck(*given):
 mumps.factorised = stuck
 """
 COUNTED = """
-from fem import mumps
+from fem.solver import mumps
 factorised = mumps.factorised
 def counted(*given):
     with there.open("a") as file:
@@ -61,7 +61,7 @@ asleep = "import os, time; open('pid', 'w').write(str(os.getpid())); open('there
 build.WORKER = (sys.executable, "-c", asleep + "time.sleep(600)")
 """
 WAITS = """
-from fem import mumps
+from fem.solver import mumps
 def waits(*given):
     there.touch()
     while not pathlib.Path("go on").exists():
@@ -70,7 +70,7 @@ def waits(*given):
 mumps.factorised = waits
 """
 CRASH = """
-from fem import mumps
+from fem.solver import mumps
 mumps.factorised = lambda *given: os.kill(os.getpid(), signal.SIGSEGV)
 """
 
@@ -189,7 +189,10 @@ def test_an_ignored_interrupt_stays_ignored(folder):
 
 @pytest.mark.parametrize(
     ("command", "work"),
-    [("paper", "paper.reproduce.paper"), ("stability", "stability.run.run_stability")],
+    [
+        ("paper", "studies.paper.reproduce.paper"),
+        ("stability", "studies.robustness.run.run_stability"),
+    ],
 )
 def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):
     def interrupted(*given: object, **named: object) -> None:

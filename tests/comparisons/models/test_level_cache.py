@@ -1,93 +1,97 @@
-"""Finished levels of an unfinished run: where they are, and what others may do to them."""
+"""Where a run's finished levels are, and what change of the program they survive."""
 
-import shutil
+from itertools import compress
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import SMOOTH, problem
 
-from comparisons.models import level_cache as checkpoint
-from comparisons.models.level_cache import LevelCache
+from comparisons.common import provenance
+from comparisons.models.level_cache import CODE, level_cache
+from comparisons.models.plan import make_plan
+from comparisons.studies.cost import cache as cost_cache
+from comparisons.studies.maps import request as map_request
 
 
-@pytest.fixture
-def kept(tmp_path, smooth_outcome):
-    """A checkpoint of a run into an existing folder, with a level to keep."""
+def test_levels_are_inside_a_folder_that_exists(tmp_path, smooth_outcome):
     out = tmp_path / "out"
     out.mkdir()
-    return LevelCache(out, smooth_outcome.problem.scene, smooth_outcome.plan)
+    level = smooth_outcome.runs["half_plane"].levels[0]
+    cache = level_cache(out, smooth_outcome.problem.scene, smooth_outcome.plan)
+    cache.save("first", level)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+    assert [path.relative_to(out) for path in out.rglob("*.npz")] == [
+        (out / ".unfinished/first.npz").relative_to(out)
+    ]
+    assert np.array_equal(cache.load("first").solution.pressure, level.solution.pressure)
+    cache.discard()
+    assert not list(out.iterdir())
 
 
 @pytest.fixture
-def level(smooth_outcome):
-    return smooth_outcome.runs["half_plane"].levels[0]
+def project(tmp_path, monkeypatch):
+    """A project with one function in every place that shapes a cached result, and in two more."""
+    places = {
+        *CODE,
+        *cost_cache.CODE,
+        *map_request.CODE,
+        "comparisons/report",
+        "comparisons/cli.py",
+    }
+    for place in places:
+        path = tmp_path / place
+        path = path if path.suffix else path / "law.py"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(LAW)
+    monkeypatch.setattr(provenance, "PROJECT", tmp_path)
+    yield tmp_path
+    provenance.program_code.cache_clear()
 
 
-def names(folder: Path) -> list[str]:
-    return sorted(path.name for path in folder.iterdir())
+LAW = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
 
 
-def test_levels_are_kept_inside_a_folder_that_exists(tmp_path, kept, level):
-    kept.save("first", level)
-    assert names(tmp_path) == ["out"]
-    assert names(tmp_path / "out") == [".unfinished"]
-    assert names(tmp_path / "out" / ".unfinished") == ["first.npz"]
-    assert np.array_equal(kept.load("first").solution.pressure, level.solution.pressure)
-    kept.discard()
-    assert names(tmp_path / "out") == []
+def keys() -> tuple[str, str, str]:
+    """Of levels, of a cost study and of a map."""
+    posed = problem(SMOOTH)
+    provenance.program_code.cache_clear()
+    levels = level_cache(Path("out"), posed.scene, make_plan(posed, ("half_plane",))).key
+    cost, points = (provenance.program_code(*each.CODE) for each in (cost_cache, map_request))
+    return levels, cost, points
 
 
-def test_a_folder_that_another_run_removed_is_made_again(kept, level, monkeypatch):
-    savez = np.savez
-
-    def after_the_other_ended(part, **arrays):
-        monkeypatch.setattr(np, "savez", savez)
-        shutil.rmtree(kept.folder)
-        savez(part, **arrays)
-
-    monkeypatch.setattr(np, "savez", after_the_other_ended)
-    kept.save("first", level)
-    assert names(kept.folder) == ["first.npz"]
-
-
-def test_two_runs_do_not_write_the_same_part(kept, level, monkeypatch):
-    parts = []
-    savez = np.savez
-    monkeypatch.setattr(np, "savez", lambda part, **a: (parts.append(part), savez(part, **a)))
-    for process in (11, 12):
-        monkeypatch.setattr("os.getpid", lambda process=process: process)
-        kept.save("first", level)
-    assert len(set(parts)) == 2
-    assert names(kept.folder) == ["first.npz"]
+@pytest.mark.parametrize(
+    ("place", "loses"),
+    [
+        ("comparisons/report/law.py", ""),
+        ("comparisons/cli.py", ""),
+        ("comparisons/models/law.py", "levels cost map"),
+        ("analytic/law.py", "levels cost map"),
+        ("comparisons/assessment/effects/law.py", "levels map"),
+        ("comparisons/assessment/law.py", "map"),
+        ("comparisons/studies/cost/measure.py", "cost"),
+        ("comparisons/studies/maps/point.py", "map"),
+    ],
+)
+def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, place, loses):
+    before = keys()
+    (project / place).write_text(LAW.replace("2", "3"))
+    lost = [one != other for one, other in zip(before, keys(), strict=True)]
+    assert list(compress(("levels", "cost", "map"), lost)) == loses.split()
 
 
-def test_discarding_twice_is_no_error(kept, level):
-    kept.save("first", level)
-    kept.discard()
-    kept.discard()
-    assert kept.load("first") is None
+def test_the_key_follows_the_code_and_not_its_text(project):
+    before = keys()
+    path = project / "analytic/law.py"
+    path.write_text(
+        '"""Halves."""\n\n\ndef half(x):  # of x\n    """Half."""\n\n    return x / 2\n'
+    )
+    assert keys() == before
+    path.write_text(LAW.replace("x / 2", "2 * x"))
+    assert keys() != before
 
 
-def test_one_process_of_several_keeps_levels(kept, level, monkeypatch):
-    monkeypatch.setenv("PMIX_RANK", "1")
-    kept.save("first", level)
-    assert not kept.folder.exists()
-    monkeypatch.setenv("PMIX_RANK", "0")
-    kept.save("first", level)
-    monkeypatch.setenv("PMIX_RANK", "1")
-    kept.discard()
-    assert names(kept.folder) == ["first.npz"]
-
-
-def test_the_key_follows_the_code_and_not_its_text(tmp_path, monkeypatch):
-    def key(text):
-        (tmp_path / "analytic").mkdir(exist_ok=True)
-        (tmp_path / "analytic/law.py").write_text(text)
-        return checkpoint.program_code()
-
-    monkeypatch.setattr(checkpoint, "SOURCES", tmp_path)
-    law = '"""A law."""\n\ndef half(x):\n    """Of x."""\n    return x / 2\n'
-    told = '"""Halves."""\n\n\ndef half(x):  # of x\n    """Half of x."""\n\n    return x / 2\n'
-    assert key(told) == key(law)
-    assert key(law.replace("2", "3")) != key(law)
-    assert key(law.replace("x / 2", "2 * x")) != key(law)
+def test_every_place_that_shapes_a_result_is_there():
+    for place in {*CODE, *cost_cache.CODE, *map_request.CODE}:
+        assert (provenance.PROJECT / place).exists(), place

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from comparisons.assessment.refinement import CurrentBodies
-from comparisons.common.cache import keep, kept
+from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
-from comparisons.models.level_cache import KINDS
+from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.report.tables.verification import operator_note, operator_table
@@ -83,9 +83,9 @@ def test_table_and_how_to_read_it(outcome):
 
 def test_it_survives_an_interrupt(outcome, tmp_path):
     found = outcome.runs["finite_element"].finest.operator
-    keep(tmp_path / "level.npz", "key", found)
-    assert kept(tmp_path / "level.npz", "key", KINDS) == found
-    assert kept(tmp_path / "level.npz", "another", KINDS) is None
+    cache = Cache(tmp_path, "key", kinds_of(Level))
+    cache.save("level", found)
+    assert cache.load("level") == found
 
 
 def test_bodies_of_a_pitch_are_kept_while_it_lasts():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import hertz_from_load
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables

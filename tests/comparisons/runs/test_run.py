@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.models.finite_element import level as finite_element
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan, unpruned
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run, solve
@@ -245,7 +245,7 @@ def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smoot
 
 def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     plan, scene = smooth.plan, smooth.problem.scene
-    kept = LevelCache(tmp_path / "out", scene, plan)
+    kept = level_cache(tmp_path / "out", scene, plan)
     level = smooth.runs["finite_element"].levels[0]
     kept.save("level", level)
     again = kept.load("level")
@@ -254,8 +254,8 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert np.array_equal(again.mesh.points, level.mesh.points)
     assert again.stresses[0].extremes == level.stresses[0].extremes
     other = scene_of(changed(SMOOTH, load={"per_length": 3.56e6}))
-    assert LevelCache(tmp_path / "out", other, plan).load("level") is None
-    assert LevelCache(tmp_path / "out", scene, unpruned(plan)).load("level") is None
+    assert level_cache(tmp_path / "out", other, plan).load("level") is None
+    assert level_cache(tmp_path / "out", scene, unpruned(plan)).load("level") is None
     path = tmp_path / ".out.unfinished" / "level.npz"
     path.write_bytes(path.read_bytes()[:1000])
     assert kept.load("level") is None

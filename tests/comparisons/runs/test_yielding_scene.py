@@ -6,8 +6,7 @@ import meshio
 import numpy as np
 import pytest
 
-from comparisons.common.errors import SolverError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.model_names import MODELS
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.problem import problem_of

@@ -9,7 +9,7 @@ import pytest
 from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures
 from comparisons.assessment.uncertainty import grid_convergence
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of

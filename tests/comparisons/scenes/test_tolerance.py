@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.cli import main
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene, resolve_tables
 from comparisons.scenes.tolerance import with_tolerance

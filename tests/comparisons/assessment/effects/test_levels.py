@@ -18,7 +18,7 @@ from comparisons.assessment.refinement import refined
 from comparisons.common.model_names import MODELS
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import no_progress
-from comparisons.models.level_cache import LevelCache
+from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
@@ -30,7 +30,7 @@ def made(problem_with):
     """A small scene's bodies, yet to be solved, with given processes beside."""
     problem = problem_with(roller=RIGID)
     plan = make_plan(problem, MODELS)
-    keeps_nothing = LevelCache(None, problem.scene, plan)
+    keeps_nothing = level_cache(None, problem.scene, plan)
     runs, _ = refined(problem, plan, None, keeps_nothing, no_progress)
 
     def bodies(beside, own=runs["finite_element"]) -> Bodies:

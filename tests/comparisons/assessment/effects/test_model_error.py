@@ -11,7 +11,7 @@ import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.verdict import validity_verdict
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from comparisons.cli import main
-from comparisons.common.errors import SceneError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, SceneError
 from comparisons.common.model_names import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of

@@ -8,7 +8,7 @@ from io import StringIO
 import pytest
 
 import comparisons.models.running_in
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of

@@ -15,7 +15,7 @@ from comparisons.models.finite_element.load_at_approach import problem_of_approa
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import methods as cost_methods
 from comparisons.studies.cost import study as cost_study
-from comparisons.studies.cost.cache import FOLDER, CostStore
+from comparisons.studies.cost.cache import FOLDER, cost_cache, name_of
 from comparisons.studies.cost.cost import GOES_ON, _problem, cost
 from comparisons.studies.cost.measure import Measured, Task, measure
 from comparisons.studies.cost.methods import FINEST, METHODS
@@ -32,10 +32,10 @@ SMALL = (FINEST, P2)
 # The command line, with methods and settings left out that would only take time.
 COMMAND = """
 import sys
-from comparisons import cost, cost_methods
+from comparisons.studies.cost import cost, methods
 from comparisons.cli import main
-cost_methods.HALF_PLANE_PITCHES, cost_methods.FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5), (2.0, 1.0)
-small = tuple(m for m in cost_methods.METHODS if m.name in ("hats, FFT", "P2"))
+methods.HALF_PLANE_PITCHES, methods.FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5), (2.0, 1.0)
+small = tuple(m for m in methods.METHODS if m.name in ("hats, FFT", "P2"))
 cost.cost.__defaults__ = (*cost.cost.__defaults__[:-1], small)
 if __name__ == "__main__":
     sys.exit(main())
@@ -48,9 +48,8 @@ def scene(**sections):
 
 
 def kept(out: Path) -> dict[str, int]:
-    """The measured settings, and when each was written; an interrupt may leave one in part."""
-    whole = (path for path in (out / FOLDER).glob("*.npz") if ".part." not in path.name)
-    return {path.name: path.stat().st_mtime_ns for path in whole}
+    """The measured settings, and when each was written."""
+    return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
 
 
 class Here:
@@ -91,10 +90,10 @@ def measured() -> tuple[Task, Measured]:
 class TestStore:
     def test_what_comes_back_is_what_was_measured(self, measured, tmp_path):
         task, found = measured
-        store = CostStore(tmp_path, task.scene, 2)
-        assert store.load(task) is None
-        store.save(task, found)
-        again = store.load(task)
+        store = cost_cache(tmp_path, task.scene, 2)
+        assert store.load(name_of(task)) is None
+        store.save(name_of(task), found)
+        again = store.load(name_of(task))
         for name in ("seconds", "total", "wall", "spread", "repeats", "memory", "spent"):
             assert getattr(again, name) == getattr(found, name)
         assert again.answer.figures == found.answer.figures
@@ -106,45 +105,45 @@ class TestStore:
 
     def test_settings_are_told_apart(self, measured, tmp_path):
         task, found = measured
-        store = CostStore(tmp_path, task.scene, 2)
-        store.save(task, found)
+        store = cost_cache(tmp_path, task.scene, 2)
+        store.save(name_of(task), found)
         for other in ({"setting": 2e-5}, {"halved": True}, {"method": "hats, dense"}):
-            assert store.load(replace(task, **other)) is None
-        assert store.load(replace(task, limit=7.0)) is not None
+            assert store.load(name_of(replace(task, **other))) is None
+        assert store.load(name_of(replace(task, limit=7.0))) is not None
 
     @pytest.mark.parametrize(
         "patched",
         [
             ("comparisons.studies.cost.cache.machine", {"processor": "another"}),
-            ("comparisons.models.level_cache.versions", {"numpy": "0"}),
-            ("comparisons.models.level_cache.program_code", "another"),
+            ("comparisons.studies.cost.cache.versions", {"numpy": "0"}),
+            ("comparisons.studies.cost.cache.program_code", "another"),
         ],
     )
     def test_another_machine_or_version_measures_anew(
         self, measured, patched, tmp_path, monkeypatch
     ):
         task, found = measured
-        CostStore(tmp_path, task.scene, 2).save(task, found)
-        assert CostStore(tmp_path, task.scene, 2).load(task) is not None
-        monkeypatch.setattr(patched[0], lambda: patched[1])
-        assert CostStore(tmp_path, task.scene, 2).load(task) is None
+        cost_cache(tmp_path, task.scene, 2).save(name_of(task), found)
+        assert cost_cache(tmp_path, task.scene, 2).load(name_of(task)) is not None
+        monkeypatch.setattr(patched[0], lambda *given: patched[1])
+        assert cost_cache(tmp_path, task.scene, 2).load(name_of(task)) is None
 
     def test_so_does_another_scene_or_number_of_repeats(self, measured, tmp_path):
         task, found = measured
-        CostStore(tmp_path, task.scene, 2).save(task, found)
+        cost_cache(tmp_path, task.scene, 2).save(name_of(task), found)
         other = scene(load={"per_length": 3.5e6})
-        assert CostStore(tmp_path, other, 2).load(task) is None
-        assert CostStore(tmp_path, task.scene, 3).load(task) is None
+        assert cost_cache(tmp_path, other, 2).load(name_of(task)) is None
+        assert cost_cache(tmp_path, task.scene, 3).load(name_of(task)) is None
 
     def test_what_was_cut_short_is_not_there(self, measured, tmp_path):
         task, found = measured
-        store = CostStore(tmp_path, task.scene, 2)
-        store.save(task, found)
+        store = cost_cache(tmp_path, task.scene, 2)
+        store.save(name_of(task), found)
         [path] = store.folder.iterdir()
         path.write_bytes(path.read_bytes()[:-100])
-        assert store.load(task) is None
-        (store.folder / "half.7.part.npz").write_text("PK")
-        store.tidy()
+        assert store.load(name_of(task)) is None
+        (store.folder / ".half.npz.7.part").write_text("PK")
+        store.remove_leftovers()
         assert list(store.folder.iterdir()) == [path]
 
 
@@ -195,9 +194,9 @@ class TestGoesOn:
             "resolution": {"pitch": 2e-5},
         }
         given = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
-        first = _problem(given, CostStore(tmp_path, given, 1), no_progress)
+        first = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
         monkeypatch.setattr("comparisons.studies.cost.cost.fresh_process", lambda: 1 / 0)
-        again = _problem(given, CostStore(tmp_path, given, 1), no_progress)
+        again = _problem(given, cost_cache(tmp_path, given, 1), no_progress)
         assert again.hertz.load_per_length == first.hertz.load_per_length
         assert (
             first.hertz.load_per_length

@@ -14,15 +14,14 @@ import pytest
 from rich.console import Console
 
 from comparisons.cli import main
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.common.processes import processes
 from comparisons.studies.maps import sweep as sweeping
-from comparisons.studies.maps.cache import FOLDER, PointStore
 from comparisons.studies.maps.command import exit_status
 from comparisons.studies.maps.executors import Workers
 from comparisons.studies.maps.make import MAP, PICTURE, TIMES, make_map
 from comparisons.studies.maps.point import NOT_CONVERGED, solve_point
-from comparisons.studies.maps.request import Asked, request_of
+from comparisons.studies.maps.request import FOLDER, Asked, point_cache, request_of
 from comparisons.studies.maps.sweep import DIED, sweep
 from comparisons.studies.maps.table import map_table
 
@@ -74,7 +73,7 @@ def undisturbed(made) -> Path:
 
 def kept(out: Path) -> dict[str, int]:
     """The finished points, and when each was written."""
-    return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.json")}
+    return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="there is no /proc to look in")
@@ -195,7 +194,7 @@ def fragile(*deadly: float):
 
 
 def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path, solved):
-    store = PointStore(tmp_path)
+    store = point_cache(tmp_path)
     sweep([asked(x) for x in range(8)], store, fragile(2, 7), 2)
     found = [store.load(f"key{x}")["found"] for x in range(8)]
     for x in (2, 7):
@@ -212,14 +211,14 @@ def test_a_pool_that_cannot_be_used_at_all_ends_the_work(tmp_path, solved):
         yield pool
 
     with pytest.raises(BrokenExecutor):
-        sweep([asked(0), asked(1)], PointStore(tmp_path), opened, 2)
+        sweep([asked(0), asked(1)], point_cache(tmp_path), opened, 2)
 
 
 def test_what_is_kept_whole_is_not_solved_again(tmp_path, solved):
-    store = PointStore(tmp_path)
+    store = point_cache(tmp_path)
     sweep([asked(0), asked(1), asked(2)], store, fragile(), 1)
-    path = tmp_path / FOLDER / "key1.json"
-    path.write_text(path.read_text()[:-9])
+    path = tmp_path / FOLDER / "key1.npz"
+    path.write_bytes(path.read_bytes()[:-9])
     solved.clear()
     told = []
     sweep([asked(x) for x in (0, 1, 1, 2, 3)], store, fragile(), 1, told.append)

@@ -25,7 +25,7 @@ from analytic.operators import half_plane as operators
 from analytic.operators.elements import hat_galerkin
 from analytic.stress import elements as stress_elements
 from comparisons.cli import main
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus
 from comparisons.studies.robustness import many_digits, pressing
 from comparisons.studies.robustness.backward import THRESHOLD, backward_ratio, condition_estimate
 from comparisons.studies.robustness.cases import algebra as algebra_cases

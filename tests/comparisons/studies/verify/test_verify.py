@@ -12,8 +12,7 @@ import pytest
 from analytic.exact.layers import layer_references
 from comparisons import cli
 from comparisons.assessment import uncertainty
-from comparisons.common.errors import InputError
-from comparisons.common.exit_status import ExitStatus
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.studies.verify import verify as verification
 from comparisons.studies.verify.checks import Check, order_check
 from comparisons.studies.verify.junit import junit
