@@ -4,7 +4,7 @@ At each position the contact is solved with the pressure capped at the hardness.
 holds, the surfaces would still overlap; plastic flow takes the overlap off the profile, so that
 the same load at the same place is carried elastically from then on. Moving on loads other
 asperities, and asperities that were relieved before. Sweeps over all positions follow each other
-until one moves next to nothing: the profile has shaken down.
+until one moves next to nothing: the profile has settled.
 
 What flows is lost: the model has no pile-up beside a flattened asperity, no hardening, and no
 residual stress. Samples are only ever lowered.
@@ -45,7 +45,7 @@ HATS = 2.0  # on the profile's spacing, unless the caller says otherwise
 NEAR = 0.25  # of the pitch: a sample so near to the middle of a hat stands for it
 SPLINE_REACH = 64  # samples beyond which a spline no longer feels its end: 0.27^64 is 1e-36
 
-Status = Literal["shaken down", "passes spent"]
+Status = Literal["settled", "passes spent"]
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class RunIn:
     constraints  load and hardness
     passes    in order; `sweeps` of them over all positions
     pitch     of the pressure hats [m]
-    status    shaken down: the last sweep moved at most SETTLED of the volume of all;
+    status    settled: the last sweep moved at most SETTLED of the volume of all;
               passes spent: it moved more, and no further sweep was allowed
     """
 
@@ -138,7 +138,7 @@ def run_in(
         passes.extend(surface.press(position) for position in positions)
         moved = [one.volume for one in passes]
         if sum(moved[-len(positions) :]) <= SETTLED * sum(moved):
-            return surface.result(passes, sweep, "shaken down")
+            return surface.result(passes, sweep, "settled")
     return surface.result(passes, sweeps, "passes spent")
 
 

@@ -189,8 +189,8 @@ def test_more_of_a_surface_works_in_the_own_scene(folder):
     assert {"profile", "running_in"} <= tables.keys()
     scene = resolve_tables(tables, name="more", folder=folder, source="more.toml")
     assert scene.profile_info.cutoff is not None and scene.profile_info.short_cutoff is not None
-    worn = problem_of(scene).scene.worn
-    assert worn.status == "shaken down" and len(worn.passes) >= 9
+    run_in = problem_of(scene).scene.run_in
+    assert run_in.status == "settled" and len(run_in.passes) >= 9
 
 
 def test_files_are_those_that_a_run_leaves(mine, folder):

@@ -29,12 +29,12 @@ def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
     Raises SceneError if the trace cannot carry the load at the hardness.
     """
     settings = scene.running_in
-    if settings is None or scene.worn is not None:
+    if settings is None or scene.run_in is not None:
         return scene
     modulus = combined_modulus(scene.roller, scene.body)
     load = _load(scene, modulus)
     try:
-        worn = run_in(
+        found = run_in(
             scene.profile,
             scene.roller_radius,
             modulus,
@@ -47,8 +47,8 @@ def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
         raise SceneError(
             f"{scene.source}: running_in.hardness: {error}; allowed is more"
         ) from error
-    info = replace(scene.profile_info, roughness=roughness(worn.profile))
-    return replace(scene, profile=worn.profile, profile_info=info, worn=worn)
+    info = replace(scene.profile_info, roughness=roughness(found.profile))
+    return replace(scene, profile=found.profile, profile_info=info, run_in=found)
 
 
 def _load(scene: ResolvedScene, modulus: float) -> float:
@@ -77,46 +77,46 @@ def _wanted(profile: Profile) -> float:
 
 def running_in_account(scene: ResolvedScene) -> dict | None:
     """For result.json: what running-in did, None where there was none; lengths in SI."""
-    worn = scene.worn
-    if worn is None:
+    found = scene.run_in
+    if found is None:
         return None
     return {
-        "hardness": worn.constraints.hardness,
-        "load_per_length": worn.constraints.load,
-        "pitch": worn.pitch,
-        "passes": len(worn.passes),
-        "sweeps": worn.sweeps,
-        "settled": worn.status == "shaken down",
-        "converged": worn.converged,
-        "volume_moved": worn.volume,
-        "volume_by_pass": [one.volume for one in worn.passes],
-        "largest_lowering": worn.largest_lowering,
+        "hardness": found.constraints.hardness,
+        "load_per_length": found.constraints.load,
+        "pitch": found.pitch,
+        "passes": len(found.passes),
+        "sweeps": found.sweeps,
+        "settled": found.status == "settled",
+        "converged": found.converged,
+        "volume_moved": found.volume,
+        "volume_by_pass": [one.volume for one in found.passes],
+        "largest_lowering": found.largest_lowering,
         "at_ends_of_trace": ended(scene),
-        "roughness_before": asdict(roughness(worn.before)),
+        "roughness_before": asdict(roughness(found.before)),
         "roughness_after": asdict(scene.profile_info.roughness),
     }
 
 
 def running_in_assumptions(scene: ResolvedScene) -> list[str]:
     """What running-in takes for granted, and where it fell short."""
-    worn, settings = scene.worn, scene.running_in
+    found, settings = scene.run_in, scene.running_in
     listed = [
         f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
-    if worn is not None and worn.pitch > COARSE * _wanted(worn.before):
-        apart = with_unit(worn.pitch, "m", 3)
-        shortest = with_unit(shortest_wavelength(worn.before), "m", 3)
+    if found is not None and found.pitch > COARSE * _wanted(found.before):
+        apart = with_unit(found.pitch, "m", 3)
+        shortest = with_unit(shortest_wavelength(found.before), "m", 3)
         listed.append(
             f"running-in: its pressures stood {apart} apart, too coarse for the shortest waves of "
             f"the surface ({shortest}): asperities between them have not flowed enough"
         )
-    if worn is not None and worn.status != "shaken down":
+    if found is not None and found.status != "settled":
         listed.append(
-            f"running-in: the surface has not shaken down in {worn.sweeps} sweeps over "
+            f"running-in: the surface has not settled in {found.sweeps} sweeps over "
             f"{len(settings.positions)} positions"
         )
-    if worn is not None and ended(scene):
+    if found is not None and ended(scene):
         places = ", ".join(given(place, "m") for place in ended(scene))
         listed.append(
             f"running-in: from {places} the roller touches the end of the trace, beyond which "
@@ -127,5 +127,5 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
 
 def ended(scene: ResolvedScene) -> list[float]:
     """Positions [m] on the trace from which the roller touched an end of it."""
-    places = dict.fromkeys(one.position for one in scene.worn.passes if one.at_end)
+    places = dict.fromkeys(one.position for one in scene.run_in.passes if one.at_end)
     return [place + scene.position for place in places]

@@ -136,8 +136,8 @@ def _unconverged(outcome: Outcome) -> str:
         for coupling in outcome.couplings
         if not coupling.converged
     ]
-    worn = outcome.problem.scene.worn
-    if worn is not None and not worn.converged:
-        failed = sum(not one.converged for one in worn.passes)
-        found.insert(0, f"running-in, {failed} of {len(worn.passes)} passes")
+    run_in = outcome.problem.scene.run_in
+    if run_in is not None and not run_in.converged:
+        failed = sum(not one.converged for one in run_in.passes)
+        found.insert(0, f"running-in, {failed} of {len(run_in.passes)} passes")
     return ", ".join(found)

@@ -132,29 +132,29 @@ def _cell(text: str, style: str = "") -> "Text":
     return Text(text.translate(PLAIN).replace("< ", "<").removesuffix(" %"), style=style)
 
 
-def surface_text(info: ProfileInfo, worn: bool = False) -> str:
+def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
     """Roughness as pressed, and what a drawing would say of the trace, before it was run in."""
     text = f"Ra {with_unit(info.roughness.ra, 'm', 3)} as pressed"
     if info.standard is not None:
         ra, cutoff = with_unit(info.standard.ra, "m", 3), in_mm(info.standard.cutoff)
-        text += f", {'before running-in ' if worn else ''}{ra} at the cut-off {cutoff}"
+        text += f", {'before running-in ' if run_in else ''}{ra} at the cut-off {cutoff}"
     return text
 
 
 def run_in_text(outcome: Outcome) -> str:
     """How the surface was run in, whether it shook down, and whether that held."""
-    worn = outcome.problem.scene.worn
+    run_in = outcome.problem.scene.run_in
     return (
-        f"{area(worn.volume)} moved in {len(worn.passes)} passes, "
-        f"{'' if worn.status == 'shaken down' else 'not '}shaken down"
-        f"{'' if worn.converged else ', not converged'}"
+        f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
+        f"{'' if run_in.status == 'settled' else 'not '}settled"
+        f"{'' if run_in.converged else ', not converged'}"
         f"{above_hardness(outcome)}"
     )
 
 
 def above_hardness(outcome: Outcome) -> str:
     """Whether features finer than running-in resolved are pressed harder than it allowed."""
-    hardness = outcome.problem.scene.worn.constraints.hardness
+    hardness = outcome.problem.scene.run_in.constraints.hardness
     peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
     if peak <= ABOVE * hardness:
         return ""
@@ -177,9 +177,9 @@ def _facts(outcome: Outcome) -> "Table":
     facts.add_column(overflow="fold")
     scene = outcome.problem.scene
     if scene.profile_info is not None:
-        surface = surface_text(scene.profile_info, worn=scene.worn is not None)
+        surface = surface_text(scene.profile_info, run_in=scene.run_in is not None)
         facts.add_row("surface", Text(surface.translate(PLAIN)))
-    if scene.worn is not None:
+    if scene.run_in is not None:
         facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
     if outcome.budget is not None:
         facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN).replace(" %", "%")))

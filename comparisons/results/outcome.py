@@ -45,8 +45,8 @@ class Outcome:
     @property
     def converged(self) -> bool:
         """Whether every level of every model met its contact conditions, and running-in did."""
-        worn = self.problem.scene.worn
-        if worn is not None and not worn.converged:
+        run_in = self.problem.scene.run_in
+        if run_in is not None and not run_in.converged:
             return False
         levels = [level for run in self.runs.values() for level in run.levels]
         return all(level.solution.converged for level in levels) and all(

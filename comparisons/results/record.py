@@ -15,7 +15,7 @@ def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str,
     Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
     A repetition starts from the trace and takes off form and waves, and runs in, itself.
     """
-    profile = scene.unworn
+    profile = scene.as_measured
     return {
         "schema": SCHEMA,
         "name": scene.name,

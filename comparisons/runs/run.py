@@ -125,9 +125,9 @@ def solve(
         f"{name}_pressure": digest(level_run.finest.solution.pressure)
         for name, level_run in runs.items()
     }
-    worn = problem.scene.worn
-    if worn is not None:
-        hashes["run_in_profile"] = digest(worn.profile.x, worn.profile.height)
+    run_in = problem.scene.run_in
+    if run_in is not None:
+        hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
     outcome = Outcome(
         problem=problem,
         plan=plan,

@@ -34,7 +34,7 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
                 write_field(folder / name, field_of(outcome, run), fields)
             if run.finest.mesh is not None:
                 write_mesh(folder / name / "mesh.msh", outcome, run.finest.mesh)
-        if outcome.problem.scene.worn is not None:
+        if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
@@ -77,9 +77,9 @@ def write_contact(path: Path, problem: Problem, level: Level) -> None:
 
 def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
     """run_in_profile.csv: the trace as it was given along x, its height before and after."""
-    worn = scene.worn
-    after = worn.profile.height
-    columns = np.column_stack([worn.profile.x + scene.position, after + worn.lowering, after])
+    run_in = scene.run_in
+    after = run_in.profile.height
+    columns = np.column_stack([run_in.profile.x + scene.position, after + run_in.lowering, after])
     np.savetxt(
         path,
         columns,

@@ -213,7 +213,7 @@ class ResolvedScene:
     tolerance        relative, by the name of the compared quantity; others are not judged
     tables           the scene file with SI numbers and every default written out: resolving
                      them again, in a folder that holds the profile's file, gives this scene
-    worn             what running-in did to the surface, None until it was done; then the
+    run_in           what running-in did to the surface, None until it was done; then the
                      profile and its figures are those after it
     """
 
@@ -242,12 +242,12 @@ class ResolvedScene:
     resolution: Resolution
     budget: Budget
     tables: dict = field(repr=False)
-    worn: RunIn | None = field(default=None, compare=False, repr=False)
+    run_in: RunIn | None = field(default=None, compare=False, repr=False)
 
     @property
-    def unworn(self) -> Profile | None:
+    def as_measured(self) -> Profile | None:
         """The profile before any running-in."""
-        return self.profile if self.worn is None else self.worn.before
+        return self.profile if self.run_in is None else self.run_in.before
 
     def as_dict(self) -> dict:
         """For JSON: `tables` with the scene's name and what became of its profile."""

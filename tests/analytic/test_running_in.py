@@ -31,7 +31,7 @@ PLACES = A * np.array([-0.53, 0.0, 0.41, 0.9])
 PROFILES = Path(__file__).parents[2] / "comparisons" / "scenes" / "profiles"
 
 
-def worn(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how) -> RunIn:
+def ran_in(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how) -> RunIn:
     """On hats as far apart as the samples, so that these stay where they are."""
     how = {"pitch": profile.spacing, **how}
     return run_in(profile, RADIUS, MODULUS, constraints, positions, **how)
@@ -54,7 +54,7 @@ def pressed(profile: Profile, position: float, pitch: float, **given):
 
 @pytest.fixture(scope="module")
 def wavy() -> RunIn:
-    return worn()
+    return ran_in()
 
 
 class TestCylinder:
@@ -66,14 +66,14 @@ class TestCylinder:
         for count in counts:
             profile = smooth(length=4.0 * exact.contact, samples=4 * count + 1)
             found = [
-                worn(
+                ran_in(
                     profile,
                     [place * profile.spacing],
                     Constraints(load=LOAD, hardness=exact.hardness),
                 )
                 for place in np.arange(0.03, 1.0, 0.12)
             ]
-            assert all(one.status == "shaken down" for one in found)
+            assert all(one.status == "settled" for one in found)
             ratios = [
                 [one.volume / exact.volume, one.largest_lowering / exact.largest_overlap]
                 for one in found
@@ -88,7 +88,7 @@ class TestCylinder:
         counts, errors = np.array([40, 80, 160, 320]), []
         for count in counts:
             profile = smooth(length=4.0 * exact.contact, samples=4 * count + 1)
-            found = worn(profile, [0.0], Constraints(load=LOAD, hardness=exact.hardness))
+            found = ran_in(profile, [0.0], Constraints(load=LOAD, hardness=exact.hardness))
             grid, solution = pressed(found.profile, 0.0, profile.spacing / 1.7)
             wanted = exact.pressure(grid.x)
             errors.append(np.linalg.norm(solution.pressure - wanted) / np.linalg.norm(wanted))
@@ -98,20 +98,20 @@ class TestCylinder:
 
     def test_below_the_hardness_nothing_moves(self):
         profile = smooth(length=6.0 * A, samples=301)
-        found = worn(profile, [-A, A], Constraints(load=LOAD, hardness=1.01 * P0))
-        assert found.status == "shaken down" and found.sweeps == 1
+        found = ran_in(profile, [-A, A], Constraints(load=LOAD, hardness=1.01 * P0))
+        assert found.status == "settled" and found.sweeps == 1
         assert found.volume == 0.0 and found.largest_lowering == 0.0
         assert np.array_equal(found.profile.height, profile.height)
 
     def test_the_load_may_come_from_a_hertz_peak_pressure(self):
         hertz = hertz_from_peak_pressure(P0, RADIUS, MODULUS)
-        found = worn(constraints=replace(CAPPED, load=hertz.load_per_length))
-        assert found.volume == pytest.approx(worn().volume, rel=1e-9)
+        found = ran_in(constraints=replace(CAPPED, load=hertz.load_per_length))
+        assert found.volume == pytest.approx(ran_in().volume, rel=1e-9)
 
 
 class TestAccount:
     def test_it_shakes_down(self, wavy):
-        assert wavy.status == "shaken down" and wavy.converged
+        assert wavy.status == "settled" and wavy.converged
         assert 2 <= wavy.sweeps <= 6
         assert [one.position for one in wavy.passes] == [*PLACES] * wavy.sweeps
         last = sum(one.volume for one in wavy.passes[-len(PLACES) :])
@@ -148,12 +148,12 @@ class TestAccount:
         assert np.all(wavy.lowering[untouched] == 0.0)
 
     def test_too_few_sweeps_are_told(self, wavy):
-        found = worn(sweeps=1)
+        found = ran_in(sweeps=1)
         assert found.status == "passes spent" and found.sweeps == 1
         assert found.passes == wavy.passes[: len(PLACES)]
 
     def test_running_in_again_moves_next_to_nothing(self, wavy):
-        again = worn(wavy.profile, sweeps=1)
+        again = ran_in(wavy.profile, sweeps=1)
         assert again.volume < SETTLED * wavy.volume
 
     def test_a_pass_that_did_not_converge_is_told(self, monkeypatch):
@@ -165,7 +165,7 @@ class TestAccount:
             return replace(solution, converged=len(calls) != 2)
 
         monkeypatch.setattr(analytic.running_in, "solve_contact", loose)
-        found = worn(sweeps=1)
+        found = ran_in(sweeps=1)
         assert not found.converged
         assert [one.converged for one in found.passes] == [True, False, True, True]
 
@@ -176,7 +176,7 @@ class TestRefinement:
         place, x = PLACES[-1], np.linspace(-1.5, 1.5, 4001) * A
         volumes, profiles, peaks = [], [], []
         for halvings in range(4):
-            found = worn(pitch=WAVY.spacing * 2.0 ** (1 - halvings), sweeps=1)
+            found = ran_in(pitch=WAVY.spacing * 2.0 ** (1 - halvings), sweeps=1)
             volumes.append(found.volume)
             profiles.append(found.profile.spline()(x))
             _, solution = pressed(found.profile, place, WAVY.spacing / 8.0)
@@ -194,7 +194,7 @@ class TestRefinement:
         x = np.linspace(-2.0, 2.0, 40_001) * A
         lifts = []
         for hats in (1.0, 2.0, 4.0):
-            found = wavy if hats == 1.0 else worn(pitch=WAVY.spacing / hats)
+            found = wavy if hats == 1.0 else ran_in(pitch=WAVY.spacing / hats)
             assert np.all(found.lowering >= 0.0)
             rise = found.profile.spline()(x) - WAVY.spline()(x)
             lifts.append(rise.max() / found.largest_lowering)
@@ -213,17 +213,17 @@ class TestRefinement:
         x = np.linspace(*rough.x[[0, -1]], 100_001)
         lifts = []
         for pitch in (rough.spacing, None):
-            found = worn(rough, pitch=pitch, sweeps=2)
+            found = ran_in(rough, pitch=pitch, sweeps=2)
             rise = found.profile.spline()(x) - rough.spline()(x)
             lifts.append(rise.max() / found.largest_lowering)
         assert lifts == pytest.approx([0.032, 0.010], rel=0.3)
 
     def test_two_hats_a_sample_unless_told(self):
-        found = worn(pitch=None, positions=[0.0], sweeps=1)
+        found = ran_in(pitch=None, positions=[0.0], sweeps=1)
         assert found.pitch == pytest.approx(0.5 * WAVY.spacing, rel=1e-12)
 
     def test_narrower_hats_add_samples_where_the_roller_was(self):
-        found = worn(pitch=0.5 * WAVY.spacing, positions=[0.0], sweeps=1)
+        found = ran_in(pitch=0.5 * WAVY.spacing, positions=[0.0], sweeps=1)
         kept = np.isclose(found.profile.x[:, None], WAVY.x, rtol=0.0, atol=1e-15).any(axis=0)
         assert np.all(kept)
         steps = np.diff(found.profile.x) / WAVY.spacing
@@ -236,7 +236,7 @@ class TestRefinement:
 
     def test_hats_wider_than_the_samples_leave_no_kinks(self):
         """Straight between the middles of hats, ground would press 10 % above the hardness."""
-        found = worn(pitch=2.0 * WAVY.spacing)
+        found = ran_in(pitch=2.0 * WAVY.spacing)
         _, solution = pressed(found.profile, PLACES[1], WAVY.spacing / 4.0)
         assert solution.pressure.max() < 1.04 * CAPPED.hardness
         assert np.all(found.lowering >= 0.0)
@@ -250,8 +250,8 @@ class TestRefinement:
         inner = np.sort(generator.choice(np.arange(1, len(fine.x) - 1), 2600, replace=False))
         chosen = np.concatenate(([0], inner, [len(fine.x) - 1]))
         uneven = Profile(fine.x[chosen], fine.height[chosen])
-        one = worn(uneven, pitch=WAVY.spacing, sweeps=1)
-        other = worn(fine, pitch=WAVY.spacing, sweeps=1)
+        one = ran_in(uneven, pitch=WAVY.spacing, sweeps=1)
+        other = ran_in(fine, pitch=WAVY.spacing, sweeps=1)
         assert one.volume == pytest.approx(other.volume, rel=2e-3)
         x = np.linspace(-1.0, 1.0, 999) * A
         apart = one.profile.spline()(x) - other.profile.spline()(x)
@@ -275,13 +275,13 @@ class TestSymmetry:
         assert (found.status, found.sweeps) == (wavy.status, wavy.sweeps)
 
     def test_mirrored_profile_wears_into_the_mirrored_one(self, wavy):
-        found = worn(WAVY.mirrored(), -PLACES)
+        found = ran_in(WAVY.mirrored(), -PLACES)
         assert found.profile.mirrored().height == pytest.approx(
             wavy.profile.height, abs=1e-8 * wavy.largest_lowering
         )
 
     def test_place_on_the_trace_does_not_matter(self, wavy):
-        found = worn(WAVY.shifted(-0.02), PLACES + 0.02)
+        found = ran_in(WAVY.shifted(-0.02), PLACES + 0.02)
         assert found.lowering == pytest.approx(wavy.lowering, abs=1e-6 * wavy.largest_lowering)
         assert found.passes[0].touching == pytest.approx(
             np.array(wavy.passes[0].touching) + 0.02, abs=1e-9
@@ -290,7 +290,7 @@ class TestSymmetry:
     def test_far_ground_does_not_matter(self):
         """Each pass looks at the ground within reach alone."""
         longer = sinusoid(wavelength=0.2 * A, amplitude=0.15e-6, length=60.0 * A)
-        found, short = worn(longer), worn()
+        found, short = ran_in(longer), ran_in()
         x = np.linspace(-2.0, 2.0, 999) * A
         apart = found.profile.spline()(x) - short.profile.spline()(x)
         assert np.abs(apart).max() < 1e-6 * short.largest_lowering
@@ -317,7 +317,7 @@ class TestSymmetry:
 
 class TestEndsOfTheTrace:
     def test_contact_at_an_end_is_told_and_the_end_goes_down(self):
-        found = worn(positions=[WAVY.x[0] + 0.4 * A, 0.0], sweeps=1)
+        found = ran_in(positions=[WAVY.x[0] + 0.4 * A, 0.0], sweeps=1)
         assert [one.at_end for one in found.passes] == [True, False]
         assert found.passes[0].touching[0] == pytest.approx(WAVY.x[1], rel=1e-9)
         assert found.lowering[1] == pytest.approx(found.lowering[0], rel=1e-12)
@@ -325,7 +325,7 @@ class TestEndsOfTheTrace:
 
     def test_a_trace_that_cannot_carry_the_load(self):
         with pytest.raises(ContactError, match="exceeds what the surface can carry"):
-            worn(constraints=Constraints(load=LOAD, hardness=0.1 * P0))
+            ran_in(constraints=Constraints(load=LOAD, hardness=0.1 * P0))
 
 
 @pytest.mark.parametrize(
@@ -343,7 +343,7 @@ class TestEndsOfTheTrace:
 )
 def test_what_makes_no_sense_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
-        worn(**change)
+        ran_in(**change)
 
 
 class TestGroundSurface:
@@ -427,6 +427,6 @@ class TestGroundSurface:
 
     def test_further_sweeps_shake_it_down(self, truncated, one_sweep):
         found = self.run_in(truncated)
-        assert found.status == "shaken down" and found.converged and found.sweeps <= 6
+        assert found.status == "settled" and found.converged and found.sweeps <= 6
         assert one_sweep.volume < found.volume < 1.1 * one_sweep.volume
         assert found.passes[:14] == one_sweep.passes

@@ -201,9 +201,9 @@ def no_pictures() -> Callable[[Outcome], Pictures]:
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
     def pictures(outcome: Outcome) -> Pictures:
-        worn = None if outcome.problem.scene.worn is None else blank
+        run_in = None if outcome.problem.scene.run_in is None else blank
         budget = None if outcome.budget is None else blank
-        return Pictures(blank, worn, blank, blank, blank, [], [], [], [], budget, blank)
+        return Pictures(blank, run_in, blank, blank, blank, [], [], [], [], budget, blank)
 
     return pictures
 

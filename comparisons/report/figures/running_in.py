@@ -21,7 +21,7 @@ AFTER = {**OUTLINE, "color": LINES["half_plane"]["color"]}
 def running_in_picture(outcome: Outcome) -> Picture | None:
     """Both surfaces over the stretch that the contact may reach; None without running-in."""
     scene = outcome.problem.scene
-    if scene.worn is None:
+    if scene.run_in is None:
         return None
     said = running_in_in_words(scene)
     return Picture(
@@ -35,15 +35,15 @@ def running_in_picture(outcome: Outcome) -> Picture | None:
 
 def running_in_in_words(scene: ResolvedScene) -> str:
     """What running-in did, in one sentence, and in more where it fell short."""
-    worn, places = scene.worn, len(scene.running_in.positions)
+    run_in, places = scene.run_in, len(scene.running_in.positions)
     took = (
-        f"{len(worn.passes)} passes ({worn.sweeps} sweep{'s' * (worn.sweeps > 1)} over "
+        f"{len(run_in.passes)} passes ({run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)} over "
         f"{places} place{'s' * (places > 1)})"
     )
-    unfinished = "" if worn.status == "shaken down" else "; it has not shaken down"
+    unfinished = "" if run_in.status == "settled" else "; it has not settled"
     sentence = (
         f"In {took} at {given(scene.running_in.hardness, 'Pa')} plastic flow took "
-        f"{area(worn.volume)} off it, up to {with_unit(worn.largest_lowering, 'm', 3)} deep"
+        f"{area(run_in.volume)} off it, up to {with_unit(run_in.largest_lowering, 'm', 3)} deep"
         f"{unfinished}."
     )
     if ended(scene):
@@ -58,9 +58,9 @@ def area(volume: float) -> str:
 
 
 def _drawn(outcome: Outcome, width: float) -> "Figure":
-    problem, worn = outcome.problem, outcome.problem.scene.worn
+    problem, run_in = outcome.problem, outcome.problem.scene.run_in
     x = np.linspace(*problem.extent, POINTS)
-    before, after = worn.before.spline()(x), worn.profile.spline()(x)
+    before, after = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
     drawn = figure(width, 3.2)
     left = 0.8 / width

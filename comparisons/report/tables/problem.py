@@ -89,8 +89,8 @@ def in_mm(cutoff: float) -> str:
 
 
 def _standard_heading(scene: ResolvedScene) -> str:
-    worn = "" if scene.worn is None else " before running-in"
-    return f"Roughness{worn} (ISO 21920-2)"
+    run_in = "" if scene.run_in is None else " before running-in"
+    return f"Roughness{run_in} (ISO 21920-2)"
 
 
 def _standard(info: ProfileInfo) -> Rows:

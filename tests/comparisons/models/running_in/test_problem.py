@@ -22,12 +22,12 @@ class TestProblem:
     def test_the_run_in_surface_is_the_one_that_is_pressed(self, resolved, pair):
         scene = resolved()
         problem = problem_of(scene)
-        worn = problem.scene.worn
-        assert worn.volume > 0.0 and worn.converged and worn.status == "shaken down"
-        assert problem.scene.profile is worn.profile
-        assert problem.scene.profile_info.roughness == roughness(worn.profile)
+        found = problem.scene.run_in
+        assert found.volume > 0.0 and found.converged and found.status == "settled"
+        assert problem.scene.profile is found.profile
+        assert problem.scene.profile_info.roughness == roughness(found.profile)
         x = np.linspace(-50e-6, 50e-6, 999)
-        lowered = scene.profile.spline()(x) - worn.profile.spline()(x)
+        lowered = scene.profile.spline()(x) - found.profile.spline()(x)
         assert problem.gap(x) == pytest.approx(
             x**2 / (2.0 * pair.radius) - scene.profile.spline()(x) + lowered, abs=1e-18
         )
@@ -35,29 +35,30 @@ class TestProblem:
 
     def test_it_is_run_in_under_the_scenes_pair_load_and_places(self, resolved, pair, hardness):
         scene = resolved({"load": {"position": 5e-6}})
-        worn = run_in_scene(scene).worn
+        found = run_in_scene(scene).run_in
         other = run_in(
             scene.profile.shifted(-5e-6),
             pair.radius,
             pair.combined_modulus,
-            worn.constraints,
+            found.constraints,
             np.array(scene.running_in.positions),
-            pitch=worn.pitch,
+            pitch=found.pitch,
         )
         assert (
-            worn.constraints.load == pair.load_per_length and worn.constraints.hardness == hardness
+            found.constraints.load == pair.load_per_length
+            and found.constraints.hardness == hardness
         )
-        assert other.volume == pytest.approx(worn.volume, rel=1e-6)
-        assert worn.passes[0].position == pytest.approx(-30e-6)
+        assert other.volume == pytest.approx(found.volume, rel=1e-6)
+        assert found.passes[0].position == pytest.approx(-30e-6)
 
     def test_the_load_is_the_scenes(self, resolved, pair):
         by_peak = {"per_length": None, "hertz_peak_pressure": pair.peak_pressure}
         scene = run_in_scene(resolved({"load": by_peak}))
-        assert scene.worn.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
+        assert scene.run_in.constraints.load == pytest.approx(pair.load_per_length, rel=1e-12)
 
     def test_the_load_is_its_own_where_it_has_one(self, resolved, pair):
         scene = run_in_scene(resolved({"running_in": {"load": 1.5 * pair.load_per_length}}))
-        assert scene.worn.constraints.load == pytest.approx(1.5 * pair.load_per_length, rel=1e-12)
+        assert scene.run_in.constraints.load == pytest.approx(1.5 * pair.load_per_length, rel=1e-12)
 
     def test_running_in_is_done_once(self, monkeypatch, resolved):
         problem = problem_of(resolved())
@@ -70,18 +71,18 @@ class TestProblem:
 
     def test_hats_are_fine_enough_for_the_volume_and_nest_in_the_samples(self, resolved, pair):
         scene = run_in_scene(resolved())
-        worn = scene.worn
-        octaves = np.log2(worn.pitch / worn.before.spacing)
+        found = scene.run_in
+        octaves = np.log2(found.pitch / found.before.spacing)
         assert octaves == pytest.approx(round(octaves), abs=1e-9)
         finer = run_in(
-            worn.before,
+            found.before,
             pair.radius,
             pair.combined_modulus,
-            worn.constraints,
+            found.constraints,
             np.array(scene.running_in.positions),
-            pitch=0.25 * worn.pitch,
+            pitch=0.25 * found.pitch,
         )
-        assert worn.volume == pytest.approx(finer.volume, rel=5e-3)
+        assert found.volume == pytest.approx(finer.volume, rel=5e-3)
 
     def test_a_long_flat_trace_does_not_ask_for_more_hats_than_the_contact_needs(
         self, resolved, pair
@@ -90,7 +91,7 @@ class TestProblem:
         x = np.linspace(-2e-3, 2e-3, 2001)
         waves = Profile(x, 1e-12 * np.cos(2.0 * np.pi * x / 8e-6))
         scene = run_in_scene(replace(scene, profile=waves))
-        assert scene.worn.pitch > pair.half_width / 2500.0
+        assert scene.run_in.pitch > pair.half_width / 2500.0
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -107,12 +108,12 @@ class TestRun:
         return outcome
 
     def test_files_hold_the_surface_before_and_after(self, done: Outcome):
-        worn, out = done.problem.scene.worn, done.directory
+        found, out = done.problem.scene.run_in, done.directory
         table = np.loadtxt(out / "run_in_profile.csv", delimiter=",", skiprows=1)
         header = (out / "run_in_profile.csv").read_text().splitlines()[0]
         assert header == "x [m],height before running-in [m],height [m]"
-        assert table[:, 0] == pytest.approx(worn.profile.x, rel=1e-11)
-        assert table[:, 1] - table[:, 2] == pytest.approx(worn.lowering, abs=1e-17)
+        assert table[:, 0] == pytest.approx(found.profile.x, rel=1e-11)
+        assert table[:, 1] - table[:, 2] == pytest.approx(found.lowering, abs=1e-17)
         assert json.loads((out / "result.json").read_text())["running_in"]["settled"] is True
         assert not (done.directory / "half_plane" / "run_in_profile.csv").exists()
 
@@ -120,7 +121,7 @@ class TestRun:
         from comparisons.runs.run import run
 
         record = json.loads((done.directory / "record.json").read_text())
-        trace = done.problem.scene.worn.before
+        trace = done.problem.scene.run_in.before
         assert record["profile"]["x"] == trace.x.tolist()
         assert record["profile"]["height"] == trace.height.tolist()
         scene = resolve_tables(record["scene"], name="wavy", folder=Path("."), source="record")
@@ -135,10 +136,10 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     """On ground as steep as the unrun, peaks end at the hardness, and little material goes."""
     scene = load_scene("ground-running-in")
     problem = problem_of(scene)
-    worn = problem.scene.worn
-    assert worn.status == "shaken down" and worn.converged
-    assert not any(one.at_end for one in worn.passes)
-    assert 1e-12 * 30.0 < worn.volume < 1e-12 * 45.0
+    found = problem.scene.run_in
+    assert found.status == "settled" and found.converged
+    assert not any(one.at_end for one in found.passes)
+    assert 1e-12 * 30.0 < found.volume < 1e-12 * 45.0
     from comparisons.common.progress import Stages
     from comparisons.models.half_plane import half_plane_level
 

@@ -29,10 +29,10 @@ def outcome(finish: Callable[..., Outcome], wavy) -> Outcome:
 
 class TestTelling:
     def test_result(self, outcome: Outcome, hardness):
-        told, worn = outcome.result["running_in"], outcome.problem.scene.worn
-        assert told["passes"] == len(worn.passes) == 5 * told["sweeps"]
-        assert told["volume_moved"] == worn.volume == sum(told["volume_by_pass"])
-        assert told["largest_lowering"] == worn.largest_lowering > 0.0
+        told, run_in = outcome.result["running_in"], outcome.problem.scene.run_in
+        assert told["passes"] == len(run_in.passes) == 5 * told["sweeps"]
+        assert told["volume_moved"] == run_in.volume == sum(told["volume_by_pass"])
+        assert told["largest_lowering"] == run_in.largest_lowering > 0.0
         assert told["settled"] is True and told["converged"] is True
         assert told["at_ends_of_trace"] == []
         assert told["roughness_before"]["rq"] > told["roughness_after"]["rq"] > 0.0
@@ -58,20 +58,20 @@ class TestTelling:
             lambda figure: figures.append(figure) or "data:",
         )
         picture = running_in_picture(outcome)
-        worn = outcome.problem.scene.worn
+        run_in = outcome.problem.scene.run_in
         assert len(figures) == 2  # wide and narrow
         for figure in figures:
             [axes] = figure.axes
             lines = {line.get_label(): line.get_xydata() for line in axes.lines}
             assert axes.get_xlabel() == "x [µm]" and axes.get_ylabel() == "height [nm]"
-            for label, profile in (("before running-in", worn.before), ("after", worn.profile)):
+            for label, profile in (("before running-in", run_in.before), ("after", run_in.profile)):
                 points = lines[label]
                 assert points[:, 1] * 1e-9 == pytest.approx(
                     profile.spline()(points[:, 0] * 1e-6), abs=1e-15
                 )
         said = running_in_in_words(outcome.problem.scene)
         assert picture.caption.endswith(said)
-        assert f"In {len(worn.passes)} passes ({worn.sweeps} sweeps over 5 places)" in said
+        assert f"In {len(run_in.passes)} passes ({run_in.sweeps} sweeps over 5 places)" in said
         assert said.count(". ") == 0 and said.endswith(" deep.")
         page = render(outcome)
         assert '<section id="running-in">' in page and page.index("running-in") > 0
@@ -83,11 +83,11 @@ class TestTelling:
         console.print(summary(outcome))
         shown = console.export_text().splitlines()
         [row] = [line for line in shown if line.startswith("run in")]
-        worn = outcome.problem.scene.worn
-        assert f"moved in {len(worn.passes)} passes, shaken down" in row
+        run_in = outcome.problem.scene.run_in
+        assert f"moved in {len(run_in.passes)} passes, settled" in row
         peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
-        softer = replace(worn.constraints, hardness=peak / 1.8)
-        scene = replace(outcome.problem.scene, worn=replace(worn, constraints=softer))
+        softer = replace(run_in.constraints, hardness=peak / 1.8)
+        scene = replace(outcome.problem.scene, run_in=replace(run_in, constraints=softer))
         sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
         assert run_in_text(sharp).endswith("; pressed then, up to 1.80 times its hardness")
         assert "times its hardness" not in row
@@ -97,32 +97,32 @@ class TestTelling:
 
     def test_what_fell_short_is_told(self, outcome: Outcome):
         problem = outcome.problem
-        worn = problem.scene.worn
-        passes = (replace(worn.passes[0], at_end=True), *worn.passes[1:])
-        scene = replace(problem.scene, worn=replace(worn, status="passes spent", passes=passes))
+        run_in = problem.scene.run_in
+        passes = (replace(run_in.passes[0], at_end=True), *run_in.passes[1:])
+        scene = replace(problem.scene, run_in=replace(run_in, status="passes spent", passes=passes))
         plan = make_plan(replace(problem, scene=scene), MODELS)
         short = [text for text in plan.assumptions if text.startswith("running-in")][1:]
-        assert "has not shaken down in" in short[0] and "from −30 µm" in short[1]
+        assert "has not settled in" in short[0] and "from −30 µm" in short[1]
         said = running_in_in_words(scene)
-        assert "it has not shaken down." in said and "an end of the trace" in said
+        assert "it has not settled." in said and "an end of the trace" in said
 
     def test_hats_too_coarse_for_the_surface_are_told(self, monkeypatch, resolved):
         monkeypatch.setattr(comparisons.models.running_in, "MOST_HATS", 100)
         problem = problem_of(resolved())
-        worn = problem.scene.worn
+        run_in = problem.scene.run_in
         [said] = [
             text
             for text in make_plan(problem, MODELS).assumptions
             if "too coarse for the shortest waves" in text
         ]
-        assert f"{1e6 * worn.pitch:#.3g} µm apart" in said
+        assert f"{1e6 * run_in.pitch:#.3g} µm apart" in said
 
     def test_a_pass_that_did_not_converge_ends_with_status_3(self, outcome: Outcome):
         assert outcome.exit_status in (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE)
         problem = outcome.problem
-        worn = problem.scene.worn
-        passes = (replace(worn.passes[0], converged=False), *worn.passes[1:])
-        scene = replace(problem.scene, worn=replace(worn, passes=passes))
+        run_in = problem.scene.run_in
+        passes = (replace(run_in.passes[0], converged=False), *run_in.passes[1:])
+        scene = replace(problem.scene, run_in=replace(run_in, passes=passes))
         failed = replace(outcome, problem=replace(problem, scene=scene))
         assert not failed.converged
         assert failed.exit_status == ExitStatus.NOT_CONVERGED
