@@ -104,7 +104,9 @@ def pair_norms(
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
     """Of every figure that the model has by itself."""
     history = [figures(level, problem, friction) for level in run.levels]
-    moved = figures(run.halved, problem, friction) if run.halved else history[0]
+    moved = (
+        figures(run.far_boundary_check, problem, friction) if run.far_boundary_check else history[0]
+    )
     found = {}
     for name, value in history[-1].items():
         values = [figures_of_level[name] for figures_of_level in history]
@@ -149,8 +151,8 @@ def pair_history(
     relative."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [norms(one, other, problem, friction, window) for one, other in pairs]
-    first, halved = finite_element.levels[0], finite_element.halved
-    moved = norms(halved, first, problem, friction, window) if halved else {}
+    first, check = finite_element.levels[0], finite_element.far_boundary_check
+    moved = norms(check, first, problem, friction, window) if check else {}
     residual = max(run.finest.solution.residuals.worst for run in (half_plane, finite_element))
     found = {}
     for name in history[-1]:

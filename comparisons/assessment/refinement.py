@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 USUAL_GROWTH = 2.2  # of a level's time over the one before: for what is told, nothing is decided
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
-HALVED = "finite_element-halved"
+FAR_BOUNDARY_CHECK = "finite_element-far_boundary_check"
 
 
 class CurrentBodies:
@@ -53,7 +53,7 @@ def refined(
     time counts.
     """
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
-    halved: Level | None = None
+    check: Level | None = None
     bodies = CurrentBodies()
 
     def solved(name: str, kept: str, pitch: float, tell: ProgressCallback, **how: bool) -> Level:
@@ -84,9 +84,11 @@ def refined(
                 done.append(solved(name, f"{name}-{number}", pitch, tell(number)))
         if number == 1 and plan.domain_check:
             callback("finite elements: far boundary at half the distance")
-            halved = solved("finite_element", HALVED, pitch, no_progress, halved=True)
+            check = solved(
+                "finite_element", FAR_BOUNDARY_CHECK, pitch, no_progress, half_block=True
+            )
         runs = {
-            name: ModelRun(name, tuple(done[:number]), halved if name == "finite_element" else None)
+            name: ModelRun(name, tuple(done[:number]), check if name == "finite_element" else None)
             for name, done in levels.items()
         }
         if number >= len(problem.pitches):
@@ -183,7 +185,7 @@ def _solve(
     window: Window | None,
     callback: ProgressCallback,
     bodies: CurrentBodies,
-    halved: bool = False,
+    half_block: bool = False,
 ) -> Level:
     """One level of one model; what the other model alone needs is not imported."""
     if name == "half_plane":
@@ -194,7 +196,7 @@ def _solve(
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    refinement, stages, store = Refinement(pitch, halved), Stages(callback), bodies.of(pitch)
+    refinement, stages, store = Refinement(pitch, half_block), Stages(callback), bodies.of(pitch)
     return finite_element_level(
-        problem, plan, refinement, window, stages, store=store, check=not halved
+        problem, plan, refinement, window, stages, store=store, check=not half_block
     )

@@ -121,12 +121,13 @@ class ModelRun:
     """All levels of one model, coarse to fine.
 
     name    half_plane | finite_element
-    halved  finite elements: the coarsest level again on a block of half the size, if checked
+    far_boundary_check  finite elements: the coarsest level again on a block of half the size, if
+                        checked
     """
 
     name: str
     levels: tuple[Level, ...]
-    halved: Level | None = None
+    far_boundary_check: Level | None = None
 
     @property
     def finest(self) -> Level:
@@ -136,7 +137,10 @@ class ModelRun:
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
         total: dict[str, float] = {}
-        for level in (*self.levels, *([self.halved] if self.halved else [])):
+        for level in (
+            *self.levels,
+            *([self.far_boundary_check] if self.far_boundary_check else []),
+        ):
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total

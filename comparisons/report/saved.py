@@ -95,7 +95,7 @@ def _shown(outcome: Outcome) -> Outcome:
         name: ModelRun(
             name,
             (*map(_without_fields, run.levels[:-1]), _with_shown_fields(run.finest)),
-            None if run.halved is None else _without_fields(run.halved),
+            None if run.far_boundary_check is None else _without_fields(run.far_boundary_check),
         )
         for name, run in outcome.runs.items()
     }

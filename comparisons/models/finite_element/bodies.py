@@ -87,7 +87,7 @@ def bodies_of(
     """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
     scene, settings = problem.scene, problem.scene.finite_element
     spec = block_spec(problem, refinement, patches)
-    beyond = 0.5 if refinement.halved else np.inf
+    beyond = 0.5 if refinement.half_block else np.inf
     within = (
         beyond * spec.half_width if scene.width is None else np.inf,
         beyond * spec.depth if scene.thickness is None else np.inf,

@@ -33,11 +33,11 @@ class Refinement:
     """How fine a level is.
 
     pitch    of the pressure elements [m]
-    halved   hold an unbounded body at half its width and depth, on the same mesh
+    half_block   hold an unbounded body at half its width and depth, on the same mesh
     """
 
     pitch: float
-    halved: bool = False
+    half_block: bool = False
 
 
 def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) -> BlockSpec:

@@ -34,16 +34,16 @@ def convergence_tables(outcome: Outcome) -> list[TextTable]:
 
 
 def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
-    problem, halved = outcome.problem, run.halved
-    columns = len(run.levels) + (halved is not None)
+    problem, check = outcome.problem, run.far_boundary_check
+    columns = len(run.levels) + (check is not None)
     pitch = scale_of([run.levels[0].grid.pitch], "m")
-    levels = [*run.levels, *([halved] if halved else [])]
+    levels = [*run.levels, *([check] if check else [])]
     rows = [
         ("pitch of the pressure elements", *(pitch.text(v.grid.pitch) for v in levels)),
         ("unknowns", *(integer(v.unknowns) for v in levels)),
         ("time", *(with_unit(sum(v.seconds.values()), "s", 3) for v in levels)),
     ]
-    rows = [row + ("",) * (1 + columns + 4 + (halved is not None) - len(row)) for row in rows]
+    rows = [row + ("",) * (1 + columns + 4 + (check is not None) - len(row)) for row in rows]
     seen = set()
     for friction in problem.scene.friction:
         doubts = uncertainties(run, problem, friction)
@@ -59,10 +59,10 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
                 (
                     label(name) + where,
                     *(scale.text(v[name], 5) for v in values),
-                    *_doubts(doubts[name], domain=halved is not None),
+                    *_doubts(doubts[name], domain=check is not None),
                 )
             )
-    looked = halved is not None
+    looked = check is not None
     head = _head(len(run.levels), block=looked, domain=looked)
     return TextTable(LABELS[run.name].capitalize(), head, tuple(rows))
 
@@ -81,10 +81,10 @@ def _of_pair(outcome: Outcome) -> TextTable:
                 (
                     label(name) + where,
                     *(percent(norms[name], digits=3) for norms in pair.norms),
-                    *_doubts(pair.uncertainties[name], domain=run.halved is not None),
+                    *_doubts(pair.uncertainties[name], domain=run.far_boundary_check is not None),
                 )
             )
-    head = _head(len(run.levels), block=False, domain=run.halved is not None)
+    head = _head(len(run.levels), block=False, domain=run.far_boundary_check is not None)
     return TextTable("Difference of both models", head, tuple(rows))
 
 
@@ -97,9 +97,9 @@ def _where(problem: Problem, name: str, friction: float) -> str:
 def _head(levels: int, block: bool, domain: bool) -> tuple[str, ...]:
     """`block`: a level with the block halved; `domain`: what it says stands among the doubts."""
     numbered = tuple(f"level {k + 1}" for k in range(levels))
-    halved = ("level 1, block halved",) if block else ()
+    check = ("level 1, block halved",) if block else ()
     far = ("domain",) if domain else ()
-    return ("", *numbered, *halved, "order", "discretisation", "iteration", *far, "total")
+    return ("", *numbered, *check, "order", "discretisation", "iteration", *far, "total")
 
 
 def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:

@@ -38,4 +38,4 @@ def cost_cache(out: Path, scene: ResolvedScene, repeats: int) -> Cache:
 def name_of(task: Task) -> str:
     """The name of a task among those of one study."""
     method = re.sub(r"\W+", "-", task.method)
-    return f"{method}_{task.setting!r}{'_halved' if task.halved else ''}"
+    return f"{method}_{task.setting!r}{'_half_block' if task.half_block else ''}"

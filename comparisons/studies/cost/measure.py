@@ -30,7 +30,7 @@ class Task:
     """What to measure: as many `repeats` as `limit` seconds of the processor allow, at least one.
 
     load    [N/m] that a prescribed approach takes, else None
-    halved  whether an unbounded body is held at half the distance
+    half_block  whether an unbounded body is held at half the distance
     """
 
     scene: ResolvedScene
@@ -39,7 +39,7 @@ class Task:
     setting: float
     repeats: int = 1
     limit: float = 0.0
-    halved: bool = False
+    half_block: bool = False
 
 
 @dataclass(frozen=True)
@@ -129,5 +129,5 @@ def _go(
 ) -> tuple[Answer, dict[str, float], float]:
     """One solution: its answer, seconds of the processor by stage, and seconds on the clock."""
     stages, begin = ProcessorStages(), time.perf_counter()
-    answer = solved(method, problem, task.setting, window, stages, task.halved)
+    answer = solved(method, problem, task.setting, window, stages, task.half_block)
     return answer, stages.seconds, time.perf_counter() - begin

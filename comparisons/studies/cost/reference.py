@@ -134,11 +134,11 @@ def _finest(
     if len(rows) < 3:
         return {}
     row, before = rows[-1], rows[-2]
-    answer, halved = row.measured.answer, study.halved.get(name)
+    answer, check = row.measured.answer, study.far_boundary_check.get(name)
     run = ModelRun(
         row.method.model,
         tuple(each.measured.answer.level for each in rows),
-        None if halved is None else halved.answer.level,
+        None if check is None else check.answer.level,
     )
     frictions = problem.scene.friction
     doubts = [uncertainties(run, problem, friction) for friction in frictions]

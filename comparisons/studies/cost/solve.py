@@ -47,9 +47,9 @@ def solved(
     setting: float,
     window: Window | None,
     stages: Stages,
-    halved: bool = False,
+    half_block: bool = False,
 ) -> Answer:
-    """Solve; `halved` holds an unbounded body at half the distance."""
+    """Solve; `half_block` holds an unbounded body at half the distance."""
     if method.model == "half_plane":
         if method.element == "hat" and not method.dense:
             plan = make_plan(problem, ("half_plane",))
@@ -63,7 +63,7 @@ def solved(
     from comparisons.models.finite_element.mesh import Refinement
 
     plan = finite_element_plan(problem)
-    level = finite_element_level(problem, plan, Refinement(setting, halved), window, stages)
+    level = finite_element_level(problem, plan, Refinement(setting, half_block), window, stages)
     return _of_level(replace(level, mesh=None, mesh_field=None), problem)
 
 

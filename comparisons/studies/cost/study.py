@@ -66,7 +66,7 @@ class Study:
     gives with the far boundary at half its distance, where that is needed."""
 
     rows: tuple[Row, ...]
-    halved: dict[str, Measured]
+    far_boundary_check: dict[str, Measured]
 
     def of(self, name: str) -> tuple[Row, ...]:
         """The good rows of a method."""
@@ -82,7 +82,7 @@ def measured_study(
 ) -> Study:
     """Measure what `store` lacks, and keep it there; in a fresh process for each method, whose
     memory is its own, on one thread."""
-    spent, rows, halved = 0.0, [], {}
+    spent, rows, check = 0.0, [], {}
     shares = SHARES[-len(methods) :]
     for number, (share, method) in enumerate(zip(shares, methods, strict=True)):
         because = why_not(method, problem)
@@ -94,14 +94,14 @@ def measured_study(
             ask = _asked(store, call)
             part = within(callback, number / len(methods), (number + 1) / len(methods))
             found = _series(method, problem, repeats, left, ask, part)
-            if _wants_halved(method, problem) and found[0].status == OK:
-                task = _task(problem, method, found[0].setting, 1, 0.0, halved=True)
+            if _wants_far_boundary_check(method, problem) and found[0].status == OK:
+                task = _task(problem, method, found[0].setting, 1, 0.0, half_block=True)
                 again = ask(task)
                 if isinstance(again, Measured):
-                    halved[method.name] = again
+                    check[method.name] = again
         rows += found
         spent += sum(row.measured.spent for row in found if row.measured is not None)
-    return Study(tuple(rows), halved)
+    return Study(tuple(rows), check)
 
 
 def _series(
@@ -181,14 +181,14 @@ def _task(
     setting: float,
     repeats: int,
     limit: float,
-    halved: bool = False,
+    half_block: bool = False,
 ) -> Task:
     prescribed = problem.scene.load.kind == "approach"
     load = problem.hertz.load_per_length if prescribed else None
-    return Task(problem.scene, load, method.name, setting, repeats, limit, halved)
+    return Task(problem.scene, load, method.name, setting, repeats, limit, half_block)
 
 
-def _wants_halved(method: Method, problem: Problem) -> bool:
+def _wants_far_boundary_check(method: Method, problem: Problem) -> bool:
     """Whether the finite elements are a reference, whose far boundary counts."""
     scene = problem.scene
     unbounded = scene.thickness is None or scene.width is None

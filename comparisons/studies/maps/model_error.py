@@ -46,8 +46,10 @@ def model_errors(
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [_differences(one, other, problem, friction, window) for one, other in pairs]
     moved = history[0]
-    if finite_element.halved is not None:
-        moved = _differences(half_plane.levels[0], finite_element.halved, problem, friction, window)
+    if finite_element.far_boundary_check is not None:
+        moved = _differences(
+            half_plane.levels[0], finite_element.far_boundary_check, problem, friction, window
+        )
     one = figures(half_plane.finest, problem, friction)
     other = figures(finite_element.finest, problem, friction)
     residual = sum(run.finest.solution.residuals.worst for run in (half_plane, finite_element))

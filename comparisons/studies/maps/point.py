@@ -89,14 +89,14 @@ def _refined(
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.half_plane import half_plane_level
 
-    def finite_elements(pitch: float, halved: bool = False) -> Level:
-        return finite_element_level(problem, plan, Refinement(pitch, halved), window, Stages())
+    def finite_elements(pitch: float, half_block: bool = False) -> Level:
+        return finite_element_level(problem, plan, Refinement(pitch, half_block), window, Stages())
 
     one: list[Level] = []
     other: list[Level] = []
     pitch = problem.pitches[0]
     least = len(problem.pitches) + (ROUGH_MORE if problem.scene.profile is not None else 0)
-    halved = finite_elements(pitch, halved=True) if plan.domain_check else None
+    check = finite_elements(pitch, half_block=True) if plan.domain_check else None
     for number in range(1, problem.scene.resolution.most + 1):
         try:
             other.append(finite_elements(pitch))
@@ -108,7 +108,7 @@ def _refined(
         if number >= least:
             yield (
                 ModelRun("half_plane", tuple(one)),
-                ModelRun("finite_element", tuple(other), halved),
+                ModelRun("finite_element", tuple(other), check),
             )
             if GROWTH * other[-1].unknowns > MOST_UNKNOWNS:
                 break

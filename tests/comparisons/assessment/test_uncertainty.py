@@ -122,10 +122,10 @@ def test_stated_uncertainty_covers_the_error_of_hertz():
 
 
 def test_a_boundary_counts_more_than_what_half_its_distance_changes(smooth_outcome: Outcome):
-    """By an order of 1/2: 2.4 times. The halved level's place is taken by another level."""
+    """By an order of 1/2: 2.4 times. The far-boundary level's place is taken by another level."""
     assert pytest.approx(1.0 / (np.sqrt(2.0) - 1.0)) == DOMAIN
     levels = smooth_outcome.runs["half_plane"].levels
-    run = ModelRun("finite_element", levels, halved=levels[1])
+    run = ModelRun("finite_element", levels, far_boundary_check=levels[1])
     found = uncertainties(run, smooth_outcome.problem, 0.0)["peak_pressure"]
     first, second, last = (level.solution.pressure.max() for level in levels)
     assert found.domain == pytest.approx(DOMAIN * abs(second - first) / last)

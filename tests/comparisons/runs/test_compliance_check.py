@@ -37,10 +37,13 @@ def outcome(tmp_path_factory):
         return run(coarse, tmp_path_factory.mktemp("run") / "out", ("finite_element",))
 
 
-def test_every_level_but_the_halved_is_checked(outcome):
+def test_every_level_but_the_far_boundary_check_is_checked(outcome):
     ladder = outcome.runs["finite_element"]
     assert all(level.operator is not None for level in ladder.levels)
-    assert ladder.halved.operator is None and "check" not in ladder.halved.seconds
+    assert (
+        ladder.far_boundary_check.operator is None
+        and "check" not in ladder.far_boundary_check.seconds
+    )
     waves = [level.operator.nearest.waves[-1].difference for level in ladder.levels]
     assert abs(waves[-1]) < abs(waves[0])
 

@@ -118,7 +118,7 @@ def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False
     uncertainty = grid_convergence(values, ORDER).uncertainty
     uncertainty += PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst * abs(value)
     uncertainty += abs(reading(replace(views[-1], every=2)) - value)
-    if run.halved is not None:
-        halved = View(model, outcome.problem, run.halved, outcome.window)
-        uncertainty += DOMAIN * abs(reading(halved) - values[0])
+    if run.far_boundary_check is not None:
+        check = View(model, outcome.problem, run.far_boundary_check, outcome.window)
+        uncertainty += DOMAIN * abs(reading(check) - values[0])
     return Measured(value, float(uncertainty), converged)

@@ -199,7 +199,7 @@ def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp
         return solve(problem, *arguments, **others)
 
     with patch("comparisons.models.finite_element.level.finite_element_level", counted):
-        stop = 7  # levels and the halved block are four; the third body of the budget
+        stop = 7  # levels and the half-size block are four; the third body of the budget
         with pytest.raises(KeyboardInterrupt, match="goes on from there"):
             outcome_of(smooth(2.0e9), tmp_path / "out")
         first, stop = len(solved), None
@@ -211,7 +211,7 @@ def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp
 
 
 def _bodies(outcome: Outcome) -> int:
-    """Finite-element levels of a run: the scene's own, the halved one, and the budget's."""
+    """Finite-element levels of a run: the scene's own, the far-boundary check, and the budget's."""
     budget: ErrorBudget = outcome.budget
     per_level = 1 + 1 + 1  # displaced gap, and strain with what it is measured beside
     own = len(outcome.runs["finite_element"].levels) + 1

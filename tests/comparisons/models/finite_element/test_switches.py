@@ -137,7 +137,7 @@ def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisatio
     other = finite_element_level(problem, plan, refinement, None, second, store=store)
     assert "factorisation" in first.seconds and "factorisation" not in second.seconds
     assert np.array_equal(one.solution.pressure, other.solution.pressure)
-    held = Refinement(problem.pitches[0], halved=True)
+    held = Refinement(problem.pitches[0], half_block=True)
     third = Stages()
     finite_element_level(problem, plan, held, None, third, store=store)
     assert "factorisation" in third.seconds  # another support, the same mesh

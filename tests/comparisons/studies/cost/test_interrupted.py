@@ -107,7 +107,7 @@ class TestStore:
         task, found = measured
         store = cost_cache(tmp_path, task.scene, 2)
         store.save(name_of(task), found)
-        for other in ({"setting": 2e-5}, {"halved": True}, {"method": "hats, dense"}):
+        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": "hats, dense"}):
             assert store.load(name_of(replace(task, **other))) is None
         assert store.load(name_of(replace(task, limit=7.0))) is not None
 

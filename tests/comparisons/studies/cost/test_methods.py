@@ -159,7 +159,7 @@ class TestMeasure:
         """Every go of `solved`, which takes no time."""
         calls, answer = [], object()
 
-        def solved(method, problem, setting, window, stages, halved):
+        def solved(method, problem, setting, window, stages, half_block):
             calls.append(setting)
             with stages.stage("contact"):
                 return answer

@@ -85,10 +85,10 @@ class TestToldByNumbers:
 
 
 class TestMeasured:
-    def outcome(self, values, halved=None):
+    def outcome(self, values, check=None):
         levels = [SimpleNamespace(value=v, solution=self.solution()) for v in values]
-        level = None if halved is None else SimpleNamespace(value=halved, solution=None)
-        run = SimpleNamespace(levels=levels, finest=levels[-1], halved=level)
+        level = None if check is None else SimpleNamespace(value=check, solution=None)
+        run = SimpleNamespace(levels=levels, finest=levels[-1], far_boundary_check=level)
         return SimpleNamespace(runs={"m": run}, problem=None, window=None)
 
     def solution(self):
@@ -105,7 +105,7 @@ class TestMeasured:
         assert fast.uncertainty == pytest.approx(0.02)  # half the step before: no order is trusted
         read = measured(self.outcome([1.04, 1.02, 1.01]), "m", reading)
         assert read.uncertainty == pytest.approx(plain.uncertainty + 0.01)
-        bound = measured(self.outcome([1.04, 1.02, 1.01], halved=1.05), "m", reading)
+        bound = measured(self.outcome([1.04, 1.02, 1.01], check=1.05), "m", reading)
         assert bound.uncertainty == pytest.approx(read.uncertainty + 0.01 / (np.sqrt(2.0) - 1.0))
 
     def test_an_error_against_an_exact_value_has_none(self):
