@@ -1,4 +1,4 @@
-"""Plain data of a block mesh: what to build, and what came out.
+"""A block to mesh, its mesh of six-node triangles, and the edges of such a mesh.
 
 The block occupies |x| <= half_width, 0 <= z <= depth, z into the body. Its top side z = 0 is
 the mean line; a rough boundary is the top side moved to z = -height(x).
@@ -8,23 +8,26 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+# Local ends of the three edges of a triangle, in gmsh's order of the midpoints.
+EDGES = np.array([[0, 1], [1, 2], [2, 0]])
+
+
+class MeshError(RuntimeError):
+    """A mesh cannot be had: impossible request, failed mesher, or elements not fit to solve on."""
+
 
 @dataclass(frozen=True)
 class BlockSpec:
     """What to mesh. Lengths in m.
 
-    half_width, depth   the block
-    intervals           (k, 2) stretches of the surface to refine, ascending and disjoint
-    surface_size        element edge on those stretches; every end of an interval and every
-                        multiple of surface_size between is a mesh node (equal edges)
-    growth              size = surface_size + growth * distance to the nearest interval
-    window              (x0, x1, z1, size) or None: inside x0 <= x <= x1, z <= z1 no element is
-                        larger than size, so that a stress field there is resolved
-    interface           depth of a line across the whole block that element edges follow (the
-                        lower boundary of a coating), or None
-    vertices            (k,) ascending x of the mesh nodes on the surface from the start of the
-                        first interval to the end of the last, in place of equal edges there, or
-                        None; sizes below follow these edges
+    intervals       (k, 2) ranges of the surface to refine, ascending and disjoint
+    surface_size    edge of the elements on them; each end and each multiple of it is a vertex
+    growth          size = surface_size + growth * distance to the nearest refined range
+    window          (x0, x1, z1, size): no element within x0 <= x <= x1, z <= z1 is larger than size
+    interface       depth of a line across the block that element edges follow: the lower side of a
+                    coating
+    vertices        (k,) ascending x of the vertices from the start of the first refined range to
+                    the end of the last, in place of equal edges; sizes below follow these edges
     """
 
     half_width: float
@@ -39,13 +42,12 @@ class BlockSpec:
 
 @dataclass(frozen=True)
 class BlockMesh:
-    """Second-order triangles of the flat block, with the way to the real body kept aside.
+    """Second-order triangles of the flat block, and how far the real body's points are from them.
 
-    points     (n, 2) x and z [m] of vertices and edge midpoints, flat block
-    triangles  (m, 6) gmsh order: 3 vertices, then midpoints of edges (0,1), (1,2), (2,0)
-    shift      (n, 2) [m] displacement that turns the flat block into the real body, rough or
-               bent; zero for the flat mesh. The points of the real body are points + shift.
-    spec       what was asked for
+    points     (n, 2) x and z [m] of vertices and edge midpoints of the flat block
+    triangles  (m, 6) in gmsh's order: 3 vertices, then midpoints of edges (0,1), (1,2), (2,0)
+    shift      (n, 2) [m] from the flat block to the real body, rough or bent
+    quality    figures of `meshes.quality`
     """
 
     points: np.ndarray
@@ -53,3 +55,90 @@ class BlockMesh:
     shift: np.ndarray
     spec: BlockSpec
     quality: dict = field(default_factory=dict)
+
+
+def unique_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges (e, 2) with the lower vertex first, and for each triangle (m, 3) its three edges."""
+    ends = np.sort(triangles[:, EDGES].reshape(-1, 2), axis=1).astype(np.int64)
+    n = int(triangles.max()) + 1
+    keys, edge_of = np.unique(ends[:, 0] * n + ends[:, 1], return_inverse=True)
+    return np.column_stack([keys // n, keys % n]), edge_of.reshape(-1, 3)
+
+
+def add_midpoints(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n + e, 2), vertices first, and six-node triangles (m, 6) in gmsh's node order."""
+    edges, edge_of = unique_edges(triangles)
+    middle = 0.5 * (vertices[edges[:, 0]] + vertices[edges[:, 1]])
+    return np.concatenate([vertices, middle]), np.hstack([triangles, len(vertices) + edge_of])
+
+
+def real_points(mesh: BlockMesh) -> np.ndarray:
+    """Points (n, 2) [m] of the real body, rough or bent."""
+    return mesh.points + mesh.shift
+
+
+def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """u_x v_z - u_z v_x over the last axis."""
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+
+
+def double_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Twice the signed area (m,) [m^2] of the straight triangles between the vertices."""
+    corner = points[triangles[:, :3]]
+    return cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+
+
+def check_spec(spec: BlockSpec) -> None:
+    """Raises MeshError, naming the field and what is allowed, when spec cannot be meshed."""
+
+    def demand(holds: bool, what: str) -> None:
+        if not holds:
+            raise MeshError(f"block: {what}")
+
+    for name in ("half_width", "depth", "surface_size"):
+        value = getattr(spec, name)
+        demand(np.isfinite(value) and value > 0.0, f"{name} is {value}: a positive length in m")
+    demand(0.0 <= spec.growth <= 0.5, f"growth is {spec.growth}: allowed is 0 to 0.5")
+    intervals = np.asarray(spec.intervals, dtype=float)
+    demand(
+        intervals.ndim == 2 and intervals.shape[1] == 2 and len(intervals) > 0,
+        f"intervals have the shape {intervals.shape}: at least one row of two ends is needed",
+    )
+    flat = intervals.ravel()
+    slack = 1e-9 * spec.surface_size
+    demand(
+        bool(
+            np.isfinite(flat).all()
+            and (np.diff(flat) >= -slack).all()
+            and (np.diff(intervals, axis=1) > 0.0).all()
+        ),
+        "intervals must be finite, ascending and disjoint",
+    )
+    demand(
+        bool(np.abs(flat[[0, -1]]).max() <= spec.half_width + slack),
+        f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {spec.half_width:g} m",
+    )
+    if spec.window is not None:
+        x0, x1, z1, size = spec.window
+        demand(
+            bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
+            f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
+        )
+    if spec.vertices is not None:
+        vertices = np.asarray(spec.vertices, dtype=float)
+        demand(
+            bool(
+                vertices.ndim == 1
+                and len(vertices) > 1
+                and np.isfinite(vertices).all()
+                and (np.diff(vertices) > 0.0).all()
+                and np.abs(vertices[[0, -1]] - flat[[0, -1]]).max() <= slack
+            ),
+            "vertices must be finite, ascending, and reach from the first interval's start to the "
+            "last one's end",
+        )
+    if spec.interface is not None:
+        demand(
+            bool(0.0 < spec.interface < spec.depth),
+            f"interface is {spec.interface}: between 0 and the depth, {spec.depth:g} m",
+        )

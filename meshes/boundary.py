@@ -1,6 +1,6 @@
-"""Nodes on the sides of the block and on the lines in it that element edges follow.
+"""Vertices on the sides of the block and on the interface of a coating.
 
-Equal edges on the refined intervals, graded elsewhere.
+Edges are equal on the refined ranges and graded elsewhere.
 """
 
 from collections.abc import Callable
@@ -8,28 +8,27 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.coating import LAYERS, core
-from meshes.errors import MeshError
 from meshes.size_field import SizeField
 from meshes.size_law import edges_per_size, own_vertices, wanted_size
 
-# An interval may miss a whole number of edges by this part of an edge (rounding of its ends).
+# A refined range may miss a whole number of edges by this part of an edge (rounding of its ends).
 WHOLE_EDGES_TOLERANCE = 1e-6
-# Shorter leftovers beside an interval would force elements much finer than asked for.
+# A shorter rest beside a refined range would force elements much finer than asked for.
 LEAST_LEFTOVER = 0.45
 
 
 def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
     """Points (n + 1,) from start to end [m], start < end, spaced by size(t) [m].
 
-    The density 1/size is integrated over cells short enough for a law whose slope is at most one;
-    each edge then holds the same share of the integral, so that neighbours fit together.
+    The density 1/size is integrated over cells short enough for a law of slope one at most; each
+    edge holds the same part of the integral.
     """
     cells = np.array([start, end])
     while True:
         middle = 0.5 * (cells[:-1] + cells[1:])
-        # In other units of length a tie must not fall the other way.
+        # The slack keeps ties the same in other units of length.
         long = np.diff(cells) > (0.25 + 1e-9) * size(middle)
         if not long.any():
             break
@@ -44,9 +43,9 @@ def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarra
 
 
 def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
-    """Number of equal edges on the refined interval [start, end] [m].
+    """Number of equal edges on the refined range [start, end] [m].
 
-    Raises MeshError when it is not a whole number of surface_size.
+    Raises MeshError if its length is not a whole number of surface_size.
     """
     lengths = (end - start) / spec.surface_size
     whole = max(1, round(lengths))
@@ -59,8 +58,7 @@ def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
 
 
 def refined_nodes(spec: BlockSpec) -> list[np.ndarray]:
-    """Ascending x [m] of the vertices on each refined interval, or on all of them together where
-    spec gives its own."""
+    """Ascending x [m] of the vertices on each refined range; spec.vertices are one range."""
     if spec.vertices is not None:
         return [own_vertices(spec)]
     return [
@@ -83,10 +81,9 @@ def sizes_on(
 
 
 def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
-    """Ascending x [m] of the vertices on z = 0, both corners included.
+    """Ascending x [m] of the vertices on z = 0, with both corners and the ends of a coating's core.
 
-    With a coating the ends of its core are among them. Raises MeshError when an interval is not a
-    whole number of edges or leaves too short a rest.
+    Raises MeshError if a refined range is not a whole number of edges or leaves too short a rest.
     """
 
     size = sizes_on(spec, sizes, 1, 0.0)
@@ -99,7 +96,7 @@ def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
             return
         if rest < LEAST_LEFTOVER * h:
             raise MeshError(
-                f"only {rest:g} m are left at x = {to:g} m between refined intervals or to the "
+                f"only {rest:g} m are left at x = {to:g} m between refined ranges or to the "
                 f"side of the block: leave none, or at least {LEAST_LEFTOVER} of an edge ({h:g} m)"
             )
         pieces.append(graded_line(reached, to, size)[:-1])
@@ -121,14 +118,14 @@ def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Outline:
-    """Straight lines of nodes, and the regions between them that are to be filled.
+    """Straight lines of vertices, and the regions between them that gmsh fills.
 
     points   (n, 2) [m]
     lines    numbers of the points on each line, both ends included
     regions  lines around each region, in the positive sense of rotation in (x, z): k + 1 for line
-             k as it runs, -(k + 1) against that
-    beside   x [m] of the columns of the coating left (descending) and right (ascending) of its
-             core, or none; each begins at the core's end
+             k in its own direction, -(k + 1) against it
+    beside   x [m] of the columns of a coating's stretched layers, from each end of its core
+             outwards
     """
 
     points: np.ndarray
@@ -138,9 +135,9 @@ class Outline:
 
 
 def outline(spec: BlockSpec, sizes: SizeField | None = None) -> Outline:
-    """The four sides of the block; with a coating its core and what lies below it.
+    """The four sides of the block; with a coating its core and the rest of the block below it.
 
-    Where `sizes` ask for smaller elements than the size law, beside spec.vertices, they prevail.
+    Outside the refined ranges `sizes` prevail where they are smaller than the size law's.
     """
 
     def flat(x: np.ndarray, z: float) -> np.ndarray:

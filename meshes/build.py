@@ -1,4 +1,4 @@
-"""From a BlockSpec to the flat, graded, second-order mesh; gmsh runs in a process of its own."""
+"""Builds the flat, graded, second-order mesh of a BlockSpec with gmsh in a separate process."""
 
 import io
 import json
@@ -13,76 +13,18 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from meshes.block import BlockMesh, BlockSpec
+from meshes.block import BlockMesh, BlockSpec, MeshError, add_midpoints, check_spec, double_areas
 from meshes.boundary import outline
-from meshes.errors import MeshError
-from meshes.layers import with_layers
-from meshes.quality import check_quality, cross
-from meshes.second_order import add_midpoints
+from meshes.coating import with_layers
+from meshes.quality import check_quality
 from meshes.size_field import SizeField
 
 WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
-# Under mpirun the mesher must not take itself for one more rank.
+# Without these variables of mpirun, gmsh does not start MPI as one more rank.
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
-# Decimals kept of lengths in units of surface_size: the same block in other units gives the same
-# mesh, whatever the last bit of a quotient.
+# Decimals of lengths in units of surface_size: the same block in other units gives the same mesh,
+# whatever the last bit of a quotient.
 UNIT_DECIMALS = 9
-
-
-def check_spec(spec: BlockSpec) -> None:
-    """Raises MeshError, naming the field and what is allowed, when spec cannot be meshed."""
-
-    def demand(holds: bool, what: str) -> None:
-        if not holds:
-            raise MeshError(f"block: {what}")
-
-    for name in ("half_width", "depth", "surface_size"):
-        value = getattr(spec, name)
-        demand(np.isfinite(value) and value > 0.0, f"{name} is {value}: a positive length in m")
-    demand(0.0 <= spec.growth <= 0.5, f"growth is {spec.growth}: allowed is 0 to 0.5")
-    intervals = np.asarray(spec.intervals, dtype=float)
-    demand(
-        intervals.ndim == 2 and intervals.shape[1] == 2 and len(intervals) > 0,
-        f"intervals have the shape {intervals.shape}: at least one row of two ends is needed",
-    )
-    flat = intervals.ravel()
-    slack = 1e-9 * spec.surface_size
-    demand(
-        bool(
-            np.isfinite(flat).all()
-            and (np.diff(flat) >= -slack).all()
-            and (np.diff(intervals, axis=1) > 0.0).all()
-        ),
-        "intervals must be finite, ascending and disjoint",
-    )
-    demand(
-        bool(np.abs(flat[[0, -1]]).max() <= spec.half_width + slack),
-        f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {spec.half_width:g} m",
-    )
-    if spec.window is not None:
-        x0, x1, z1, size = spec.window
-        demand(
-            bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
-            f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
-        )
-    if spec.vertices is not None:
-        vertices = np.asarray(spec.vertices, dtype=float)
-        demand(
-            bool(
-                vertices.ndim == 1
-                and len(vertices) > 1
-                and np.isfinite(vertices).all()
-                and (np.diff(vertices) > 0.0).all()
-                and np.abs(vertices[[0, -1]] - flat[[0, -1]]).max() <= slack
-            ),
-            "vertices must be finite, ascending, and reach from the first interval's start to the "
-            "last one's end",
-        )
-    if spec.interface is not None:
-        demand(
-            bool(0.0 < spec.interface < spec.depth),
-            f"interface is {spec.interface}: between 0 and the depth, {spec.depth:g} m",
-        )
 
 
 def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
@@ -115,8 +57,8 @@ def field_in_units(sizes: SizeField, unit: float) -> SizeField:
 def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
     """Arrays that the gmsh process returns for the arrays of task.
 
-    Raises MeshError when the process fails, crashes, or takes longer than timeout [s]. The process
-    never outlives this call, whatever ends it.
+    Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
+    ends with this call, whatever happens.
     """
     archive = io.BytesIO()
     np.savez(archive, **task)
@@ -167,8 +109,7 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
     """Raises MeshError unless the triangles (m, 3) use all vertices and fill the area [m^2]."""
     used = np.zeros(len(vertices), dtype=bool)
     used[triangles] = True
-    corner = vertices[triangles]
-    filled = 0.5 * np.abs(cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])).sum()
+    filled = 0.5 * np.abs(double_areas(vertices, triangles)).sum()
     if not (used.all() and abs(filled - area) <= 1e-9 * area):
         raise MeshError(
             f"gmsh failed: its {len(triangles)} triangles cover {filled / area:.6g} of the block "
@@ -179,26 +120,26 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
 def build_block(
     spec: BlockSpec, *, sizes: SizeField | None = None, timeout: float = 600.0
 ) -> BlockMesh:
-    """Flat second-order mesh of the block, refined on spec.intervals (see meshes.size_law).
+    """Flat second-order mesh of the block, with element sizes by `meshes.size_law`.
 
-    Every interval carries equal edges of surface_size (a whole fraction of it where a thin block,
-    a fine window or a thin coating needs less), with nodes at both ends; elsewhere the size grows
-    continuously. Points on the sides and on the line below a coating are exact. The same spec
-    gives the same mesh to the last bit, and a spec in other units of length the same triangles.
+    Each refined range has vertices at both ends and equal edges of surface_size, or of a whole
+    fraction of it where a thin block, a fine window or a thin coating needs less. Points on the
+    sides and on the interface are exact. The same spec gives the same mesh to the last bit, and a
+    spec in other units of length the same triangles.
 
-    sizes   from an earlier mesh of the same block: where they are smaller than the size law's,
-            outside the refined intervals, elements follow them
-    timeout [s] bounds the run of gmsh
+    sizes     from an earlier mesh of the same block: outside the refined ranges elements follow
+              them where they are smaller than the size law's
+    timeout   of gmsh [s]
 
-    Raises MeshError when spec cannot be meshed, when gmsh fails, crashes or runs out of time, and
-    when the elements are not fit to solve on.
+    Raises MeshError if spec cannot be meshed, if gmsh fails, crashes or runs out of time, or if the
+    elements are not fit to solve on.
     """
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size
     given, small = outline(spec, sizes), in_units(spec, unit)
     field = None if sizes is None else field_in_units(sizes, unit)
-    # The quotients of the given points can fall on either side of the last decimal kept.
+    # Rounding can give the scaled block another number of points.
     scaled = outline(small, field).points
     if scaled.shape != given.points.shape:
         scaled = given.points / unit

@@ -1,14 +1,12 @@
 """Surface vertices graded towards the ends of contact.
 
-At an end of contact the pressure goes like the square root of the distance d to it. Between
-vertices d_k = L (k / n)^2 a piecewise-linear pressure follows it with an error that falls like
-n^-2, equal edges with one that falls like their length. Around d inside, and outside an end, the
-edges are as long as
+At the distance d from an end of contact the pressure varies as sqrt(d). A piecewise-linear pressure
+on the vertices d_k = L (k / n)^2 has an error proportional to n^-2, one on equal edges an error
+proportional to their length. The edges at the distance d inside and outside an end have the lengths
 
-    max(e, sqrt(4 e d - e^2)),    e + g_o d,
+    max(e, sqrt(4 e d - e^2)),    e + g_o d,     e = L / n^2;
 
-e = L / n^2 the shortest one; in the gap between two patches the smaller of both ends' counts. A
-rough surface may want edges inside no longer than some length.
+between two patches the smaller of the two lengths. Edges inside may be limited on a rough surface.
 
     L    half of the patch [m]        n    edges on it        g_o  OUTWARD, slope of the edges
 """
@@ -17,17 +15,17 @@ import numpy as np
 
 from meshes.boundary import graded_line
 
-# Outside the edges follow a gap that opens like d^(3/2). Steeper leaves the outer elements too
-# coarse for the stress beside the contact, flatter costs hats that nothing touches.
+# Outside the gap opens as d^(3/2). With a steeper law the outer elements are too coarse for the
+# stress beside the contact; a flatter one costs hats without contact.
 OUTWARD = 0.35
-# Ground beyond the outermost ends, in half-patches: an end found wrong still lies on it.
+# Range beyond the outermost ends, in half-patches: the solved end still lies in it.
 BEYOND = 0.25
 
 
 def graded_vertices(patches: np.ndarray, edges: np.ndarray, largest: float = np.inf) -> np.ndarray:
     """Ascending x [m] of vertices for predicted contact on `patches` (k, 2) [m], disjoint.
 
-    edges (k,): how many on half of each patch, but for those that are shortened to `largest` [m].
+    edges (k,) is the number on half of each patch without the limit `largest` [m] on their length.
     Every end of a patch is a vertex.
     """
     half = 0.5 * (patches[:, 1] - patches[:, 0])
@@ -41,7 +39,7 @@ def graded_vertices(patches: np.ndarray, edges: np.ndarray, largest: float = np.
             square = 4.0 * e * np.minimum(x - start, end - x) - e**2
             return np.minimum(np.sqrt(np.maximum(square, e**2)), largest)
 
-        # An even number of edges, alike on both sides of the middle.
+        # Symmetric about the middle.
         left = graded_line(start, 0.5 * (start + end), size)
         return np.concatenate([left, (start + end) - left[-2:0:-1], [end]])
 

@@ -1,7 +1,6 @@
-"""Runs gmsh in a process of its own: `python -m meshes.gmsh_worker`.
+"""Runs gmsh, which can crash its process, in a separate one: `python -m meshes.gmsh_worker`.
 
-Reads one npz archive on standard input, writes one on standard output, complains on standard
-error. gmsh can crash or abort the process that it lives in; here it takes nothing with it.
+Reads one npz archive from standard input, writes one to standard output, errors to standard error.
 """
 
 import ctypes
@@ -29,7 +28,7 @@ OPTIONS = {
     "Mesh.RandomFactor": 1e-12,
     # Delaunay: half the time of the frontal variant, the same least angle.
     "Mesh.Algorithm": 5,
-    # The sides are ours; only the inside is to be filled, and our node tags are to stay.
+    # gmsh fills the inside only; nodes on the sides are given and keep their tags.
     "Mesh.MeshOnlyEmpty": 1,
     "Mesh.Renumber": 0,
     "Mesh.MeshSizeExtendFromBoundary": 0,
@@ -41,7 +40,7 @@ OPTIONS = {
 
 
 def die_with_parent() -> None:
-    """Have the kernel stop this process when its parent goes, however that ends (Linux)."""
+    """Have the kernel stop this process when its parent ends (Linux)."""
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
@@ -60,7 +59,7 @@ def fill(
     """
     import gmsh
 
-    # No configuration files: the mesh must not depend on what a user set for the gmsh program.
+    # The mesh must not depend on a user's configuration files of gmsh.
     gmsh.initialize(argv=[], readConfigFiles=False, interruptible=False)
     for name, value in OPTIONS.items():
         gmsh.option.setNumber(name, value)
@@ -105,7 +104,7 @@ def fill(
 
 
 def show_sizes(gmsh: ModuleType, sizes: SizeField) -> None:
-    """Have gmsh interpolate the sizes: it hands them to the callback, at 2 us each."""
+    """Have gmsh interpolate the sizes for the callback, at 2 us each."""
     corner = np.column_stack([sizes.vertices, np.zeros(len(sizes.vertices))])[sizes.triangles]
     values = np.hstack([corner.transpose(0, 2, 1).reshape(-1, 9), sizes.size[sizes.triangles]])
     view = gmsh.view.add("sizes")
@@ -132,7 +131,7 @@ def read_task(
 def main() -> int:
     die_with_parent()
     result = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # whatever gmsh prints must not end in the archive
+    os.dup2(2, 1)  # what gmsh prints must not get into the archive
     try:
         vertices, triangles = fill(*read_task(sys.stdin.buffer.read()))
     except Exception as error:

@@ -13,33 +13,18 @@ Nomenclature
 
 import numpy as np
 
-from meshes.block import BlockMesh
+from meshes.block import EDGES, BlockMesh, MeshError, cross, real_points, unique_edges
 from meshes.coating import stretched
-from meshes.errors import MeshError
-from meshes.second_order import EDGES, unique_edges
 
 LEAST_ANGLE_DEGREES = 15.0
-# A slope m shears the elements at the surface; that much is the profile's, not the mesher's.
+# The slope of a profile shears the elements at the surface, whatever the mesher does.
 LEAST_ANGLE_ROUGH_DEGREES = 5.0
 LEAST_JACOBIAN = 0.05
 LARGEST_SIZE_JUMP = 4.0
 
 
-def real_points(mesh: BlockMesh) -> np.ndarray:
-    """Points (n, 2) [m] of the real, possibly rough or bent, body."""
-    return mesh.points + mesh.shift
-
-
-def cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """u_x v_z - u_z v_x over the last axis."""
-    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
-
-
 def corner_tangents(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Tangents (m, 3, 2) [m] of both edges that leave each corner, in the sense of rotation.
-
-    Scaled to the whole edge: for straight edges they are the edges themselves.
-    """
+    """Tangents (m, 3, 2) [m] of both edges at each corner; for straight edges the edges."""
     corner = points[triangles[:, :3]]
     middle = points[triangles[:, 3:]]
     ahead, behind = np.roll(corner, -1, axis=1), np.roll(corner, 1, axis=1)
@@ -51,8 +36,8 @@ def corner_tangents(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarr
 def corner_jacobians(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Determinant (m, 3) [m^2] of each element's map at its corners.
 
-    When only heights are moved and x stays affine in the element, the determinant is linear in the
-    reference coordinates: positive at the corners is positive everywhere.
+    Where only heights move and x stays affine in the element, the determinant is linear in the
+    reference coordinates: if positive at the corners, it is positive everywhere.
     """
     return cross(*corner_tangents(points, triangles))
 
@@ -98,16 +83,13 @@ def measure(points: np.ndarray, triangles: np.ndarray) -> dict:
 
 
 def quality_of(mesh: BlockMesh) -> dict:
-    """Figures of the real body's mesh; the shape of a coating's stretched layers is not in them."""
+    """Quality figures of the real body's mesh, without the shapes of stretched elements."""
     judged = mesh.triangles[~stretched(mesh)]
     return measure(real_points(mesh), judged) | {"elements": len(mesh.triangles)}
 
 
 def check_quality(mesh: BlockMesh, *, least_angle_degrees: float = LEAST_ANGLE_DEGREES) -> dict:
-    """Quality figures of the real body's mesh.
-
-    Raises MeshError, with the figure and the place, when the mesh is not fit to solve on.
-    """
+    """`quality_of` the mesh. Raises MeshError, with the place, if it is not fit to solve on."""
     figures = quality_of(mesh)
     bounds = [
         ("least_jacobian", LEAST_JACOBIAN, 1.0),

@@ -1,35 +1,35 @@
-"""Which ground to refine: the patches of predicted contact, made fit for a mesh.
+"""Ranges of the surface to refine, from the patches of predicted contact.
 
-The refined intervals lie on a grid origin + n * surface_size, so that a pressure grid of the same
-origin finds its nodes there. Ground that the finite-element contact reaches beyond them is added
-to the patches, and the body is meshed and solved again.
+Their ends lie on a grid origin + n * surface_size, so that a pressure grid of the same origin finds
+mesh vertices there. Where the finite-element contact reaches beyond them, that contact is added to
+the patches, and the body is meshed and solved again.
 """
 
 import numpy as np
 
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
-# Intervals with fewer edges between them are joined: the elements could hardly grow in the gap.
+# Ranges with fewer edges between them are joined: the elements could hardly grow in the gap.
 MERGE_EDGES = 4
-# What is left between the last grid point and the side of the body, in edges, at least.
+# Least rest between the last grid point and the side of the body, in edges.
 LEAST_REST = 0.5
 # Ends this close to a grid point, in edges, lie on it (rounding).
 ON_GRID = 1e-6
 
 
-def merge(ground: np.ndarray, gap: float = 0.0) -> np.ndarray:
-    """Disjoint ascending stretches (k, 2) that cover ground (n, 2), no gap between them <= gap."""
-    ground = np.asarray(ground, dtype=float).reshape(-1, 2)
-    ground = ground[np.argsort(ground[:, 0], kind="stable")]
-    if len(ground) == 0:
-        return ground
-    reached = np.maximum.accumulate(ground[:, 1])
-    first = np.concatenate([[True], ground[1:, 0] - reached[:-1] > gap])
+def merge(ranges: np.ndarray, gap: float = 0.0) -> np.ndarray:
+    """Disjoint ascending ranges (k, 2) that cover ranges (n, 2), no gap between them <= gap."""
+    ranges = np.asarray(ranges, dtype=float).reshape(-1, 2)
+    ranges = ranges[np.argsort(ranges[:, 0], kind="stable")]
+    if len(ranges) == 0:
+        return ranges
+    reached = np.maximum.accumulate(ranges[:, 1])
+    first = np.concatenate([[True], ranges[1:, 0] - reached[:-1] > gap])
     last = np.concatenate([first[1:], [True]])
-    return np.column_stack([ground[first, 0], reached[last]])
+    return np.column_stack([ranges[first, 0], reached[last]])
 
 
-def refined_intervals(
+def refined_ranges(
     patches: np.ndarray,
     surface_size: float,
     *,
@@ -37,14 +37,12 @@ def refined_intervals(
     half_width: float,
     origin: float = 0.0,
 ) -> np.ndarray:
-    """Stretches (k, 2) of the surface [m] to refine, for a BlockSpec of that surface_size.
+    """Ranges (k, 2) of the surface [m] to refine, for a BlockSpec of that surface_size.
 
     patches (n, 2) [m] is the predicted contact, in any order, overlapping or of no length. Each is
-    widened by margin [m] on both sides, its ends moved outwards to the grid origin +
-    n * surface_size, cut off at the sides of the body |x| = half_width [m] (leaving at least half
-    an edge there or none), and joined with others fewer than MERGE_EDGES edges away.
-
-    Raises MeshError when a patch lies outside the body or no edge fits into the body.
+    widened by margin [m] on both sides, extended to the grid origin + n * surface_size, cut off at
+    the sides of the body |x| = half_width [m], and joined with others fewer than MERGE_EDGES edges
+    away. Raises MeshError if a patch lies outside the body or no edge fits into it.
     """
     patches = np.asarray(patches, dtype=float).reshape(-1, 2)
     if len(patches) == 0:
@@ -71,18 +69,17 @@ def refined_intervals(
 
 
 def last_grid_point(edges_to_side: float) -> float:
-    """Largest whole n <= edges_to_side that leaves no rest, or one of LEAST_REST at least."""
+    """Largest whole n <= edges_to_side that leaves no rest or at least LEAST_REST."""
     last = np.floor(edges_to_side + ON_GRID)
     rest = edges_to_side - last
     return float(last if abs(rest) <= ON_GRID or rest >= LEAST_REST else last - 1)
 
 
-def reaches_unrefined(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:
-    """Ground (k, 2) [m] that is in contact but not refined; no rows when all of it is refined.
+def unrefined_contact(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:
+    """Ranges (k, 2) [m] that are in contact but not refined.
 
-    active (n,) [m] holds the places in contact, each of which loads the surface up to reach [m] on
-    both sides (the pitch of hat pressures). intervals (m, 2) [m] are disjoint and ascending;
-    touching ones count as one. Add the result to the patches and refine again.
+    active (n,) [m] are the places in contact, each of which loads the surface up to reach [m] on
+    both sides (the pitch of hat pressures). intervals (m, 2) [m] are the refined ranges.
     """
     intervals = merge(intervals)
     active = np.unique(np.asarray(active, dtype=float))

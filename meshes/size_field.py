@@ -1,20 +1,18 @@
 """Wanted element sizes on an earlier mesh of the same block, for the next one.
 
-A solution tells how large its elements should have been. Their sizes are spread to the vertices,
-never growing faster than a given slope, and gmsh interpolates them while it fills the block.
+An error estimate of a solution says how large its elements should have been. These sizes go to the
+vertices, limited in their growth, and gmsh interpolates them while it fills the block.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from meshes.block import BlockMesh
+from meshes.block import BlockMesh, double_areas, unique_edges
 from meshes.coating import stretched
-from meshes.quality import cross
-from meshes.second_order import unique_edges
 
-# From one mesh to the next an element shrinks or grows to this part or multiple of its size: an
-# estimate from far off the wanted size says no more than that.
+# An element shrinks or grows at most by this factor from one mesh to the next: estimates from far
+# off the wanted size are not trusted beyond it.
 MOST_CHANGE = 4.0
 
 
@@ -39,21 +37,19 @@ class SizeField:
 
 
 def triangle_sizes(mesh: BlockMesh) -> np.ndarray:
-    """Edge (m,) [m] of the equilateral triangle as large as each element of the flat block.
+    """Edge (m,) [m] of the equilateral triangle with the area of each element of the flat block.
 
-    Of a coating's stretched layers the length along the surface.
+    For a coating's stretched layers their length along the surface.
     """
-    corner = mesh.points[mesh.triangles[:, :3]]
-    double_area = cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    size = np.sqrt(2.0 / np.sqrt(3.0) * double_area)
-    return np.where(stretched(mesh), np.ptp(corner[..., 0], axis=1), size)
+    size = np.sqrt(2.0 / np.sqrt(3.0) * double_areas(mesh.points, mesh.triangles))
+    length = np.ptp(mesh.points[mesh.triangles[:, :3], 0], axis=1)
+    return np.where(stretched(mesh), length, size)
 
 
 def size_field(mesh: BlockMesh, factor: np.ndarray, growth: float) -> SizeField:
-    """Sizes for the next mesh: each element's own times its `factor` (m,), within MOST_CHANGE.
+    """Sizes for the next mesh: each element's size times its `factor` (m,), within MOST_CHANGE.
 
-    A vertex takes the geometric mean of its elements, weighted alike; then no size is larger
-    than that of any other vertex plus `growth` times the way there along edges.
+    A vertex takes the geometric mean of its elements, limited to grow by `growth` along edges.
     """
     wanted = triangle_sizes(mesh) * np.clip(factor, 1.0 / MOST_CHANGE, MOST_CHANGE)
     number, corner = np.unique(mesh.triangles[:, :3], return_inverse=True)
@@ -67,8 +63,7 @@ def size_field(mesh: BlockMesh, factor: np.ndarray, growth: float) -> SizeField:
 def limited(
     vertices: np.ndarray, triangles: np.ndarray, size: np.ndarray, growth: float
 ) -> np.ndarray:
-    """Sizes (n,) [m] cut down until none exceeds a neighbour's by more than growth times their
-    distance."""
+    """Sizes (n,) [m], none larger than a neighbour's by more than growth times their distance."""
     (one, other), size = unique_edges(triangles)[0].T, size.copy()
     rise = growth * np.linalg.norm(vertices[one] - vertices[other], axis=1)
     while True:

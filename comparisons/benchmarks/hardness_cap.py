@@ -48,8 +48,8 @@ from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
+from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_plastic import press_plastically
-from fem.nonlinear.return_mapping import ElasticPlastic
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

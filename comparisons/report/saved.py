@@ -128,7 +128,7 @@ def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
     run = outcome.runs.get("finite_element")
     if run is None:
         return outcome
-    from meshes.store import read_msh
+    from meshes.msh_file import read_msh
 
     try:
         mesh = read_msh(path)

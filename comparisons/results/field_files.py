@@ -189,7 +189,7 @@ def vtk_grid(field: FieldFile, called: Callable[[str], str] = str) -> "vtkUnstru
 def _write_msh(path: Path, field: FieldFile) -> None:
     import meshio
 
-    from meshes.store import append_comment
+    from meshes.msh_file import append_comment
 
     tags = [np.ones(len(field.cells), dtype=int)]
     content = meshio.Mesh(

@@ -23,7 +23,7 @@ from comparisons.results.result_json import result_of
 from comparisons.runs.write import write_files
 from comparisons.scenes.scene import ResolvedScene
 from fem.solver.mumps import FemError
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 # What lies behind of a run's time when its levels and when all is solved, without effects to
 # compute and with some: for what is told alone.

@@ -48,7 +48,7 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
 
 def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
     """mesh.msh: what was solved on, and the scene that it was made for."""
-    from meshes.store import append_comment, write_msh
+    from meshes.msh_file import append_comment, write_msh
 
     write_msh(mesh, path)
     scene = outcome.problem.scene

@@ -44,16 +44,15 @@ from scipy.sparse import csr_matrix
 from analytic.material import Material
 from fem import compat
 from fem.body.coating import Coating, coated_triangles, relative_constants
-from fem.body.locate import Locator
-from fem.body.nodes import Nodes, at_points, nodes_of
+from fem.body.nodes import Nodes, at_points, conditions_of, domain_of, nodes_of, own_numbers
 from fem.body.support import Support, held_components
 from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
-from fem.body.transfer import conditions_of, domain_of, own_numbers
+from fem.body.triangle import Locator
 from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
 from fem.solver.mumps import FemError, SymmetricFactor, release_with
-from meshes.block import BlockMesh
-from meshes.quality import corner_jacobians, real_points
+from meshes.block import BlockMesh, real_points
+from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     import ufl

@@ -1,25 +1,32 @@
-"""The displacement's nodes on a mesh of six-node triangles: numbered by topology, then placed.
+"""The displacement's nodes on a mesh of six-node triangles, in our numbering and in dolfinx's.
 
-Degree 1: the vertices, in the order of their numbers among the mesh's points. Degree 2: the mesh's
-points. Degree 3: the vertices, two nodes to an edge, one to a triangle, in that order. Whatever
-the degree, an element has the shape that its six points give it.
+Degree 1: the vertices, in the order of the mesh's points. Degree 2: the mesh's points. Degree 3:
+the vertices, two nodes to an edge, one to a triangle, in that order. The six points of an element
+give its shape, whatever the degree.
 """
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fem import compat
 from fem.body.triangle import lattice, reference_nodes, shapes
-from meshes.block import BlockMesh
-from meshes.quality import real_points
-from meshes.second_order import EDGES
+from meshes.block import EDGES, BlockMesh, real_points
+
+if TYPE_CHECKING:
+    from dolfinx.fem import DirichletBC, FunctionSpace
+    from dolfinx.mesh import Mesh
+    from mpi4py.MPI import Comm
+
+# dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
+GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
 
 
 @dataclass(frozen=True)
 class Nodes:
-    """Where displacements are known.
+    """Nodes of displacements of a degree 1, 2 or 3.
 
-    degree     1, 2 or 3
     elements   (m, 3, 6 or 10) numbers of each triangle's nodes, in the order of `fem.body.triangle`
     flat       (n, 2) [m] places in the flat block
     real       (n, 2) [m] places in the real body
@@ -54,7 +61,7 @@ def nodes_of(mesh: BlockMesh, degree: int) -> Nodes:
 def _cubic(corner: np.ndarray, vertices: int, middle: np.ndarray) -> np.ndarray:
     """Nodes (m, 10) of cubic triangles, from their vertices and their edges' midpoints (m, 3).
 
-    The two nodes of an edge are numbered from its vertex of the lower number to the other one.
+    The two nodes of an edge are numbered from its vertex of lower number to the other one.
     """
     edges, edge = np.unique(middle, return_inverse=True)
     start = corner[:, EDGES]
@@ -79,13 +86,65 @@ def at_points(nodes: Nodes, mesh: BlockMesh, value: np.ndarray) -> np.ndarray:
 
 
 def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray:
-    """Where another program's nodes of each triangle are among ours.
+    """Places (m, k) of another program's nodes of each triangle among ours.
 
     order      (k, 3) barycentric coordinates of its nodes times the degree, in its order
-    vertices   (m, 3) the place among our vertices of each of its vertices
-    Returns (m, k) places among our nodes of the triangle.
+    vertices   (m, 3) place among our vertices of each of its vertices
     """
     base = (degree + 1) ** np.arange(3)
     place = np.empty(base.sum() * degree + 1, dtype=np.int64)
     place[lattice(degree) @ base] = np.arange(len(lattice(degree)))
     return place[base[vertices] @ order.T]
+
+
+def domain_of(comm: "Comm", mesh: BlockMesh, degree: int) -> tuple["Mesh", np.ndarray]:
+    """dolfinx mesh, and the number of our mesh point (k,) for each of its input points.
+
+    `degree` is that of the elements' edges: 1, from the vertices alone, or 2. The first process
+    has the whole mesh; dolfinx distributes it.
+    """
+    if degree == 2:
+        cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(mesh.points))
+    else:
+        number, cells = np.unique(mesh.triangles[:, :3], return_inverse=True)
+        cells = cells.reshape(-1, 3)
+    points = real_points(mesh)[number]
+    if comm.rank > 0:
+        cells, points = cells[:0], points[:0]
+    return compat.triangle_mesh(comm, cells, points, degree), number
+
+
+def own_numbers(
+    mesh: BlockMesh, domain: "Mesh", number: np.ndarray, space: "FunctionSpace", numbering: Nodes
+) -> tuple[np.ndarray, np.ndarray]:
+    """Our triangle of each of dolfinx's cells, our node of each of its nodes (owned, then ghosts).
+
+    By topology, not by coordinates: dolfinx gives each cell's input number, and the order of its
+    vertices among ours gives that of its nodes.
+    """
+    cell = compat.input_cells(domain)
+    corner = number[compat.input_points(domain)[compat.cell_points(domain)[:, :3]]]
+    vertices = np.argmax(corner[:, :, None] == mesh.triangles[cell, None, :3], axis=2)
+    order = in_order(numbering.degree, compat.node_order(numbering.degree), vertices)
+    index_map = space.dofmap.index_map
+    node = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
+    node[compat.cell_nodes(space)] = np.take_along_axis(numbering.elements[cell], order, axis=1)
+    return cell, node
+
+
+def conditions_of(space: "FunctionSpace", held: np.ndarray) -> list["DirichletBC"]:
+    """Zero displacement of the `held` components (nodes, 2)."""
+    from dolfinx import fem
+
+    def nodes(which: np.ndarray) -> np.ndarray:
+        return np.flatnonzero(which).astype(np.int32)
+
+    zero, whole = compat.real_number(0.0), held.all(axis=1)
+    both = fem.dirichletbc(np.full(2, zero), nodes(whole), compat.conditioned(space))
+    conditions = [both]
+    for axis in (0, 1):
+        alone = 2 * nodes(held[:, axis] & ~whole) + axis
+        if len(alone):  # the space of one component is slow to build
+            part = compat.conditioned(space.sub(axis))
+            conditions.append(fem.dirichletbc(zero, alone, part))
+    return conditions

@@ -1,17 +1,22 @@
-"""Triangles with displacements of degree 1, 2 or 3: shape functions, their slopes, quadrature.
+"""Triangles of degree 1, 2 or 3: shape functions, their slopes, quadrature, location of points.
 
 Node order is gmsh's: vertices (0, 0), (1, 0), (0, 1), then the inner nodes of edges 01, 12, 20,
 each in that direction and evenly spaced, then the inside. A shape function is a product of one
 factor for each of the three barycentric coordinates (Zienkiewicz and Taylor, The Finite Element
-Method, 5th ed., section 8.8). Many elements or points at once.
-Nomenclature: (r, s) reference coordinates, J = d(x, z)/d(r, s) Jacobian.
+Method, 5th ed., section 8.8). (r, s) are reference coordinates, J = d(x, z)/d(r, s) the Jacobian.
 """
 
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-# Number of nodes of a triangle to its degree.
+# A point this far outside an element, in reference coordinates, still belongs to it.
+ROUNDING = 1e-9
+NEWTON_STEPS = 4
+WALK_STEPS = 40
+
+# Degree of a triangle by its number of nodes.
 DEGREE = {3: 1, 6: 2, 10: 3}
 
 # Edge middles' rule in the interior: degree 2, and where stresses of quadratic displacements
@@ -70,8 +75,7 @@ def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
 def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
     """d values / d(x, z) (m, q, c, 2) of nodal values (m, k, c) at reference points (q, 2).
 
-    `nodes` (m, 6, 2) are the coordinates of the element's own nodes; the number k of `values`
-    tells their degree, which need not be the same.
+    `nodes` (m, 6, 2) are the coordinates of the element's nodes; `values` may have another degree.
     """
     slope = slopes(at, DEGREE[values.shape[1]])
     reference = np.einsum("mak,qad->mqkd", values, slope, optimize=True)
@@ -81,8 +85,7 @@ def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarr
 def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Reference points (q, 2) and weights (q,) of a rule on the triangle, q = count^2.
 
-    Gauss's rule on the square, collapsed: exact for degree 2 count - 2, that of the product of
-    two slopes on straight elements of degree `count`.
+    Gauss's rule on the square, collapsed: exact for degree 2 count - 2.
     """
     line, weight = np.polynomial.legendre.leggauss(count)
     line, weight = 0.5 * (1.0 + line), 0.5 * weight
@@ -106,3 +109,71 @@ def _factors(part: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
         slope.append((slope[m] * rest + value[m] * degree) / (m + 1))
         value.append(value[m] * rest / (m + 1))
     return np.stack(value, axis=-1), np.stack(slope, axis=-1)
+
+
+class Locator:
+    """Finds the elements that hold points, on a mesh of `points` (n, 2) and `triangles` (m, 6).
+
+    From the element with the nearest centre it walks across the edge behind which the point lies,
+    rarely more than twice on a graded mesh. Newton's method inverts the map of `curved` elements.
+    """
+
+    def __init__(self, points: np.ndarray, triangles: np.ndarray, curved: bool) -> None:
+        self.points, self.triangles, self.curved = points, triangles, curved
+
+    @cached_property
+    def _centres(self) -> cKDTree:
+        return cKDTree(self.points[self.triangles[:, :3]].mean(axis=1))
+
+    @cached_property
+    def _neighbours(self) -> np.ndarray:
+        """Element (m, 3) across the edge opposite to each vertex; -1 outside."""
+        count = len(self.triangles)
+        middle = self.triangles[:, [4, 5, 3]].ravel()
+        order = np.argsort(middle, kind="stable")
+        twin = np.flatnonzero(np.diff(middle[order]) == 0)
+        across = np.full(3 * count, -1)
+        across[order[twin]] = order[twin + 1] // 3
+        across[order[twin + 1]] = order[twin] // 3
+        return across.reshape(count, 3)
+
+    def __call__(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Element (k,), -1 outside the body, and reference coordinates (k, 2) of points (k, 2)."""
+        _, element = self._centres.query(where)
+        at = self._reference(element, where)
+        lost = np.flatnonzero(_outside(at) > ROUNDING)
+        for _ in range(WALK_STEPS):
+            behind = np.argmin(_vertex_weights(at[lost]), axis=1)
+            element_next = self._neighbours[element[lost], behind]
+            lost, element_next = lost[element_next >= 0], element_next[element_next >= 0]
+            if len(lost) == 0:
+                break
+            element[lost] = element_next
+            at[lost] = self._reference(element_next, where[lost])
+            lost = lost[_outside(at[lost]) > ROUNDING]
+        element[_outside(at) > ROUNDING] = -1
+        return element, at
+
+    def _reference(self, element: np.ndarray, where: np.ndarray) -> np.ndarray:
+        """Reference coordinates (k, 2) of points (k, 2) in given elements (k,)."""
+        nodes = self.points[self.triangles[element]]
+        sides = np.stack([nodes[:, 1] - nodes[:, 0], nodes[:, 2] - nodes[:, 0]], axis=-1)
+        at = np.linalg.solve(sides, (where - nodes[:, 0])[..., None])[..., 0]
+        if not self.curved:
+            return at
+        for _ in range(NEWTON_STEPS):
+            # Far outside an element its quadratic map may fold.
+            at = np.clip(at, -1.0, 2.0)
+            miss = where - np.einsum("kac,ka->kc", nodes, shapes(at))
+            jacobian = np.einsum("kac,kad->kcd", nodes, slopes(at))
+            at = at + np.linalg.solve(jacobian, miss[..., None])[..., 0]
+        return at
+
+
+def _vertex_weights(at: np.ndarray) -> np.ndarray:
+    return np.column_stack([1.0 - at[:, 0] - at[:, 1], at[:, 0], at[:, 1]])
+
+
+def _outside(at: np.ndarray) -> np.ndarray:
+    """Distance (k,) of points from the reference triangle, in barycentric coordinates."""
+    return -np.minimum(_vertex_weights(at).min(axis=1), 0.0)

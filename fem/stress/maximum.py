@@ -14,7 +14,7 @@ import numpy as np
 from analytic.stress_state import Extremum
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import shapes
-from fem.stress.nodes import MaterialStress
+from fem.stress.recovery import MaterialStress
 from fem.stress.stress import NodalStress, within
 
 Quantity = Callable[[MaterialStress], np.ndarray]

@@ -10,8 +10,7 @@ from fem.body.elasticity import ElasticBody
 from fem.body.surface import Direction, straight_down
 from fem.body.triangle import shapes
 from fem.stress.kinks import Kinks
-from fem.stress.nodes import MaterialStress, StressNodes, stress_nodes
-from fem.stress.recovery import recovered_stress
+from fem.stress.recovery import MaterialStress, StressNodes, recovered_stress, stress_nodes
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 

@@ -8,13 +8,14 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
-from comparisons.studies.verify.blocks import forces_of, structured
 from fem.body.elasticity import ElasticBody, Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
+from meshes.structured import structured
 
 
 def graded_grid(extent: float, first: float, ratio: float) -> np.ndarray:

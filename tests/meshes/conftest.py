@@ -5,9 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from meshes.block import BlockMesh
+from meshes.block import BlockMesh, real_points
 from meshes.build import build_block
-from meshes.quality import real_points
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
-from meshes.errors import MeshError
 from meshes.quality import corner_jacobians
-from meshes.second_order import unique_edges
 from meshes.size_law import largest_size, surface_edge, wanted_size
 
 WINDOW = (-1.2, 1.0, 0.6, 0.04)

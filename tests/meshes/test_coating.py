@@ -5,15 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
-from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched
-from meshes.errors import MeshError
-from meshes.estimate import estimate_unknowns
-from meshes.layers import with_layers
-from meshes.second_order import unique_edges
-from meshes.size_law import largest_size, surface_edge, wanted_size
-from meshes.store import read_msh, write_msh
+from meshes.coating import LAYERS, LONGEST, core, layer_size, stretched, with_layers
+from meshes.msh_file import read_msh, write_msh
+from meshes.size_law import estimate_unknowns, largest_size, surface_edge, wanted_size
 
 BLOCK = BlockSpec(20.0, 40.0, np.array([[-1.5, 1.5]]), 0.05)
 PATCHES = np.array([[-1.5, -1.0], [0.3, 1.1]])

@@ -6,14 +6,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import EDGES, BlockSpec, MeshError, real_points
 from meshes.build import build_block
-from meshes.disc import bent, sagitta
-from meshes.errors import MeshError
-from meshes.quality import corner_jacobians, real_points
-from meshes.roughen import roughen
-from meshes.second_order import EDGES
-from meshes.store import read_msh, write_msh
+from meshes.msh_file import read_msh, write_msh
+from meshes.quality import corner_jacobians
+from meshes.real_shape import bent, roughen, sagitta
 
 RADIUS = 2.0
 

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.build import build_block
-from meshes.errors import MeshError
-from meshes.estimate import estimate_unknowns, integral_of_power
+from meshes.size_law import estimate_unknowns, integral_of_power
 
 
 def spec(half_width, depth, intervals, size, growth=0.2, window=None):

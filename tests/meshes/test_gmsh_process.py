@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 from meshes import build
-from meshes.block import BlockSpec
-from meshes.errors import MeshError
+from meshes.block import BlockSpec, MeshError
 
 ROOT = Path(__file__).resolve().parents[2]
 SPEC = BlockSpec(20.0, 40.0, np.array([[-1.0, 1.0]]), 0.1)

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.build import build_block
-from meshes.errors import MeshError
-from meshes.estimate import estimate_unknowns
-from meshes.size_law import local_edges, own_vertices, point_size, wanted_size
-from meshes.store import read_msh, write_msh
+from meshes.msh_file import read_msh, write_msh
+from meshes.size_law import estimate_unknowns, local_edges, own_vertices, point_size, wanted_size
 
 TOWARDS_ONE = 1.0 - np.linspace(1.0, 0.0, 13) ** 2
 BEYOND = 1.0 + np.cumsum(np.geomspace(0.007, 0.1, 9))

@@ -3,10 +3,8 @@
 import numpy as np
 import pytest
 
-from meshes.block import BlockMesh, BlockSpec
-from meshes.errors import MeshError
+from meshes.block import BlockMesh, BlockSpec, MeshError, add_midpoints, unique_edges
 from meshes.quality import check_quality, corner_jacobians, measure
-from meshes.second_order import add_midpoints, unique_edges
 
 SPEC = BlockSpec(1.0, 1.0, np.array([[0.0, 1.0]]), 0.1)
 HIGH = np.sqrt(3.0) / 2.0

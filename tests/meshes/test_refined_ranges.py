@@ -5,10 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.boundary import top_nodes
-from meshes.errors import MeshError
-from meshes.refined_ranges import MERGE_EDGES, merge, reaches_unrefined, refined_intervals
+from meshes.refined_ranges import MERGE_EDGES, merge, refined_ranges, unrefined_contact
 
 SIZE = 0.125
 
@@ -20,7 +19,7 @@ ground = st.lists(
 
 
 def refined(patches, margin=0.0, half_width=10.0, origin=0.0):
-    return refined_intervals(
+    return refined_ranges(
         np.array(patches), SIZE, margin=margin, half_width=half_width, origin=origin
     )
 
@@ -89,7 +88,7 @@ def test_mirrored_patches_give_mirrored_intervals():
 
 def test_other_units_same_intervals():
     patches = np.array([[-3.03, -2.1], [0.4, 0.7]])
-    small = refined_intervals(1e-6 * patches, 1e-6 * SIZE, margin=1e-7, half_width=1e-5)
+    small = refined_ranges(1e-6 * patches, 1e-6 * SIZE, margin=1e-7, half_width=1e-5)
     assert small == pytest.approx(1e-6 * refined(patches, 0.1), rel=1e-12)
 
 
@@ -122,19 +121,19 @@ INTERVALS = np.array([[0.0, 1.0], [1.0, 2.0], [5.0, 6.0]])
     ],
 )
 def test_contact_beyond_the_refined_ground_is_found(active, reach, missed):
-    ground = reaches_unrefined(INTERVALS, np.array(active), reach)
+    ground = unrefined_contact(INTERVALS, np.array(active), reach)
     assert ground == pytest.approx(np.array(missed).reshape(-1, 2))
 
 
 def test_everything_is_missed_when_nothing_was_refined():
-    assert np.array_equal(reaches_unrefined(np.empty((0, 2)), np.array([1.0]), 0.5), [[0.5, 1.5]])
+    assert np.array_equal(unrefined_contact(np.empty((0, 2)), np.array([1.0]), 0.5), [[0.5, 1.5]])
 
 
 def test_refining_what_was_missed_settles_it():
     patches = np.array([[0.0, 1.0]])
     active = np.array([0.5, 1.3, 1.4, 3.0])
     first = refined(patches)
-    missed = reaches_unrefined(first, active, SIZE)
+    missed = unrefined_contact(first, active, SIZE)
     assert len(missed) > 0
     second = refined(np.concatenate([patches, missed]))
-    assert len(reaches_unrefined(second, active, SIZE)) == 0
+    assert len(unrefined_contact(second, active, SIZE)) == 0

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError, add_midpoints, real_points
 from meshes.build import build_block
-from meshes.errors import MeshError
-from meshes.quality import corner_jacobians, real_points
-from meshes.roughen import carried_down, roughen, spread_bulges
-from meshes.second_order import add_midpoints
+from meshes.quality import corner_jacobians
+from meshes.real_shape import carried_down, roughen, spread_bulges
 
 WAVELENGTH = 0.5
 EDGES_PER_WAVE = 20

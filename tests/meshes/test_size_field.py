@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, unique_edges
 from meshes.build import build_block
-from meshes.second_order import unique_edges
 from meshes.size_field import MOST_CHANGE, SizeField, limited, size_field, triangle_sizes
 
 PLAIN = BlockSpec(10.0, 10.0, np.array([[-1.0, 1.0]]), 0.125, 0.5)

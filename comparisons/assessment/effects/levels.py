@@ -26,7 +26,7 @@ from comparisons.models.level import Level, ModelRun, Window
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from fem.solver.mumps import FemError
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 if TYPE_CHECKING:
     from comparisons.models.finite_element.bodies import BodyStore

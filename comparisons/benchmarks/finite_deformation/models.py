@@ -18,7 +18,7 @@ from fem.stress.maximum import maximum
 from fem.stress.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
-from meshes.roughen import roughen
+from meshes.real_shape import roughen
 
 GROWTH = 0.2
 DEEPEST = 2.0  # of where the largest shear is looked for

@@ -3,7 +3,7 @@
 The half-plane predicts where the body is touched. Hats and element edges are graded towards the
 ends of contact (`meshes.end_grading`), the body is meshed and pressed; the solution then says
 where the ends are, how far its hats are from a smooth pressure on each patch
-(`analytic.contact.smooth_pressure`) and which elements err (`fem.stress.error_indicator`), and the
+(`analytic.contact.smooth_pressure`) and which elements err (`fem.stress.recovery`), and the
 next round takes hats and elements by that. Inside, the half-plane of the same hats leads the
 iteration.
 
@@ -35,7 +35,7 @@ from comparisons.models.finite_element.adaptive_refinement import (
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
-from fem.stress.error_indicator import energy_errors
+from fem.stress.recovery import energy_errors
 from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.end_grading import graded_vertices

@@ -10,7 +10,7 @@ from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.nonlinear.press_plastic import INCREMENTS
-from fem.solver.cost import estimate
+from fem.solver.mumps import factorisation_seconds
 
 # Peak of the whole process, measured at 2.8 to 3.2 kB from 95 000 to 655 000 unknowns.
 BYTES_PER_UNKNOWN = 3200.0
@@ -27,7 +27,7 @@ FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
 def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray) -> Expected:
     """For contact predicted on `patches` (k, 2) [m]."""
     unknowns = expected_unknowns(problem, plan, refinement, patches)
-    factorisation, _ = estimate(unknowns)
+    factorisation = factorisation_seconds(unknowns)
     others = MESH_SECONDS + ASSEMBLY_SECONDS + REST_SECONDS
     seconds, memory = START_SECONDS + factorisation + others * unknowns, BYTES_PER_UNKNOWN
     settings = problem.scene.finite_element

@@ -25,7 +25,7 @@ from comparisons.models.level import Level, Window
 from comparisons.models.nearest_operator import nearest_operator
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
-from meshes.refined_ranges import merge, reaches_unrefined
+from meshes.refined_ranges import merge, unrefined_contact
 
 MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
 
@@ -78,7 +78,7 @@ def finite_element_level(
         with stages.stage("contact", "finite elements: contact"):
             solution = solve_mutual(operator, model, weighted_gap, grid.weights, constraints, start)
         touching = grid.x[solution.pressure > 0.0]
-        missed = reaches_unrefined(refined, touching, reach=grid.pitch)
+        missed = unrefined_contact(refined, touching, reach=grid.pitch)
         if len(missed) == 0:
             break
         ground, start = merge(np.vstack([ground, missed])), solution.pressure

@@ -9,10 +9,9 @@ from comparisons.common.errors import SceneError
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from meshes.block import BlockMesh, BlockSpec
-from meshes.disc import bent
-from meshes.estimate import estimate_unknowns
-from meshes.refined_ranges import refined_intervals
-from meshes.roughen import roughen
+from meshes.real_shape import bent, roughen
+from meshes.refined_ranges import refined_ranges
+from meshes.size_law import estimate_unknowns
 
 EDGES_PER_HAT = 1  # element edges under each pressure element
 MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
@@ -53,12 +52,12 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
         reach = edge * np.ceil((np.abs(problem.extent).max() + LAYER_REACH * depth) / edge)
     if scene.width is not None:
         reach = 0.5 * scene.width
-    intervals = refined_intervals(
+    intervals = refined_ranges(
         patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
     )
     if is_rough(problem):  # real wherever pressure may come to act
         ground = np.array([problem.extent])
-        intervals = refined_intervals(ground, edge, margin=0.0, half_width=reach)
+        intervals = refined_ranges(ground, edge, margin=0.0, half_width=reach)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
         raise SceneError(
             f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "

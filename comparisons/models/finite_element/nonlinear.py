@@ -17,9 +17,8 @@ from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.stress import DeformedSurface, Pressed
 from comparisons.models.problem import Problem
 from fem.nonlinear.finite_deformation import press_finitely
-from fem.nonlinear.plastic_fields import plastic_fields
-from fem.nonlinear.press_plastic import press_plastically
-from fem.nonlinear.return_mapping import ElasticPlastic
+from fem.nonlinear.plasticity import ElasticPlastic
+from fem.nonlinear.press_plastic import plastic_fields, press_plastically
 from fem.solver.mumps import FemError
 from fem.stress.stress import at_mesh_points
 

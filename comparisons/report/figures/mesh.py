@@ -10,7 +10,7 @@ import numpy as np
 from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
-from meshes.quality import real_points
+from meshes.block import real_points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -20,7 +20,7 @@ from comparisons.studies.cost.page import cost_page
 from comparisons.studies.cost.reference import error_of, references
 from comparisons.studies.cost.result import Cost, content_of
 from comparisons.studies.cost.study import Row, Study, measured_study
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 FILES = ("cost.json", "cost.html")
 GOES_ON = "measured settings are kept, the same command goes on from there"

@@ -19,7 +19,7 @@ from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.model_error import PointError, model_errors
 from comparisons.studies.maps.request import Asked
 from fem.solver.communicator import each_alone
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 SOLVED, FAILED = "solved", "failed"
 NOT_CONVERGED = "the contact did not converge"

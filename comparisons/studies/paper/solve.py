@@ -22,7 +22,7 @@ from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.paper.claims.readings import SLIDING
 from comparisons.studies.paper.surfaces import SCENES
 from fem.solver.mumps import FemError
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 FRICTIONS = (0.0, SLIDING)
 LEVELS = 3  # as many as an uncertainty needs; finer ones would take the command minutes

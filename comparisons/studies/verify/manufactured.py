@@ -16,12 +16,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from analytic.material import Material
-from comparisons.studies.verify.blocks import forces_of, structured
 from comparisons.studies.verify.checks import Check, order_check
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
+from fem.body.exact_load import forces_of
 from fem.body.triangle import gradients, jacobians, shapes
 from meshes.block import BlockMesh
-from meshes.roughen import roughen
+from meshes.real_shape import roughen
+from meshes.structured import structured
 
 Made = tuple[BlockMesh, Coating | None]
 

@@ -22,7 +22,7 @@ from comparisons.studies.verify.pairs import FEWEST, Solved, solved
 from comparisons.studies.verify.result import Failure, Verification
 from comparisons.studies.verify.scenes import ExactScene, exact_scenes
 from comparisons.studies.verify.table import verify_page
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 DEGREES = (1, 2, 3)
 SCENES_SHARE = 0.9  # of the time, for what is told

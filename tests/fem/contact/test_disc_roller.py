@@ -22,7 +22,7 @@ from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
-from meshes.disc import bent, sagitta
+from meshes.real_shape import bent, sagitta
 
 MATERIAL = Material(1.0, 0.3)
 EDGES = 40  # a half-width

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from fem.body.elasticity import Support
-from fem.contact.newton import RESIDUAL
-from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.nonlinear import RESIDUAL, solve_nonlinear_contact, state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
 

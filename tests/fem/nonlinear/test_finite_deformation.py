@@ -12,7 +12,7 @@ from fem.body.elasticity import Support, elastic_body
 from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact import nonlinear as nonlinear_contact
-from fem.contact.newton import RESIDUAL
+from fem.contact.nonlinear import RESIDUAL
 from fem.contact.rigid_roller import CurrentContact, circle, parabola
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import press, press_finitely
@@ -20,7 +20,7 @@ from fem.solver.mumps import FemError
 from fem.stress.stress import nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
-from meshes.roughen import roughen
+from meshes.real_shape import roughen
 
 POISSON = 0.3
 MODULUS = 1.0 / (1.0 - POISSON**2)

@@ -10,9 +10,8 @@ from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import state_at_rest
 from fem.contact.terms import LinearContact
-from fem.nonlinear.plastic_newton import newton_by_contacts
-from fem.nonlinear.plasticity import PlasticBody
-from fem.nonlinear.return_mapping import ElasticPlastic
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody
+from fem.nonlinear.press_plastic import newton_by_contacts
 from meshes.block import BlockSpec
 from meshes.build import build_block
 

@@ -8,10 +8,8 @@ from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
-from fem.nonlinear.plastic_fields import plastic_fields
-from fem.nonlinear.plasticity import PlasticBody
-from fem.nonlinear.press_plastic import PlasticContact, _let_go, press_plastically
-from fem.nonlinear.return_mapping import ElasticPlastic, PlasticState
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
+from fem.nonlinear.press_plastic import PlasticContact, _let_go, plastic_fields, press_plastically
 from fem.solver.mumps import FemError
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -253,7 +251,7 @@ def test_loads_without_sense_are_refused(small, loads):
 def test_load_beyond_the_limit_is_said(small, monkeypatch):
     """All hats together bear 2.97 Y, or 12 % more on so coarse a mesh; 3.5 Y is asked for."""
     monkeypatch.setattr(
-        "fem.nonlinear.plastic_newton.MOST_ITERATIONS", 12
+        "fem.nonlinear.press_plastic.MOST_LINEAR_CONTACTS", 12
     )  # others here take up to 8
     scene = Scene(small, 7.2, 6, reach=1.5)
     with pytest.raises(FemError, match=r"load of .* N/m was not reached"):

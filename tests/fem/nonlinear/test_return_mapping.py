@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.material import Material
-from fem.nonlinear.return_mapping import ElasticPlastic, PlasticState, flow, stress
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, flow, stress
 
 E, Y = 200.0, 0.5
 HARDENING = [0.0, 15.0]

@@ -18,7 +18,7 @@ import numpy as np
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from meshes.block import BlockMesh, BlockSpec
-from meshes.second_order import add_midpoints
+from meshes.block import add_midpoints
 
 vertices = np.array([[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [0.0, 1.0], [1.0, 1.0]])
 corners = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])

@@ -9,8 +9,7 @@ import pytest
 from scipy.sparse import diags, kronsum
 
 from fem.solver import mumps
-from fem.solver.direct_solve import solve_once
-from fem.solver.mumps import FemError, SymmetricFactor
+from fem.solver.mumps import FemError, SymmetricFactor, factorisation_seconds, solve_once
 
 
 def petsc(dense):
@@ -98,3 +97,10 @@ def test_systems_that_are_solved_once_leave_nothing_behind(symmetric):
     for _ in range(10):
         solve_once(matrix, np.ones(matrix.shape[0]), symmetric)
     assert resident() - before < 10e6
+
+
+@pytest.mark.parametrize("unknowns", [1_000, 100_000, 1_000_000])
+def test_time_grows_a_little_faster_than_the_unknowns(unknowns):
+    seconds = factorisation_seconds(unknowns)
+    assert 2.0 * seconds < factorisation_seconds(2 * unknowns) < 2.0**1.5 * seconds
+    assert 0.001 < seconds < 60.0

@@ -6,8 +6,7 @@ import pytest
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.body.triangle import collapsed_gauss, jacobians, shapes
-from fem.stress.error_indicator import energy_errors
-from fem.stress.recovery import element_stress, recovered_stress
+from fem.stress.recovery import element_stress, energy_errors, recovered_stress
 
 BODY = Material(3.0, 0.3)
 

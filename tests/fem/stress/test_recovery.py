@@ -6,8 +6,7 @@ import pytest
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.triangle import GAUSS, jacobians, reference_nodes, slopes
-from fem.stress.nodes import stress_nodes
-from fem.stress.recovery import element_stress, recovered_stress
+from fem.stress.recovery import element_stress, recovered_stress, stress_nodes
 
 MATERIAL = Material(3.0, 0.3)
 

@@ -18,7 +18,7 @@ from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import at_mesh_points, evaluate, nodal_stress, within
 from meshes.block import BlockSpec
 from meshes.build import build_block
-from meshes.roughen import roughen
+from meshes.real_shape import roughen
 
 MATERIAL = Material(1.0, 0.3)
 X, Z = np.meshgrid(np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.5, 41))

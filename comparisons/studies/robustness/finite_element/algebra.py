@@ -25,7 +25,7 @@ from fem.body.elasticity import ElasticBody, elastic_body
 from fem.body.support import Support
 from fem.body.surface import hat_forces
 from meshes.block import BlockMesh
-from meshes.roughen import roughen
+from meshes.real_shape import roughen
 
 BONDED, EVEN = Support("bonded", "fixed"), Support("frictionless", "rollers")
 STEEL = Material(207e9, 0.3)

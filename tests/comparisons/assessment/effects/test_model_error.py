@@ -16,7 +16,7 @@ from comparisons.common.model_names import MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables
-from meshes.errors import MeshError
+from meshes.block import MeshError
 
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

@@ -14,9 +14,9 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
 from fem.solver.mumps import FemError
-from meshes.block import BlockMesh
+from meshes.block import BlockMesh, real_points
 from meshes.build import build_block
-from meshes.quality import real_points, scaled_jacobians
+from meshes.quality import scaled_jacobians
 
 HALF_WIDTH = 100e-6
 # A wave whose troughs are where the contact ends: a boundary that comes back to the mean line

@@ -1,12 +1,19 @@
-"""From the flat mesh to that of the rough body: the top side moved onto the profile.
+"""The real body's mesh from the flat block's: a rough top side, or the sector of a disc.
 
-The shift of the surface is carried into the depth as the solution w of
+Rough body: the shift of the top side continues into the depth as the solution w of
 
     d2w/dx2 + STRETCH^2 d2w/dz2 = 0,   w = -height on top, w = 0 at the base, free on the sides,
 
-by linear elements on the same triangles. A component of wavelength L dies off over the depth
-STRETCH L / (2 pi), before the growing elements get too coarse for it, and squeezes the mesh by its
-slope / STRETCH: a profile steeper than one can still be followed.
+by linear elements on the same triangles. A component of wavelength L decays over the depth
+STRETCH L / (2 pi), where the elements still resolve it, and compresses them by its slope / STRETCH
+only, so that profiles steeper than one are possible.
+
+Disc of radius R [m], z into the roller as for every body, with the sagitta s(x) [m]:
+
+    (x, z)  ->  (x (1 - z/R), s(x) + (R - s(x)) z/R),     s(x) = R - sqrt(R^2 - x^2).
+
+The surface goes to the roller's circle without moving along x, lines of equal depth to circles
+about the centre (0, R), upright lines to the rays to the centre.
 """
 
 import time
@@ -17,16 +24,13 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from meshes.block import BlockMesh
-from meshes.errors import MeshError
+from meshes.block import BlockMesh, MeshError, real_points, unique_edges
 from meshes.quality import (
     LEAST_ANGLE_ROUGH_DEGREES,
     check_quality,
     corner_jacobians,
-    real_points,
     scaled_jacobians,
 )
-from meshes.second_order import unique_edges
 
 STRETCH = 3.0
 
@@ -34,13 +38,13 @@ STRETCH = 3.0
 def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> BlockMesh:
     """Mesh of the body bounded by z = -height(x), from the mesh of the flat block.
 
-    height takes x (n,) [m] anywhere on the top side and gives (n,) [m], positive out of the body.
-    Every node of the top side, vertex or midpoint, comes to lie on the profile: the outer edges are
-    parabolas, the two others of a triangle at the top bulge a little with them, the rest stay
-    straight. No point moves in x; the base and the planes of the sides stay where they are.
+    height takes x (n,) [m] on the top side and gives (n,) [m], positive out of the body. All nodes
+    of the top side lie on the profile: its edges are parabolas, the two other edges of their
+    triangles curve a little with them, the rest stay straight. No point moves along x; the base and
+    the sides stay in place.
 
-    Raises MeshError when height is not finite, when an element is turned inside out (naming where
-    and how steep the profile is there), or when the elements are not fit to solve on.
+    Raises MeshError if height is not finite, if an element is inverted (with the place and the
+    slope there), or if the elements are not fit to solve on.
     """
     began, seconds = time.perf_counter(), mesh.quality.get("seconds", 0.0)
     flat, triangles = mesh.points, mesh.triangles
@@ -69,9 +73,9 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
 
 
 def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -> np.ndarray:
-    """Shift (n,) [m] of all vertices (n, 2) from that of the vertices on the top side."""
+    """Shift w (n,) [m] of all vertices (n, 2) from that of the vertices on the top side."""
     corner = points[triangles]
-    # Opposite edges give the gradients of the linear shape functions.
+    # The edge opposite to a vertex gives the gradient of its linear shape function.
     edge = np.roll(corner, -2, axis=1) - np.roll(corner, -1, axis=1)
     area = 0.5 * (edge[:, 0, 0] * edge[:, 1, 1] - edge[:, 0, 1] * edge[:, 1, 0])
     gradient = np.stack([-edge[..., 1], STRETCH * edge[..., 0]], axis=-1)
@@ -94,11 +98,11 @@ def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -
 
 
 def spread_bulges(bulge: np.ndarray, edge_of: np.ndarray) -> np.ndarray:
-    """Extra shift (e,) [m] of the inner edges' midpoints beside top edges that bulge (e,) [m].
+    """Extra shift (e,) [m] of the midpoints of inner edges beside top edges that bulge (e,) [m].
 
-    A bulge b of the top edge s changes the determinant at its two corners by 2 b s and not at the
-    third. The fraction f of it on the other two edges makes that (1 - 2 f) and 2 f of it: equal at
-    f = 1/4, which lets an edge too coarse for the profile bulge twice as far before it inverts.
+    A bulge b of a top edge of length s changes the determinant at its two ends by 2 b s, and not at
+    the third corner. With the fraction f of b on the other two edges these changes are (1 - 2 f)
+    and 2 f of it. They are equal at f = 1/4, which allows twice the bulge before inversion.
     """
     extra = np.zeros(len(bulge))
     for k in range(3):
@@ -108,7 +112,7 @@ def spread_bulges(bulge: np.ndarray, edge_of: np.ndarray) -> np.ndarray:
 
 
 def refuse_inverted(points: np.ndarray, triangles: np.ndarray, top: np.ndarray) -> None:
-    """Raises MeshError at the worst element when any determinant is not positive."""
+    """Raises MeshError, with the worst element, if any determinant is not positive."""
     inverted = corner_jacobians(points, triangles).min(axis=1) <= 0.0
     if not inverted.any():
         return
@@ -122,3 +126,39 @@ def refuse_inverted(points: np.ndarray, triangles: np.ndarray, top: np.ndarray) 
         f"x = {x:g} m, z = {z:g} m, where the profile's slope is {slope[at]:.2g} (steepest of all "
         f"{slope.max():.2g}): refine the surface there or smooth the profile"
     )
+
+
+# At 0.8 R the surface's elements are stretched to 5/3 of their length along x, at 0.7 R of depth
+# they are squeezed to 0.3 of it.
+WIDEST, DEEPEST = 0.8, 0.7
+
+
+def sagitta(x: np.ndarray, radius: float) -> np.ndarray:
+    """s(x) [m] of a circle of `radius` [m], without cancellation."""
+    return x**2 / (radius + np.sqrt(radius**2 - x**2))
+
+
+def bent(mesh: BlockMesh, radius: float) -> BlockMesh:
+    """Mesh of the sector of a disc of `radius` [m], from the mesh of a flat block.
+
+    Its base is the inner arc and its sides are rays; a support holds them like the block's. All
+    nodes are mapped exactly: edges are parabolas through three points of their true curves.
+
+    Raises MeshError if the block is not flat, has a half-width above WIDEST or a depth above
+    DEEPEST of the radius, or if the elements are not fit to solve on.
+    """
+    half, depth = mesh.spec.half_width, mesh.spec.depth
+    if mesh.shift.any():
+        raise MeshError("only a flat block can be bent to a disc")
+    for name, length, share in (("half-width", half, WIDEST), ("depth", depth, DEEPEST)):
+        if not length <= share * radius:
+            raise MeshError(
+                f"a block of {name} {length:g} m cannot be bent to a disc of radius {radius:g} m: "
+                f"at most {share:g} of the radius is allowed, {share * radius:g} m"
+            )
+    x, z = mesh.points.T
+    toward = z / radius
+    shift = np.column_stack([-x * toward, sagitta(x, radius) * (1.0 - toward)])
+    disc = replace(mesh, shift=shift)
+    quality = check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return replace(disc, quality=mesh.quality | quality)

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from fem.body.locate import Locator
-from fem.body.triangle import shapes
-from meshes.quality import real_points
+from fem.body.triangle import Locator, shapes
+from meshes.block import real_points
 
 
 def wavy(x):

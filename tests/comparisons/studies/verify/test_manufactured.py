@@ -6,7 +6,6 @@ Requirement, reference and tolerances: `comparisons.studies.verify.manufactured`
 import numpy as np
 import pytest
 
-from comparisons.studies.verify.blocks import forces_of
 from comparisons.studies.verify.manufactured import (
     BODIES,
     BODY,
@@ -17,7 +16,8 @@ from comparisons.studies.verify.manufactured import (
 )
 from fem.body import elasticity
 from fem.body.elasticity import Support, elastic_body
-from meshes.roughen import roughen
+from fem.body.exact_load import forces_of
+from meshes.real_shape import roughen
 
 
 @pytest.mark.parametrize("degree", [1, 2, 3])

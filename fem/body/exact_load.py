@@ -1,6 +1,6 @@
-"""Structured blocks with exact control of the nodes, and nodal forces of exact stress fields.
+"""Nodal forces of exact stress fields, for the method of manufactured solutions.
 
-Written apart from the code that they judge: plain loops over nodes, a quadrature of their own.
+Loops over nodes and a quadrature of its own: independent of the surface loads that it tests.
 """
 
 from collections.abc import Callable
@@ -9,8 +9,7 @@ import numpy as np
 
 from fem.body.nodes import nodes_of
 from fem.body.triangle import edge_shapes, jacobians, shapes
-from meshes.block import BlockMesh, BlockSpec
-from meshes.second_order import add_midpoints
+from meshes.block import BlockMesh
 
 # Degree 8 on the square, collapsed onto the triangle: far more than what is tested.
 LINE, LINE_WEIGHT = np.polynomial.legendre.leggauss(5)
@@ -21,35 +20,6 @@ AREA_WEIGHT = np.array(
 )
 
 
-def structured(
-    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
-) -> BlockMesh:
-    """Two triangles to each cell of the grid x (ascending) by z (from 0 to the depth).
-
-    `height` moves the top by -height(x), fading linearly to the bottom; `seed` jitters the inner
-    vertices by up to a fifth of a cell so that no symmetry hides a mistake.
-    """
-    grid_x, grid_z = np.meshgrid(x, z, indexing="ij")
-    if seed is not None:
-        random = np.random.default_rng(seed)
-        for grid, line, axis in ((grid_x, x, 0), (grid_z, z, 1)):
-            cell = np.gradient(line)[1:-1]
-            cell = cell[:, None] if axis == 0 else cell[None, :]
-            grid[1:-1, 1:-1] += 0.2 * cell * random.uniform(-1, 1, grid[1:-1, 1:-1].shape)
-    vertices = np.column_stack([grid_x.ravel(), grid_z.ravel()])
-    number = np.arange(len(vertices)).reshape(grid_x.shape)
-    a, b, c, d = (
-        n.ravel() for n in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
-    )
-    corners = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
-    points, triangles = add_midpoints(vertices, corners)
-    shift = np.zeros_like(points)
-    if height is not None:
-        shift[:, 1] = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
-    spec = BlockSpec(0.5 * (x[-1] - x[0]), z[-1], np.array([[x[0], x[-1]]]), float(x[1] - x[0]))
-    return BlockMesh(points, triangles, shift, spec)
-
-
 def quadratic(t: np.ndarray) -> np.ndarray:
     """Shape functions (3, q) on an edge: start, middle, end."""
     return np.stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
@@ -58,10 +28,10 @@ def quadratic(t: np.ndarray) -> np.ndarray:
 def forces_of(
     mesh: BlockMesh, stress: Callable, body_force: Callable | None = None, degree: int = 2
 ) -> np.ndarray:
-    """Nodal forces (n, 2) of the boundary tractions of a stress field (and of a body force).
+    """Nodal forces (n, 2) [N/m] of the boundary tractions of a stress field and of a body force.
 
-    `stress`(x, z) gives sx, sz, txz; `body_force`(x, z) two components; `degree` is that of the
-    displacement. Written apart from the code under test: plain loops over nodes, own quadrature.
+    `stress`(x, z) gives sx, sz, txz [Pa]; `body_force`(x, z) two components [N/m^3]; `degree` is
+    that of the displacement.
     """
     elements = nodes_of(mesh, degree).elements
     points = mesh.points + mesh.shift

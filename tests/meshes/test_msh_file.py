@@ -9,12 +9,10 @@ import meshio
 import numpy as np
 import pytest
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
-from meshes.errors import MeshError
-from meshes.quality import real_points
-from meshes.roughen import roughen
-from meshes.store import read_msh, side_lines, write_msh
+from meshes.msh_file import read_msh, side_lines, write_msh
+from meshes.real_shape import roughen
 
 SPEC = BlockSpec(3.0, 4.0, np.array([[-1.0, 0.0], [0.5, 1.0]]), 0.1, 0.3, (-1.0, 1.0, 0.5, 0.1))
 

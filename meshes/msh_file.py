@@ -1,7 +1,7 @@
 """The real body's mesh as a gmsh file (MSH 2.2, binary), and back.
 
-Format 2.2 because meshio, gmsh and what builds on them read it alike, named sides included;
-meshio writes 4.1 with empty extents of the entities.
+meshio, gmsh and programs that use them all read format 2.2 with its named sides; meshio writes 4.1
+with empty extents of the entities.
 """
 
 import json
@@ -12,17 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from meshes.block import BlockMesh, BlockSpec
-from meshes.errors import MeshError
-from meshes.quality import quality_of, real_points
-from meshes.second_order import unique_edges
+from meshes.block import BlockMesh, BlockSpec, MeshError, real_points, unique_edges
+from meshes.quality import quality_of
 
 # Physical groups: name, tag; the sides are curves, the body is a surface.
 SIDES = {"top": 1, "right": 2, "bottom": 3, "left": 4}
 BODY = ("body", 5)
-# Node data: the vector to subtract to come back to the flat block, its third component zero.
-SHIFT = "shift"
-# Readers skip sections that they do not know.
+SHIFT = "shift"  # node data: BlockMesh.shift with a third component of zero
 SPEC_SECTION = "BlockSpec"
 
 
@@ -38,9 +34,9 @@ def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
 
 
 def write_msh(mesh: BlockMesh, path: str | Path) -> None:
-    """Saves the real body, its named sides and what is needed to read it back.
+    """Saves the real body, its named sides and its BlockSpec; the file is complete or absent.
 
-    Coordinates are x, z, 0 [m], z into the body. The file appears whole or not at all.
+    Coordinates are x, z, 0 [m], z into the body.
     """
     import meshio
 
@@ -75,18 +71,17 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
 
 
 def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
-    """Say more of a gmsh file in a section that all readers skip: a line "name: text" each."""
+    """Adds lines "name: text" to a gmsh file in a section that all readers skip."""
     lines = "".join(f"{name}: {' '.join(text.split())}\n" for name, text in notes.items())
     with Path(path).open("a", encoding="utf-8") as file:
         file.write(f"$Comments\n{lines}$EndComments\n")
 
 
 def read_msh(path: str | Path) -> BlockMesh:
-    """The mesh that write_msh saved: same real points, shift, triangles and spec.
+    """The mesh that write_msh saved, with points of the flat block to rounding.
 
-    Points of the flat block come back within the rounding of points + shift - shift; those of a
-    rough top side are exact. A shift of one component, as files of former versions hold it, is one
-    in z. Raises MeshError when the file is not one of write_msh.
+    A shift of one component, from files of former versions, is one in z. Raises MeshError if
+    write_msh did not write the file.
     """
     import meshio
 
@@ -107,16 +102,16 @@ def _three_components(vectors: np.ndarray) -> np.ndarray:
 
 
 def read_spec(path: Path) -> BlockSpec:
-    """The BlockSpec kept at the end of the file."""
+    """The BlockSpec at the end of the file."""
     start = f"\n${SPEC_SECTION}\n".encode()
     content = path.read_bytes()
     at = content.rfind(start)
     if at < 0:
         raise MeshError(f"{path} holds no block mesh of this program")
-    kept = json.loads(content[at + len(start) :].split(b"\n", 1)[0])
-    window = None if kept["window"] is None else tuple(kept["window"])
-    intervals = np.array(kept["intervals"], dtype=float).reshape(-1, 2)
-    vertices = kept.get("vertices")
+    values = json.loads(content[at + len(start) :].split(b"\n", 1)[0])
+    window = None if values["window"] is None else tuple(values["window"])
+    intervals = np.array(values["intervals"], dtype=float).reshape(-1, 2)
+    vertices = values.get("vertices")
     vertices = None if vertices is None else np.array(vertices, dtype=float)
-    kept |= {"intervals": intervals, "window": window, "vertices": vertices}
-    return BlockSpec(**kept)
+    values |= {"intervals": intervals, "window": window, "vertices": vertices}
+    return BlockSpec(**values)
