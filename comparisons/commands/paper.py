@@ -28,7 +28,7 @@ def _paper(out: Path | None, as_json: bool) -> int:
     if as_json:
         show_json(found.as_dict())
     else:
-        from comparisons.studies.paper.table import paper_table
+        from comparisons.studies.paper.claim_table import paper_table
 
         show(paper_table(found))
     return found.exit_status

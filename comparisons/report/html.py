@@ -17,24 +17,31 @@ BAR = re.compile(r"\|(?=τ)")
 STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
-def rendered(template: str, **values: object) -> str:
-    """A template of this folder with values in it; text among them is escaped."""
-    return _environment().get_template(template).render(**values)
+def rendered(template: str | Path, **values: object) -> str:
+    """A template with values in it; text among them is escaped.
+
+    template  one of this folder, or the path of another one, which may use what stands here
+    """
+    path = FOLDER / template
+    return _environment(path.parent).get_template(path.name).render(**values)
 
 
 @cache
-def _environment() -> "Environment":
+def _environment(folder: Path) -> "Environment":
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from markupsafe import Markup
 
     made = Environment(
-        loader=FileSystemLoader(FOLDER),
+        loader=FileSystemLoader([folder, FOLDER]),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
     made.filters["tight"] = tight
-    made.globals["css"] = lambda *names: _joined(names)
+    made.globals["css"] = lambda *names: Markup(
+        "\n".join(made.loader.get_source(made, name)[0] for name in names)
+    )
     return made
 
 
@@ -50,9 +57,3 @@ def inline(name: str) -> "tuple[Markup, str]":
     text = (FOLDER / name).read_text(encoding="utf-8")
     seal = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode("ascii")
     return Markup(text), f"{STYLES}; script-src 'sha256-{seal}'"
-
-
-def _joined(names: tuple[str, ...]) -> "Markup":
-    from markupsafe import Markup
-
-    return Markup("\n".join((FOLDER / name).read_text(encoding="utf-8") for name in names))

@@ -1,21 +1,19 @@
 """paper.html: one page that opens without a network and prints without loss."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import UNKNOWN, given, integer, percent, significant, with_unit
-from comparisons.report.html import FOLDER as REPORT
-from comparisons.report.html import UNIT
+from comparisons.report.html import STYLES, rendered
+from comparisons.report.tables.text import TextTable
 from comparisons.report.tables.problem import load_text
+from comparisons.studies.paper.claim_table import claim_row, summary
 from comparisons.studies.paper.sections import Section
-from comparisons.studies.paper.words import row_of, summary
 
 if TYPE_CHECKING:
     from comparisons.studies.paper.reproduce import Paper
 
-FOLDER = Path(__file__).parent
 SHOWN = {
     "peak_pressure": "peak pressure",
     "contact_length": "contact length",
@@ -26,67 +24,42 @@ SHOWN = {
 }
 
 
-@dataclass(frozen=True)
-class Table:
-    """A table in words."""
-
-    title: str
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
 def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
     """The page."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    from markupsafe import Markup
-
-    environment = Environment(
-        loader=FileSystemLoader(FOLDER),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["tight"] = lambda text: UNIT.sub("\u00a0", text)  # no line ends there
-    css = "\n".join((at / "page.css").read_text(encoding="utf-8") for at in (REPORT, FOLDER))
-    return environment.get_template("page.html.j2").render(
-        css=Markup(css),
+    return rendered(
+        Path(__file__).parent / "paper.html.j2",
+        policy=STYLES,
         summary=summary(paper.judged),
         about=_about(paper),
-        claims=[row_of(each) for each in paper.judged],
+        claims=[claim_row(each) for each in paper.judged],
         sections=sections,
         models=_models(paper),
         surfaces=_surfaces(paper),
         conditions=_conditions(paper),
-        files=(
-            "The stresses stand in the folder subsurf, one file a surface, stress and friction, "
-            "in the manner of the paper's own program: a line a layer, the header last. "
-            "All numbers of this page: paper.json."
-        ),
     )
 
 
 def _about(paper: "Paper") -> list[str]:
-    outcome = next(iter(paper.outcomes.values()))
-    hertz = outcome.problem.hertz
+    problem = next(iter(paper.outcomes.values())).problem
+    hertz = problem.hertz
     return [
         "Bailey and Sayles computed pressures and subsurface stresses of a smooth roller on ground "
         "steel, before and after running and polished. Here the same scenes are solved by the "
-        "half-plane method that they used and by finite elements, their figures drawn again, and "
-        "each claim that a number can judge is judged beside the picture that bears it.",
-        f"All surfaces are pressed by {load_text(outcome.problem)}: Hertz's "
+        "half-plane method that they used and by finite elements, their figures are drawn again, "
+        "and each claim that a number can judge is judged beside the picture that shows it.",
+        f"All surfaces are pressed by {load_text(problem)}: Hertz's "
         f"p₀ = {with_unit(hertz.peak_pressure, 'Pa')} and a = {with_unit(hertz.half_width, 'm')}. "
         "Stresses are over p₀, lengths over a, and every kind of picture has one scale for all "
         "surfaces.",
         "The paper's traces were never published as numbers, nor its modulus and radius. The three "
-        "rough profiles are computed stand-ins; where they were made to show a figure of the "
-        "paper, that they show it proves nothing, and the claim is left untold. A confirmed claim "
-        "holds on these stand-ins, a denied one fails on them: neither is a word on the paper's "
-        "own surfaces.",
+        "rough profiles are computed stand-ins. Where a stand-in was made to show a figure of the "
+        "paper, that it shows it proves nothing, and the claim is inconclusive. A confirmed claim "
+        "holds on these stand-ins, a denied one fails on them: neither says anything of the "
+        "paper's own surfaces.",
     ]
 
 
-def _models(paper: "Paper") -> Table:
+def _models(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
         for friction in outcome.problem.scene.friction:
@@ -96,7 +69,7 @@ def _models(paper: "Paper") -> Table:
             ]
             rows.append((_short(name), f"{friction:g}", *cells))
     head = ("surface", "friction", *SHOWN.values())
-    return Table("How far the two models are apart", head, tuple(rows))
+    return TextTable("How far the two models are apart", head, tuple(rows))
 
 
 def _short(scene: str) -> str:
@@ -109,7 +82,7 @@ def _difference(row: Comparison) -> str:
     return f"{found} ({percent(row.uncertainty, digits=1)})"
 
 
-def _surfaces(paper: "Paper") -> Table:
+def _surfaces(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
         info = outcome.problem.scene.profile_info
@@ -122,15 +95,9 @@ def _surfaces(paper: "Paper") -> Table:
                 significant(info.roughness.rms_slope, 2),
                 with_unit(info.spacing, "m", 3),
             )
-        rows.append(
-            (
-                _short(name),
-                *profile,
-                with_unit(half_plane.grid.pitch, "m", 3),
-                integer(half_plane.unknowns),
-                integer(finite_element.unknowns),
-            )
-        )
+        unknowns = (integer(level.unknowns) for level in (half_plane, finite_element))
+        pitch = with_unit(half_plane.grid.pitch, "m", 3)
+        rows.append((_short(name), *profile, pitch, *unknowns))
     head = (
         "surface",
         "Ra",
@@ -141,7 +108,7 @@ def _surfaces(paper: "Paper") -> Table:
         "unknowns, half-plane",
         "unknowns, finite elements",
     )
-    return Table("Surfaces, and how finely they were solved", head, tuple(rows))
+    return TextTable("Surfaces, and how finely they were solved", head, tuple(rows))
 
 
 def _conditions(paper: "Paper") -> list[tuple[str, str]]:

@@ -1,28 +1,54 @@
-"""`crosscheck paper`: solve, measure, judge, draw, and leave page, numbers and stress files."""
+"""`crosscheck paper`: solve four surfaces by both models, measure, judge, draw, write."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from time import perf_counter
 
-from comparisons.common.errors import ExitStatus, InputError
+from analytic.contact.problem import ContactError
+from comparisons.assessment.comparison import compared
+from comparisons.assessment.refinement import refined
+from comparisons.common.errors import ExitStatus, InputError, SolverError
 from comparisons.common.files import check_writable, published
+from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
+from comparisons.models.level_cache import level_cache
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.window import window_of
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.claims.claim_list import claims
-from comparisons.studies.paper.claims.claims import OUTCOMES, Judged, judge
+from comparisons.results.record import record_of
+from comparisons.results.result_json import result_of
+from comparisons.scenes.resolve import load_scene
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.paper.claims.claim_list import SCENES, SURFACES, claims
+from comparisons.studies.paper.claims.judgement import OUTCOMES, JudgedClaim, judge
+from comparisons.studies.paper.claims.readings import SLIDING
 from comparisons.studies.paper.page import paper_page
 from comparisons.studies.paper.sections import sections_of
-from comparisons.studies.paper.solve import Fineness, solve_surfaces
-from comparisons.studies.paper.subsurf import write_subsurf
-from comparisons.studies.paper.subsurf_mesh import subsurf_files
-from comparisons.studies.paper.surfaces import SURFACES
+from fem.solver.mumps import FemError
+from meshes.block import MeshError
 
 SCHEMA = 1
-SOLVING = 0.8  # of the time, for what is told
-PAGE, NUMBERS, STRESSES = "paper.html", "paper.json", "subsurf"
+SOLVING = 0.8  # share of the progress that solving takes
+PAGE, NUMBERS = "paper.html", "paper.json"
 SOURCE = "Bailey and Sayles 1991"
+FRICTIONS = (0.0, SLIDING)
+LEVELS = 3  # as many as an uncertainty needs; finer ones would take the command minutes
+
+
+@dataclass(frozen=True)
+class Fineness:
+    """How finely the surfaces are solved.
+
+    pitch   [m] of the coarsest pressure elements, None for each scene's own
+    points  columns and rows of the fields
+    """
+
+    pitch: float | None = None
+    points: tuple[int, int] = (600, 120)
 
 
 @dataclass(frozen=True)
@@ -31,12 +57,12 @@ class Paper:
 
     outcomes   of every surface, by its scene's name
     judged     claims in the order of the figures
-    seconds    that it took, drawing left out
+    seconds    that it took, without drawing
     directory  where the files are
     """
 
     outcomes: dict[str, Outcome]
-    judged: tuple[Judged, ...]
+    judged: tuple[JudgedClaim, ...]
     seconds: float
     directory: Path
 
@@ -78,9 +104,9 @@ class Paper:
 
 
 def paper(
-    out: Path, fineness: Fineness | None = None, callback: ProgressCallback = no_progress
+    out: Path, fineness: Fineness = Fineness(), callback: ProgressCallback = no_progress
 ) -> Paper:
-    """Compute the paper anew and write paper.html, paper.json and the files of stresses.
+    """Compute the paper anew and write paper.html and paper.json.
 
     Raises InputError where `out` cannot be written and under mpirun, SolverError where a model
     finds no solution; nothing is written then.
@@ -98,8 +124,53 @@ def paper(
     with published(out, (PAGE, NUMBERS)) as folder:
         (folder / PAGE).write_text(page, encoding="utf-8")
         (folder / NUMBERS).write_text(as_json(found.as_dict()), encoding="utf-8")
-        (folder / STRESSES).mkdir()
-        for outcome in outcomes.values():
-            for name, content in subsurf_files(outcome).items():
-                write_subsurf(folder / STRESSES / name, content)
     return found
+
+
+def solve_surfaces(
+    out: Path, fineness: Fineness, callback: ProgressCallback = no_progress
+) -> dict[str, Outcome]:
+    """By the scene's name. Raises SolverError where a model finds no solution."""
+    found = {}
+    for number, name in enumerate(SCENES, start=1):
+        scene = load_scene(name)
+        scene = replace(
+            scene,
+            friction=FRICTIONS,
+            stress=replace(scene.stress, points=fineness.points),
+            resolution=replace(scene.resolution, pitch=fineness.pitch, levels=LEVELS, most=LEVELS),
+        )
+        part = within(callback, (number - 1) / len(SCENES), number / len(SCENES))
+        try:
+            found[name] = _solved(scene, out, _prefixed(part, f"{number} of {len(SCENES)}, {name}"))
+        except (ContactError, FemError, MeshError) as error:
+            raise SolverError(f"{name}: no solution was found: {error}") from error
+    return found
+
+
+def _prefixed(callback: ProgressCallback, prefix: str) -> ProgressCallback:
+    def prefixed(stage: str) -> None:
+        words = f"{prefix}: {stage}"
+        callback(Step(words, stage.behind) if isinstance(stage, Step) else words)
+
+    return prefixed
+
+
+def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback) -> Outcome:
+    problem = problem_of(scene)
+    plan = make_plan(problem, MODELS)
+    window = window_of(problem)
+    with TemporaryDirectory(prefix="crosscheck-") as folder:
+        cache = level_cache(Path(folder) / "run", scene, plan)
+        runs, stop = refined(problem, plan, window, cache, callback)
+    comparisons = compared(problem, runs, window)
+    return Outcome(
+        problem=problem,
+        plan=plan,
+        window=window,
+        runs=runs,
+        comparisons=comparisons,
+        result=result_of(problem, plan, runs, comparisons, stop),
+        record=record_of(scene, runs, {}),
+        directory=out,
+    )

@@ -6,28 +6,28 @@ from comparisons.common.progress import ProgressCallback
 from comparisons.report.figures.fields import COMPONENTS
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.claims.claims import Judged
+from comparisons.studies.paper.claim_table import ClaimRow, claim_row
+from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, SMOOTH, SURFACES, UNRUN
+from comparisons.studies.paper.claims.judgement import JudgedClaim
 from comparisons.studies.paper.pictures.depth import (
     axis_pictures,
     edge_section_picture,
     peak_section_picture,
 )
 from comparisons.studies.paper.pictures.pressure import pressure_picture, trace_picture
-from comparisons.studies.paper.pictures.scales import scales_of
+from comparisons.studies.paper.pictures.scales import Scales, scales_of
 from comparisons.studies.paper.pictures.shear import contour_picture, isometric_picture
-from comparisons.studies.paper.surfaces import FIGURES, SCENES, SMOOTH, SURFACES, UNRUN
-from comparisons.studies.paper.words import Row, row_of
 
 LETTERS = {"txz": "bcd", "tau1": "efg"}
 
 
 @dataclass(frozen=True)
 class Block:
-    """Pictures with the claims that they bear."""
+    """Pictures with the claims that rest on them."""
 
     heading: str
     pictures: tuple[Picture, ...]
-    claims: tuple[Row, ...]
+    claims: tuple[ClaimRow, ...]
 
 
 @dataclass(frozen=True)
@@ -38,93 +38,69 @@ class Section:
     title: str
     blocks: tuple[Block, ...]
 
-    @property
-    def pictures(self) -> tuple[Picture, ...]:
-        return tuple(picture for block in self.blocks for picture in block.pictures)
-
 
 def sections_of(
-    outcomes: dict[str, Outcome], judged: tuple[Judged, ...], callback: ProgressCallback
+    outcomes: dict[str, Outcome], judged: tuple[JudgedClaim, ...], callback: ProgressCallback
 ) -> tuple[Section, ...]:
     """Draw every figure."""
+
+    def claims(number: str, letters: str = "") -> tuple[ClaimRow, ...]:
+        """Of a figure's letters; of the whole figure without any."""
+        names = {f"{number}({letter})" for letter in letters} or {number}
+        return tuple(claim_row(each) for each in judged if each.claim.figure in names)
+
+    def lettered(number: str, *pictures: tuple[str, Picture]) -> tuple[Block, ...]:
+        """A block a letter, from (a) on."""
+        return tuple(
+            Block(f"Figure {number}({letter}): {words}", (picture,), claims(number, letter))
+            for letter, (words, picture) in zip("ab", pictures, strict=False)
+        )
+
     with drawing():
         scales = scales_of(outcomes)
         callback("drawing figure 1")
-        found = [
-            Section(
-                "1",
-                "Figure 1: pressure on a ground surface",
-                (
-                    Block(
-                        "Pressures over the trace",
-                        (trace_picture(outcomes[UNRUN], scales),),
-                        _claims(judged, "1"),
-                    ),
-                ),
-            )
-        ]
+        trace = Block(
+            "Pressures over the trace", (trace_picture(outcomes[UNRUN], scales),), claims("1")
+        )
+        found = [Section("1", "Figure 1: pressure on a ground surface", (trace,))]
         callback("drawing figure 5")
-        found.append(_axis_section(outcomes[SMOOTH], judged))
+        axis, near = axis_pictures(outcomes[SMOOTH])
+        blocks = lettered(
+            "5", ("stresses on the axis", axis), ("the same next to the surface", near)
+        )
+        found.append(Section("5", "Figure 5: right down to the surface", blocks))
         for scene in SCENES:
-            callback(f"drawing figure {FIGURES[scene]}")
-            outcome, number = outcomes[scene], FIGURES[scene]
-            of = SURFACES[scene]
-            blocks = [
-                Block(
-                    f"Figure {number}(a): pressure and surfaces under load",
-                    (pressure_picture(outcome, scales, of),),
-                    _claims(judged, number, "a"),
-                )
-            ]
-            for component in reversed(COMPONENTS):  # the paper's order: orthogonal shear first
-                letters = LETTERS[component.name]
-                heading = (
-                    f"Figure {number}({letters[0]}) to ({letters[-1]}): {component.words} "
-                    f"{component.symbol}"
-                )
-                pictures = (
-                    isometric_picture(outcome, component, scales, of),
-                    contour_picture(outcome, component, scales, of),
-                )
-                blocks.append(Block(heading, pictures, _claims(judged, number, letters)))
-            found.append(Section(number, f"Figure {number}: {of}", tuple(blocks)))
+            number, surface = FIGURES[scene], SURFACES[scene]
+            callback(f"drawing figure {number}")
+            pressure = pressure_picture(outcomes[scene], scales, surface)
+            blocks = lettered(number, ("pressure and surfaces under load", pressure))
+            for name, heading, pictures in _shear(outcomes[scene], scales, surface):
+                letters = LETTERS[name]
+                heading = f"Figure {number}({letters[0]}) to ({letters[-1]}): {heading}"
+                blocks += (Block(heading, pictures, claims(number, letters)),)
+            found.append(Section(number, f"Figure {number}: {surface}", blocks))
         callback("drawing figure 11")
-        found.append(_depth_section(outcomes, judged))
+        blocks = lettered(
+            "11",
+            ("below the peak asperities", peak_section_picture(outcomes)),
+            ("below the edge of the contact", edge_section_picture(outcomes)),
+        )
+        found.append(Section("11", "Figure 11: principal shear over depth", blocks))
     return tuple(found)
 
 
-def _axis_section(smooth: Outcome, judged: tuple[Judged, ...]) -> Section:
-    return Section(
-        "5",
-        "Figure 5: right down to the surface",
-        tuple(
-            Block(f"Figure 5({letter}): {words}", (picture,), _claims(judged, "5", letter))
-            for letter, words, picture in zip(
-                "ab",
-                ("stresses on the axis", "the same next to the surface"),
-                axis_pictures(smooth),
-                strict=True,
-            )
-        ),
-    )
-
-
-def _depth_section(outcomes: dict[str, Outcome], judged: tuple[Judged, ...]) -> Section:
-    parts = (
-        ("a", "below the peak asperities", peak_section_picture),
-        ("b", "below the edge of the contact", edge_section_picture),
-    )
-    return Section(
-        "11",
-        "Figure 11: principal shear over depth",
-        tuple(
-            Block(f"Figure 11({letter}): {words}", (draw(outcomes),), _claims(judged, "11", letter))
-            for letter, words, draw in parts
-        ),
-    )
-
-
-def _claims(judged: tuple[Judged, ...], number: str, letters: str = "") -> tuple[Row, ...]:
-    """Of a figure's letters; of the whole figure without any."""
-    names = {f"{number}({letter})" for letter in letters} or {number}
-    return tuple(row_of(each) for each in judged if each.claim.figure in names)
+def _shear(
+    outcome: Outcome, scales: Scales, surface: str
+) -> list[tuple[str, str, tuple[Picture, ...]]]:
+    """Name, heading and pictures of both shear stresses, orthogonal shear first as in the paper."""
+    return [
+        (
+            component.name,
+            f"{component.words} {component.symbol}",
+            (
+                isometric_picture(outcome, component, scales, surface),
+                contour_picture(outcome, component, scales, surface),
+            ),
+        )
+        for component in reversed(COMPONENTS)
+    ]

@@ -10,12 +10,12 @@ from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, significant
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.claims.readings import NEAR, SLIDING, peak_column
-from comparisons.studies.paper.claims.views import View
-from comparisons.studies.paper.surfaces import POLISHED, SMOOTH, UNRUN
+from comparisons.studies.paper.claims.claim_list import POLISHED, SMOOTH, UNRUN
+from comparisons.studies.paper.claims.readings import NEAR, SLIDING, LevelView, peak_column
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 DEEPEST = 0.8  # a, of figure 11
 SHALLOW = 0.1  # a, of figure 5(b)
@@ -29,15 +29,12 @@ def axis_pictures(smooth: Outcome) -> list[Picture]:
 
 
 def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Picture:
-    hertz, level = smooth.problem.hertz, smooth.runs["half_plane"].finest
+    hertz = smooth.problem.hertz
     drawn = figure(COLUMN, 3.7)
     axes = drawn.add_axes((0.13, 0.125, 0.83, 0.745))
     fine = np.linspace(0.0, depth, 201)
     exact = hertz_stress(hertz, 0.0, fine * hertz.half_width)
-    views = {
-        name: View(name, smooth.problem, run.finest, smooth.window)
-        for name, run in smooth.runs.items()
-    }
+    views = {name: _view(smooth, name) for name in smooth.runs}
     markers = {"half_plane": "o", "finite_element": "x"}
     for part, (symbol, colour) in SIGMA.items():
         values = getattr(exact, part) / hertz.peak_pressure
@@ -56,13 +53,11 @@ def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Pic
                 color=colour,
                 label=f"{symbol}, {LABELS[name]}",
             )
-        place = 0.82
-        value = float(np.interp(place * depth, fine, values))
-        axes.annotate(
-            symbol, (value, place * depth), (7, 4), textcoords="offset points", color=colour
-        )
-    pitch = level.grid.pitch / hertz.half_width
+        place = 0.82 * depth
+        value = float(np.interp(place, fine, values))
+        axes.annotate(symbol, (value, place), (7, 4), textcoords="offset points", color=colour)
     if depth <= SHALLOW:
+        pitch = smooth.runs["half_plane"].finest.grid.pitch / hertz.half_width
         axes.axhline(pitch, color="#555555", linestyle="-.", linewidth=0.9)
         axes.annotate(
             "one pressure element",
@@ -91,16 +86,12 @@ def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Pic
 
 
 def peak_section_picture(outcomes: dict[str, Outcome]) -> Picture:
-    """Figure 11(a): tau1 through the peak asperities, with the smooth section in their place."""
-    drawn = figure(COLUMN, 3.9)
-    whole = drawn.add_axes((0.11, 0.12, 0.56, 0.78))
-    near = drawn.add_axes((0.73, 0.12, 0.235, 0.78), sharey=whole)
+    """Figure 11(a): tau1 below the peak asperities, and of the smooth contact at the same x."""
+    drawn, whole, near = _section_axes()
     found = []
     for scene in (UNRUN, POLISHED):
         outcome = outcomes[scene]
-        view = View(
-            "half_plane", outcome.problem, outcome.runs["half_plane"].finest, outcome.window
-        )
+        view = _view(outcome, "half_plane")
         x = float(view.x[peak_column(view)])
         words = scene.removeprefix("ground-")
         for axes in (whole, near):
@@ -123,9 +114,7 @@ def peak_section_picture(outcomes: dict[str, Outcome]) -> Picture:
 
 def edge_section_picture(outcomes: dict[str, Outcome]) -> Picture:
     """Figure 11(b): tau1 below x = +a; smooth, smooth and sliding, unrun and sliding."""
-    drawn = figure(COLUMN, 3.9)
-    whole = drawn.add_axes((0.11, 0.12, 0.56, 0.78))
-    near = drawn.add_axes((0.73, 0.12, 0.235, 0.78), sharey=whole)
+    drawn, whole, near = _section_axes()
     curves = (
         (SMOOTH, 0.0, "#009E73", "smooth"),
         (SMOOTH, SLIDING, "#0072B2", f"smooth, friction {SLIDING:g}"),
@@ -157,13 +146,23 @@ def edge_section_picture(outcomes: dict[str, Outcome]) -> Picture:
     )
 
 
+def _view(outcome: Outcome, model: str) -> LevelView:
+    return LevelView(model, outcome.problem, outcome.runs[model].finest, outcome.window)
+
+
+def _section_axes() -> "tuple[Figure, Axes, Axes]":
+    """A figure with axes for the whole depth, and for what lies next to the surface."""
+    drawn = figure(COLUMN, 3.9)
+    whole = drawn.add_axes((0.11, 0.12, 0.56, 0.78))
+    return drawn, whole, drawn.add_axes((0.73, 0.12, 0.235, 0.78), sharey=whole)
+
+
 def _section(
     axes: "Axes", outcome: Outcome, x: float, friction: float, colour: str, words: str
 ) -> None:
     """Sections of both models on the column of the window that is nearest to x [a]."""
     hertz, level = outcome.problem.hertz, outcome.runs["half_plane"].finest
-    run = outcome.runs["finite_element"]
-    view = View("finite_element", outcome.problem, run.finest, outcome.window)
+    view = _view(outcome, "finite_element")
     place = int(np.argmin(np.abs(view.x - x)))
     x = float(view.x[place])
     z = np.union1d(np.geomspace(1e-4, DEEPEST, 160), np.linspace(0.0, DEEPEST, 80))
@@ -171,8 +170,8 @@ def _section(
     stress = depth_profile(level.grid.x, level.solution.pressure, friction, x * a, z * a).stress
     axes.plot(z, stress.tau1 / p0, color=colour, linewidth=1.4, label=words)
     column = view.stress(friction).tau1[:, place]
-    reach = axes.get_position().width < 0.5
-    some = _spread(view.z, NEAR if reach else DEEPEST, 12 if reach else 18)
+    is_near = axes.get_position().width < 0.5
+    some = _rows(view.z, NEAR if is_near else DEEPEST, 12 if is_near else 18)
     axes.plot(view.z[some], column[some], linestyle="none", marker="x", markersize=4, color=colour)
 
 
@@ -184,7 +183,7 @@ def _smooth_section(axes: "Axes", outcome: Outcome, x: float, colour: str, words
     axes.plot(z, exact / hertz.peak_pressure, label=words, **style)
 
 
-def _spread(z: np.ndarray, depth: float, count: int) -> np.ndarray:
+def _rows(z: np.ndarray, depth: float, count: int) -> np.ndarray:
     """Rows nearest to `count` even depths down to `depth`."""
     wanted = np.linspace(0.0, depth, count)
     return np.unique([int(np.argmin(np.abs(z - place))) for place in wanted])

@@ -20,8 +20,7 @@ from comparisons.report.figures.style import (
 )
 from comparisons.report.tables.problem import load_text
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.pictures.scales import RANGE, Scales
-from comparisons.studies.paper.pictures.trace import trace_surfaces
+from comparisons.studies.paper.pictures.scales import RANGE, Scales, trace_surfaces
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,14 +69,14 @@ def trace_picture(outcome: Outcome, scales: Scales) -> Picture:
         caption=(
             f"Pressure over the unrun trace, the Hertz curve and both bodies under load, "
             f"{load_text(outcome.problem)}; p₀ = {with_unit(hertz.peak_pressure, 'Pa')}, "
-            f"a = {with_unit(hertz.half_width, 'm')}. Beyond the pressures' reach the surfaces "
-            "are the half-plane's."
+            f"a = {with_unit(hertz.half_width, 'm')}. Beyond the contact the surfaces are "
+            "the half-plane's."
         ),
     )
 
 
 def pressure_picture(outcome: Outcome, scales: Scales, of: str) -> Picture:
-    """Panel (a): the same between -RANGE and RANGE, all surfaces on one scale."""
+    """Panel (a): the same between -RANGE and RANGE; `of`, the surface in words."""
     hertz = outcome.problem.hertz
     drawn, (above, below) = _panels(COLUMN, 3.9)
     _pressures(above, outcome, hertz.half_width, 0.0, scales.pressure)

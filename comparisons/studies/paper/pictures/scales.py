@@ -1,16 +1,18 @@
-"""One scale of each kind for every picture: stresses over p0, lengths over a, heights in m."""
+"""What the pictures show, and one scale of each kind for all of them: p0, a, heights in m."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from analytic.grid import HatGrid
+from analytic.operators.half_plane import HalfPlane
 from analytic.stress.field import StressField, friction_field
+from comparisons.models.deformed import mean_height
 from comparisons.report.figures.fields import COMPONENTS, Component, round_bands
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.pictures.trace import trace_surfaces
 
 RANGE = 1.25  # a, to either side
-# Depths of the stacked lines [a]: the asperities' stresses would stand between even ones.
+# Depths of the stacked lines [a], denser at the surface, where the asperities' stresses are.
 DEPTHS = np.concatenate(
     [[0.0, 0.0025, 0.005, 0.0075], np.arange(0.01, 0.095, 0.01), np.arange(0.1, 1.001, 0.02)]
 )
@@ -39,7 +41,7 @@ class Scales:
 def layered(outcome: Outcome, friction: float = 0.0) -> StressField:
     """The half-plane's stresses on the stacked lines: x and z [a], stresses [p0]."""
     level, hertz = outcome.runs["half_plane"].finest, outcome.problem.hertz
-    a, pitch = hertz.half_width, outcome.runs["half_plane"].finest.grid.pitch
+    a, pitch = hertz.half_width, level.grid.pitch
     found = friction_field(
         level.grid.x,
         level.solution.pressure / hertz.peak_pressure,
@@ -57,6 +59,27 @@ def values_of(outcome: Outcome, component: Component, model: str, friction: floa
     return component.of(field) / outcome.problem.hertz.peak_pressure
 
 
+def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x (n,) and the heights (n,) of body and roller under load [m] over the whole trace.
+
+    From the half-plane's pressures, beyond the contact too; of a smooth body over the range of its
+    pressure elements. The datum of the heights is arbitrary.
+    """
+    problem, level = outcome.problem, outcome.runs["half_plane"].finest
+    profile, pitch, grid = problem.scene.profile, level.grid.pitch, level.grid
+    if profile is not None:
+        grid = HatGrid.within(float(profile.x[0]), float(profile.x[-1]), pitch)
+    pressure = np.zeros(grid.count)
+    first = level.grid.first - grid.first
+    pressure[first : first + level.grid.count] = level.solution.pressure
+    moved = HalfPlane(grid.count, pitch, problem.modulus).apply(pressure) / grid.weights
+    gap = grid.hat_integrals(problem.gap, problem.knots) / grid.weights + moved
+    gap -= np.median(gap[pressure > 0.0])
+    given_way = problem.modulus / problem.scene.body.plane_strain_modulus * moved
+    body = mean_height(problem, grid) - given_way
+    return grid.x, body, body + np.maximum(gap, 0.0)
+
+
 def scales_of(outcomes: dict[str, Outcome]) -> Scales:
     """The scales that hold all surfaces."""
     stacked = {name: layered(outcome).stress for name, outcome in outcomes.items()}
@@ -71,15 +94,15 @@ def scales_of(outcomes: dict[str, Outcome]) -> Scales:
         lines = [component.of(stress) for stress in stacked.values()]
         top = max(line.max() for line in lines)
         ceilings[component.name] = STEP * float(np.ceil(top / STEP))
-        # of the block's two sides that are seen
+        # of the block's two visible sides
         low = min(min(line[-1].min(), line[:, -1].min()) for line in lines)
         floors[component.name] = STEP * float(np.floor(low / STEP)) if component.signed else 0.0
     return Scales(
         bands=bands,
         ceilings=ceilings,
         floors=floors,
-        pressure=1.12 * max(_highest(outcome) for outcome in outcomes.values()),
-        relief=max(_relief(outcome) for outcome in outcomes.values()),
+        pressure=1.12 * max(map(_highest, outcomes.values())),
+        relief=max(map(_relief, outcomes.values())),
     )
 
 

@@ -6,33 +6,31 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from comparisons.studies.paper.claims.claim_list import claims
-from comparisons.studies.paper.claims.claims import CONFIRMED, DENIED, UNTOLD, Claim, told
-from comparisons.studies.paper.claims.views import Measured, measured
-from comparisons.studies.paper.surfaces import FIGURES, SCENES
+from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, claims
+from comparisons.studies.paper.claims.judgement import (
+    CONFIRMED,
+    DENIED,
+    INCONCLUSIVE,
+    Claim,
+    MeasuredNumber,
+    judgement,
+    measured,
+)
 
 
 def claim(**changes) -> Claim:
-    given = {
-        "key": "k",
-        "figure": "8(e)",
-        "title": "t",
-        "text": "x",
-        "measure": "m",
-        "scene": "smooth",
-        "reading": lambda view: 0.0,
-        "confirms": (2.0, 3.0),
-    }
-    return Claim(**{**given, **changes})
+    given = {"reading": lambda view: 0.0, "confirms": (2.0, 3.0)}
+    words = dict.fromkeys(("key", "figure", "title", "text", "measure", "scene"), "…")
+    return Claim(**words | given | changes)
 
 
 def outcome_of(value, uncertainty, other=None, **changes):
-    numbers = {"half_plane": Measured(value, uncertainty)}
-    numbers["finite_element"] = Measured(value if other is None else other, uncertainty)
-    return told(claim(**changes), numbers)
+    numbers = {"half_plane": MeasuredNumber(value, uncertainty)}
+    numbers["finite_element"] = MeasuredNumber(value if other is None else other, uncertainty)
+    return judgement(claim(**changes), numbers)
 
 
-class TestToldByNumbers:
+class TestJudgement:
     @pytest.mark.parametrize(
         ("value", "uncertainty", "expected"),
         [
@@ -40,37 +38,37 @@ class TestToldByNumbers:
             (2.0, 0.0, CONFIRMED),
             (1.5, 0.4, DENIED),
             (3.5, 0.4, DENIED),
-            (2.1, 0.2, UNTOLD),
-            (1.9, 0.2, UNTOLD),
-            (2.5, inf, UNTOLD),
+            (2.1, 0.2, INCONCLUSIVE),
+            (1.9, 0.2, INCONCLUSIVE),
+            (2.5, inf, INCONCLUSIVE),
         ],
     )
     def test_the_whole_uncertainty_must_lie_on_one_side(self, value, uncertainty, expected):
         assert outcome_of(value, uncertainty)[0] == expected
 
     @pytest.mark.parametrize(
-        ("value", "expected"), [(2.5, CONFIRMED), (1.5, UNTOLD), (0.5, DENIED), (4.0, DENIED)]
+        ("value", "expected"), [(2.5, CONFIRMED), (1.5, INCONCLUSIVE), (0.5, DENIED), (4.0, DENIED)]
     )
-    def test_between_words_and_their_denial_nothing_is_told(self, value, expected):
-        found, why = outcome_of(value, 0.1, allows=(1.0, 3.0), vague="no number")
-        assert (found, why) == (expected, "no number" if expected == UNTOLD else None)
+    def test_between_words_and_their_denial_it_is_inconclusive(self, value, expected):
+        found, why = outcome_of(value, 0.1, allows=(1.0, 3.0), ambiguity="no number")
+        assert (found, why) == (expected, "no number" if expected == INCONCLUSIVE else None)
 
     def test_what_a_stand_in_was_made_for_proves_nothing_but_may_fail(self):
         found, why = outcome_of(2.5, 0.1, tuned="this ratio")
-        assert found == UNTOLD and "made to show this ratio" in why
+        assert found == INCONCLUSIVE and "made to show this ratio" in why
         assert outcome_of(1.0, 0.1, tuned="this ratio") == (DENIED, None)
 
-    def test_models_that_say_different_things_leave_it_open(self):
+    def test_models_that_say_different_things_are_inconclusive(self):
         found, why = outcome_of(2.5, 0.1, other=1.0)
-        assert found == UNTOLD and "do not say the same" in why
+        assert found == INCONCLUSIVE and "do not say the same" in why
 
-    def test_a_model_in_doubt_is_named(self):
+    def test_the_uncertain_model_is_named(self):
         found, why = outcome_of(2.5, 0.1, other=2.05)
-        assert found == UNTOLD and "finite elements" in why and "half-plane" not in why
+        assert found == INCONCLUSIVE and "finite elements" in why and "half-plane" not in why
 
-    def test_an_unsolved_contact_tells_nothing(self):
-        found, why = told(claim(), {"half_plane": Measured(2.5, 0.1, converged=False)})
-        assert found == UNTOLD and why == "the contact of the half-plane did not converge"
+    def test_an_unsolved_contact_is_inconclusive(self):
+        found, why = judgement(claim(), {"half_plane": MeasuredNumber(2.5, 0.1, converged=False)})
+        assert found == INCONCLUSIVE and why == "the contact of the half-plane did not converge"
 
     @pytest.mark.parametrize(
         ("confirms", "allows", "expected"),
@@ -110,20 +108,20 @@ class TestMeasured:
 
     def test_an_error_against_an_exact_value_has_none(self):
         assert measured(self.outcome([3.0, 2.0, 1.0]), "m", lambda v: v.level.value, True) == (
-            Measured(1.0, 0.0)
+            MeasuredNumber(1.0, 0.0)
         )
 
 
 def test_the_list_of_claims_is_whole():
     listed = claims()
-    assert len({c.key for c in listed}) == len(listed) > 30
-    assert len({c.title for c in listed}) == len(listed)
+    for name in ("key", "title"):
+        assert len({getattr(c, name) for c in listed}) == len(listed) > 30
     assert {c.scene for c in listed} == set(SCENES) == set(FIGURES)
     for each in listed:
         low, high = each.confirms
         assert low < high
         if each.allows is not None:
-            assert each.vague and each.allows[0] <= low and high <= each.allows[1]
+            assert each.ambiguity and each.allows[0] <= low and high <= each.allows[1]
         number = each.figure.partition("(")[0]
         assert number in {"1", "5", "11", *FIGURES.values()}
         assert number in {"1", "5", "11"} or number == FIGURES[each.scene]

@@ -12,9 +12,8 @@ from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.level import Level, StressResult, Window
-from comparisons.studies.paper.claims import exactness as e
 from comparisons.studies.paper.claims import readings as r
-from comparisons.studies.paper.claims.measures import (
+from comparisons.studies.paper.claims.zones import (
     agreement_depth,
     joining_level,
     share_joined,
@@ -22,14 +21,13 @@ from comparisons.studies.paper.claims.measures import (
     valley,
     zone,
 )
-from comparisons.studies.paper.claims.views import View
 
 A, P0 = 0.5e-3, 4e9
 HERTZ = HertzContact(A, P0, 0.5 * np.pi * A * P0, 8e-3, 128e9)
 WINDOW = Window(np.linspace(-1.5, 1.5, 121) * A, np.linspace(0.0, 1.0, 101) ** 2 * A, 1.5 * A)
 
 
-class TestMeasures:
+class TestZones:
     Z = np.array([0.0, 1.0, 2.0, 4.0])
 
     def test_agreement_begins_where_the_largest_difference_falls_to_the_tolerance(self):
@@ -119,10 +117,12 @@ def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
     )
 
 
-def view_of(fields=None, every: int = 1, wave: float = 0.0, model: str = "half_plane") -> View:
+def view_of(
+    fields=None, every: int = 1, wave: float = 0.0, model: str = "half_plane"
+) -> r.LevelView:
     scene = SimpleNamespace(profile_info=SimpleNamespace(spacing=A / 16.0))
     problem = SimpleNamespace(hertz=HERTZ, scene=scene)
-    return View(model, problem, hertz_level(A / 64.0, fields or {}, wave), WINDOW, every)
+    return r.LevelView(model, problem, hertz_level(A / 64.0, fields or {}, wave), WINDOW, every)
 
 
 def smooth_tau1(friction: float = 0.0) -> np.ndarray:
@@ -145,7 +145,7 @@ class TestReadings:
         assert r.reach_against_smooth(r.HALF)(view) == pytest.approx(0.0, abs=1e-12)
         assert r.open_to_surface(0.0)(view) == pytest.approx(0.0, abs=1e-9)
         assert r.contact_ratio(view) == pytest.approx(1.0)
-        assert r.carried(view) == pytest.approx(1.0, abs=2e-3)
+        assert r.carried_load(view) == pytest.approx(1.0, abs=2e-3)
 
     @pytest.mark.parametrize("depth", [0.05, 0.3, 0.7])
     def test_a_hill_moves_the_depth_of_agreement_below_itself(self, depth):
@@ -173,8 +173,8 @@ class TestReadings:
         apart = np.maximum(smooth_tau1(), asperity(0.2, 0.01, 0.5, 0.2))
         ridge = np.where(np.abs(WINDOW.x / A - 0.2) < 0.05, 0.2, 0.0) * np.ones((len(WINDOW.z), 1))
         view = view_of({0.0: apart, 0.1: np.maximum(apart, ridge)})
-        assert r.joined(0.1)(view) == pytest.approx(1.0)
-        assert r.joined(0.0)(view) < 0.7
+        assert r.joined_share(0.1)(view) == pytest.approx(1.0)
+        assert r.joined_share(0.0)(view) < 0.7
         assert r.open_to_surface(0.1)(view) == pytest.approx(0.2 / view.smooth_maximum)
         assert r.open_to_surface(0.0)(view) < 0.5
         assert r.low_layer(view) < 0.5
@@ -210,9 +210,9 @@ class TestReadings:
         two = replace(view.level, patches=np.array([[-0.5 * A, 0.0], [0.25 * A, 0.5 * A]]))
         assert r.contact_ratio(replace(view, level=two)) == pytest.approx(0.375)
         solution = replace(view.level.solution, pressure=1.02 * view.level.solution.pressure)
-        assert r.carried(replace(view, level=replace(two, solution=solution))) == pytest.approx(
-            1.02, abs=3e-3
-        )
+        assert r.carried_load(
+            replace(view, level=replace(two, solution=solution))
+        ) == pytest.approx(1.02, abs=3e-3)
 
 
 class TestErrors:
@@ -224,39 +224,39 @@ class TestErrors:
         return StressState(found.sx + shift * P0 * here, found.sz, found.txz)
 
     def test_on_the_axis(self):
-        assert e.axis_error(view_of({0.0: self.exact()})) == pytest.approx(0.0, abs=1e-12)
-        assert e.axis_error(view_of({0.0: self.exact(0.0, 0.03)})) == pytest.approx(0.03)
-        assert e.axis_error(view_of({0.0: self.exact(0.5, 0.03)})) == pytest.approx(0.0, abs=1e-12)
+        assert r.axis_error(view_of({0.0: self.exact()})) == pytest.approx(0.0, abs=1e-12)
+        assert r.axis_error(view_of({0.0: self.exact(0.0, 0.03)})) == pytest.approx(0.03)
+        assert r.axis_error(view_of({0.0: self.exact(0.5, 0.03)})) == pytest.approx(0.0, abs=1e-12)
 
     def test_below_the_sampling_interval_only_what_lies_there_counts(self):
         for z in (0.0225, 0.25):
             view = view_of({0.0: self.exact(0.0, 0.03, z)}, model="finite_element")
-            assert e.axis_error(view) == pytest.approx(0.03)
-            assert e.error_below_sampling(view) == pytest.approx(0.0, abs=1e-12)
+            assert r.axis_error(view) == pytest.approx(0.03)
+            assert r.error_below_sampling(view) == pytest.approx(0.0, abs=1e-12)
         shallow = self.exact()
         shallow.sz[1] += 0.02 * P0
         view = view_of({0.0: shallow}, model="finite_element")
-        assert e.error_below_sampling(view) == pytest.approx(0.02)
+        assert r.error_below_sampling(view) == pytest.approx(0.02)
 
     def test_strips_are_right_on_the_axis_of_smooth_pressures_alone(self):
         smooth, rough = view_of(), view_of(wave=0.1)
-        assert e.error_below_sampling(smooth) < 1e-3
+        assert r.error_below_sampling(smooth) < 1e-3
         grid, z = rough.level.grid, np.geomspace(0.02, 1.0, 8) * A / 64.0
         strips = stress_at(grid.x, rough.level.solution.pressure, 0.0, 0.0, z, "strip")
         exact = hertz_stress(HERTZ, 0.0, z)
         worst = max(np.abs(strips.sx - exact.sx).max(), np.abs(strips.sz - exact.sz).max())
-        assert e.error_below_sampling(rough) == pytest.approx(worst / P0, rel=1e-9)
+        assert r.error_below_sampling(rough) == pytest.approx(worst / P0, rel=1e-9)
         assert worst > 0.05 * P0
 
     def test_strips_on_sampled_pressures(self):
         """Next to their edges half the step from one to the next."""
         smooth = view_of()
         largest, mean = (
-            e.error_on_rough_ground("strip", size)(smooth) for size in (np.max, e.root_mean_square)
+            r.error_on_rough_surface("strip", size)(smooth) for size in (np.max, r.root_mean_square)
         )
-        step = np.diff(HERTZ.pressure(np.arange(0.0, e.EDGE, 1.0 / 16.0) * A)) / P0
+        step = np.diff(HERTZ.pressure(np.arange(0.0, r.EDGE, 1.0 / 16.0) * A)) / P0
         assert largest == pytest.approx(0.5 * np.abs(step).max(), rel=0.25)
         assert mean < 0.3 * largest
-        assert e.error_on_rough_ground("hat", np.max)(smooth) < 0.3 * largest
+        assert r.error_on_rough_surface("hat", np.max)(smooth) < 0.3 * largest
         # sampled each fourth, the wave looks like a larger pressure: that is what is seen
-        assert e.error_on_rough_ground("hat", np.max)(view_of(wave=0.2)) > 0.15
+        assert r.error_on_rough_surface("hat", np.max)(view_of(wave=0.2)) > 0.15

@@ -8,14 +8,14 @@ import numpy as np
 from scipy.ndimage import label
 
 NEIGHBOURS = np.ones((3, 3))
-HALVINGS = 40  # of the range in which a level is sought: to 1e-12 of it
+BISECTIONS = 40  # of the range in which a level is sought: to 1e-12 of it
 
 
 def agreement_depth(z: np.ndarray, difference: np.ndarray, tolerance: float) -> float:
     """Depth, in the unit of z (m,), below which |difference| (m, k) stays within a tolerance.
 
-    0 where it always does; the last depth where it does not even there. Between two depths the
-    largest difference is taken as linear.
+    Between two depths the largest difference is taken as linear. 0 where the tolerance holds at
+    every depth; the last depth where it does not hold even there.
     """
     largest = np.max(np.abs(difference), axis=1)
     beyond = np.flatnonzero(largest > tolerance)
@@ -37,7 +37,7 @@ def zone(field: np.ndarray, level: float, seed: tuple[int, int]) -> np.ndarray:
 def top_of_zone(z: np.ndarray, field: np.ndarray, level: float, seed: tuple[int, int]) -> float:
     """Least depth, in the unit of z (m,), of what is joined with `seed` at a level.
 
-    The field is taken as linear between the first row of the zone and the one above it. The last
+    Between the first row of the zone and the row above it the field is taken as linear. The last
     depth where there is no zone.
     """
     inside = zone(field, level, seed)
@@ -55,7 +55,7 @@ def top_of_zone(z: np.ndarray, field: np.ndarray, level: float, seed: tuple[int,
 def joining_level(field: np.ndarray, seed: tuple[int, int], target: np.ndarray) -> float:
     """Highest level at which `seed` is joined with any point of `target` (m, k)."""
     low, high = float(np.min(field)), float(field[seed])
-    for _ in range(HALVINGS):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         if np.any(zone(field, middle, seed) & target):
             low = middle
@@ -67,9 +67,9 @@ def joining_level(field: np.ndarray, seed: tuple[int, int], target: np.ndarray) 
 def share_joined(
     field: np.ndarray, weights: np.ndarray, level: float, seed: tuple[int, int], part: np.ndarray
 ) -> float:
-    """Of what lies at or above a level in `part` (m, k), the share joined with `seed`.
+    """Of the area in `part` (m, k) at or above a level, the share joined with `seed`; 0 of none.
 
-    weights  (m, 1) or (m, k), the area that a point stands for. 0 where nothing lies there.
+    weights  (m, 1) or (m, k), the area that a point stands for
     """
     area = np.broadcast_to(weights, field.shape)
     above = part & (field >= level)

@@ -1,0 +1,126 @@
+"""Claims and their numbers in words, for the page and as a table for the terminal."""
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from comparisons.common.model_names import LABELS
+from comparisons.common.numbers import MINUS, UNKNOWN, significant
+from comparisons.report.terminal import PLAIN, STYLES
+from comparisons.studies.paper.claims.judgement import (
+    CONFIRMED,
+    DENIED,
+    INCONCLUSIVE,
+    Claim,
+    JudgedClaim,
+    MeasuredNumber,
+)
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from comparisons.studies.paper.reproduce import Paper
+
+KINDS = {CONFIRMED: "agree", DENIED: "differ", INCONCLUSIVE: "inconclusive"}
+DIGITS = 4  # of a number with an uncertainty
+
+
+@dataclass(frozen=True)
+class ClaimRow:
+    """A judged claim in words.
+
+    confirmed  what confirms it
+    by_model   number with uncertainty by model, of those that can measure it
+    numbers    the same as lines that name their model
+    besides    further numbers, a line each
+    kind       names its colours
+    """
+
+    claim: Claim
+    confirmed: str
+    by_model: dict[str, str]
+    numbers: tuple[str, ...]
+    besides: tuple[str, ...]
+    outcome: str
+    kind: str
+    why: str | None
+
+
+def claim_row(judged: JudgedClaim) -> ClaimRow:
+    """The words of a judged claim."""
+    claim = judged.claim
+    by_model = {model: number_text(n, claim.unit) for model, n in judged.numbers.items()}
+    return ClaimRow(
+        claim=claim,
+        confirmed=claim.criterion.removeprefix("Confirmed ").split(", ")[0],
+        by_model=by_model,
+        numbers=_lines(by_model),
+        besides=tuple(
+            f"{words[0].upper()}{words[1:]}: "
+            + "; ".join(_lines({m: significant(v, 3) for m, v in values.items()}))
+            for words, values in judged.besides.items()
+        ),
+        outcome=judged.outcome,
+        kind=KINDS[judged.outcome],
+        why=judged.why,
+    )
+
+
+def number_text(number: MeasuredNumber, unit: str) -> str:
+    """Value and uncertainty down to one digit beyond its first, at most DIGITS digits in all."""
+    value, uncertainty = number.value, number.uncertainty
+    if not isfinite(uncertainty):
+        return f"{significant(value, DIGITS)} ± {UNKNOWN} {unit}".rstrip()
+    shown = 3 if uncertainty == 0.0 else DIGITS
+    places = shown - 1 - _power(value) if value else shown - 1
+    if uncertainty > 0.0:
+        places = min(places, 1 - _power(uncertainty))
+    if round(uncertainty, places) == 0.0:
+        return f"{significant(value, shown)} {unit}".rstrip()
+    places = max(places, 0)
+    text = f"{value:.{places}f} ± {uncertainty:.{places}f}".replace("-", MINUS)
+    return f"{text} {unit}".rstrip()
+
+
+def summary(judged: tuple[JudgedClaim, ...]) -> str:
+    """How many claims ended how."""
+    counts = {kind: sum(j.outcome == kind for j in judged) for kind in KINDS}
+    return (
+        f"Of {len(judged)} claims that numbers can judge, {counts[CONFIRMED]} are confirmed and "
+        f"{counts[DENIED]} denied; {counts[INCONCLUSIVE]} are inconclusive on the stand-in "
+        "profiles."
+    )
+
+
+def paper_table(paper: "Paper") -> "RenderableType":
+    """For rich: one row a claim, how many ended how, and where the page is."""
+    from rich import box
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
+    table.add_column("claim")
+    table.add_column("figure")
+    for label in LABELS.values():
+        table.add_column(label, justify="right")
+    table.add_column("outcome")
+    for row in map(claim_row, paper.judged):
+        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in LABELS))
+        plain = [cell.replace("±", "+-").translate(PLAIN) for cell in cells]
+        table.add_row(*plain, Text(row.outcome, style=STYLES[row.kind]))
+    return Group(
+        table, "", summary(paper.judged), f"figures and claims {paper.directory / 'paper.html'}"
+    )
+
+
+def _power(value: float) -> int:
+    """Of ten, of the leading digit."""
+    return int(f"{abs(value):.0e}".partition("e")[2])
+
+
+def _lines(texts: dict[str, str]) -> tuple[str, ...]:
+    """A line a model, or one for both where they say the same."""
+    if len(set(texts.values())) == 1 and len(texts) > 1:
+        return (f"{next(iter(texts.values()))} (both models)",)
+    return tuple(f"{LABELS[model]} {text}" for model, text in texts.items())

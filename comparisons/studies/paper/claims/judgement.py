@@ -1,0 +1,216 @@
+"""What the paper claims, and how a number judges it: confirmed, denied, or inconclusive.
+
+A number confirms a claim where its whole uncertainty lies inside the claim's bounds, and denies it
+where it lies outside of them (of wider bounds where the paper gives words and no number). The
+outcome is inconclusive unless all models that can measure the claim say the same, and wherever the
+stand-in profile was made to show what the claim says.
+"""
+
+from dataclasses import dataclass, replace
+from math import inf, isfinite
+
+from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL
+from comparisons.assessment.uncertainty import DOMAIN, grid_convergence
+from comparisons.common.model_names import LABELS, MODELS
+from comparisons.common.numbers import plain
+from comparisons.results.outcome import Outcome
+from comparisons.studies.paper.claims.readings import LevelView, Reading
+
+CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
+OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
+ORDER = 1.0  # formal, of what is read: with it a regular sequence gets the widest margin
+
+Bounds = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One claim.
+
+    key        for paper.json
+    figure     of the paper that shows it, with its letter
+    title      in a few words
+    text       what the paper says, in words of this project
+    measure    how the number is found
+    scene      whose stresses it is about
+    reading    of the number
+    confirms   bounds of the number inside which the claim holds
+    unit       "" | "a" | "p₀"
+    allows     wider bounds, outside of which it is denied; None: the same
+    ambiguity  why a number between the two is inconclusive
+    tuned      what the stand-in profile was made to show, so that it proves nothing
+    models     that can measure it
+    exact      the number is an error against an exact value
+    besides    further numbers, by what they are
+    """
+
+    key: str
+    figure: str
+    title: str
+    text: str
+    measure: str
+    scene: str
+    reading: Reading
+    confirms: Bounds
+    unit: str = ""
+    allows: Bounds | None = None
+    ambiguity: str | None = None
+    tuned: str | None = None
+    models: tuple[str, ...] = MODELS
+    exact: bool = False
+    besides: tuple[tuple[str, Reading], ...] = ()
+
+    @property
+    def criterion(self) -> str:
+        """What would confirm the claim, and what deny it."""
+        confirmed = f"Confirmed {_range(self.confirms, self.unit)}"
+        if self.allows is None:
+            return f"{confirmed}, else denied."
+        return f"{confirmed}, denied unless {_range(self.allows, self.unit)}."
+
+
+@dataclass(frozen=True)
+class MeasuredNumber:
+    """A number of one model with what numerical error may account for, both in its unit.
+
+    uncertainty  0 where the number is itself an error against an exact value; infinite where
+                 fewer than three levels are known
+    converged    all levels met their contact conditions
+    """
+
+    value: float
+    uncertainty: float
+    converged: bool = True
+
+
+@dataclass(frozen=True)
+class JudgedClaim:
+    """A claim with its outcome.
+
+    numbers  by model
+    besides  by what they are, then by model
+    outcome  one of OUTCOMES
+    why      it is inconclusive; None where it is not
+    """
+
+    claim: Claim
+    numbers: dict[str, MeasuredNumber]
+    besides: dict[str, dict[str, float]]
+    outcome: str
+    why: str | None = None
+
+    def as_dict(self) -> dict:
+        """For paper.json: None stands for a bound or an uncertainty that there is not."""
+        claim = self.claim
+        return {
+            "key": claim.key,
+            "figure": claim.figure,
+            "title": claim.title,
+            "text": claim.text,
+            "measure": claim.measure,
+            "scene": claim.scene,
+            "unit": {"p₀": "p0"}.get(claim.unit, claim.unit),
+            "confirmed_within": [_finite(bound) for bound in claim.confirms],
+            "denied_outside": [_finite(bound) for bound in claim.allows or claim.confirms],
+            "criterion": claim.criterion,
+            "numbers": {
+                model: {
+                    "value": _finite(number.value),
+                    "uncertainty": _finite(number.uncertainty),
+                    "converged": number.converged,
+                }
+                for model, number in self.numbers.items()
+            },
+            "besides": {
+                words: {model: _finite(value) for model, value in values.items()}
+                for words, values in self.besides.items()
+            },
+            "outcome": self.outcome,
+            "why": self.why,
+        }
+
+
+def judge(claim: Claim, outcome: Outcome) -> JudgedClaim:
+    """Measure a claim on the run of its scene by every model that can, and judge it."""
+    numbers = {m: measured(outcome, m, claim.reading, claim.exact) for m in claim.models}
+    besides = {
+        words: {m: measured(outcome, m, reading, exact=True).value for m in claim.models}
+        for words, reading in claim.besides
+    }
+    return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers))
+
+
+def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False) -> MeasuredNumber:
+    """A number on the finest level of a model, with its uncertainty from all levels.
+
+    Discretisation, far boundary and iteration as for a run's figures; besides, what reading only
+    every second row and column of the window changes.
+    exact  the number is an error against an exact value: it has no uncertainty of its own
+    """
+    run = outcome.runs[model]
+    views = [LevelView(model, outcome.problem, level, outcome.window) for level in run.levels]
+    values = [reading(view) for view in views]
+    value = values[-1]
+    converged = all(level.solution.converged for level in run.levels)
+    if exact:
+        return MeasuredNumber(value, 0.0, converged)
+    uncertainty = grid_convergence(values, ORDER).uncertainty
+    uncertainty += PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst * abs(value)
+    uncertainty += abs(reading(replace(views[-1], every=2)) - value)
+    if run.far_boundary_check is not None:
+        check = LevelView(model, outcome.problem, run.far_boundary_check, outcome.window)
+        uncertainty += DOMAIN * abs(reading(check) - values[0])
+    return MeasuredNumber(value, float(uncertainty), converged)
+
+
+def judgement(claim: Claim, numbers: dict[str, MeasuredNumber]) -> tuple[str, str | None]:
+    """Outcome by the numbers of each model, and why it is inconclusive."""
+    unsolved = [LABELS[model] for model, number in numbers.items() if not number.converged]
+    if unsolved:
+        return INCONCLUSIVE, f"the contact of the {' and the '.join(unsolved)} did not converge"
+    places = {model: _place(claim, number) for model, number in numbers.items()}
+    unclear = [LABELS[model] for model, place in places.items() if place == "on a bound"]
+    if unclear:
+        return INCONCLUSIVE, (
+            f"the numerical uncertainty of the {' and the '.join(unclear)} reaches over a bound"
+        )
+    if len(set(places.values())) > 1:
+        return INCONCLUSIVE, "the two models do not say the same"
+    (place,) = set(places.values())
+    if place == "between":
+        return INCONCLUSIVE, claim.ambiguity
+    if place == "outside":
+        return DENIED, None
+    if claim.tuned:
+        return INCONCLUSIVE, (
+            f"the stand-in profile was made to show {claim.tuned}, so that the number is met "
+            "proves nothing"
+        )
+    return CONFIRMED, None
+
+
+def _place(claim: Claim, number: MeasuredNumber) -> str:
+    """Where a number with its uncertainty lies: inside | outside | between | on a bound."""
+    low, high = number.value - number.uncertainty, number.value + number.uncertainty
+    inner, outer = claim.confirms, claim.allows or claim.confirms
+    if not (isfinite(low) and isfinite(high)):
+        return "on a bound"
+    if inner[0] <= low and high <= inner[1]:
+        return "inside"
+    if high < outer[0] or low > outer[1]:
+        return "outside"
+    clear_of_inner = high < inner[0] or low > inner[1]
+    if clear_of_inner and outer[0] <= low and high <= outer[1]:
+        return "between"
+    return "on a bound"
+
+
+def _range(bounds: Bounds, unit: str) -> str:
+    low, high = bounds
+    if high == inf:
+        return f"from {plain(low)} {unit}".rstrip() + " on"
+    return f"from {plain(low)} to {plain(high)} {unit}".rstrip()
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if isfinite(value) else None
