@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import UNKNOWN, given, integer, percent, significant, with_unit
 from comparisons.report.html import STYLES, rendered
-from comparisons.report.tables.text import TextTable
 from comparisons.report.tables.problem import load_text
+from comparisons.report.tables.text import TextTable
 from comparisons.studies.paper.claim_table import claim_row, summary
 from comparisons.studies.paper.sections import Section
 
