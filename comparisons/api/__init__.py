@@ -43,9 +43,8 @@ from comparisons.common.errors import InputError
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.results.field_files import AUTOMATIC
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.scenes.tolerance import with_tolerance
 
 if TYPE_CHECKING:
     from comparisons.studies.maps.executors import Workers

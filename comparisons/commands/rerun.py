@@ -21,7 +21,7 @@ def rerun(
 
 def _rerun(folder: Path, out: Path | None, as_json: bool) -> int:
     from comparisons.runs.rerun import rerun as repeat
-    from comparisons.runs.rerun_table import rerun_summary
+    from comparisons.runs.rerun import rerun_summary
 
     with progress() as callback:
         repetition = repeat(folder, out, callback)

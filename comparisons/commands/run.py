@@ -61,7 +61,7 @@ def _run(
 
     resolved = from_first(lambda: load_scene(scene))
     if tolerance is not None:
-        from comparisons.scenes.tolerance import with_tolerance
+        from comparisons.scenes.resolve import with_tolerance
 
         resolved = with_tolerance(resolved, tolerance)
     directory = out or RESULTS / resolved.name

@@ -1,6 +1,8 @@
 """Errors of one line, and the exit statuses that the command line ends with."""
 
+import difflib
 import re
+from collections.abc import Iterable
 from enum import IntEnum
 
 
@@ -35,6 +37,11 @@ class SceneError(InputError):
 
 class SolverError(OneLineError, RuntimeError):
     """A solver did not converge; the command line ends with status 3."""
+
+
+def nearest(name: str, names: Iterable[str], alike: float = 0.0) -> str | None:
+    """The one of `names` that is most like `name`; None where difflib's ratio is below `alike`."""
+    return next(iter(difflib.get_close_matches(name, list(names), n=1, cutoff=alike)), None)
 
 
 def one_line(text: str) -> str:

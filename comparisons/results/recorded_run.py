@@ -19,7 +19,7 @@ from comparisons.common.provenance import digest
 from comparisons.results.changes import check_figures
 from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
-from comparisons.scenes.profile import KeptTrace
+from comparisons.scenes.profile import KnownTrace
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import Resolution, ResolvedScene
 
@@ -90,7 +90,7 @@ def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedSce
         name=_part(path, content, "name", str),
         folder=path.parent,
         source=str(path),
-        kept=kept,
+        trace=kept,
     )
     effects = figures.get("error_budget") or {}
     return replace(
@@ -100,7 +100,7 @@ def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedSce
     )
 
 
-def _trace(path: Path, profile: dict) -> KeptTrace:
+def _trace(path: Path, profile: dict) -> KnownTrace:
     """The recorded trace, if it is still what was recorded."""
     trace = _part(path, profile, "trace", dict, "profile.")
     where = f"{path}: profile.trace"
@@ -121,7 +121,7 @@ def _trace(path: Path, profile: dict) -> KeptTrace:
         raise InputError(
             f"{where}: has another SHA-256 than recorded; allowed is what was recorded"
         )
-    return KeptTrace(read, profile.get("file_sha256"))
+    return KnownTrace(read, profile.get("file_sha256"))
 
 
 def read_table(path: Path) -> dict:

@@ -1,11 +1,10 @@
 """Where a scene's file is, and what it says as TOML; the scenes that come with the project."""
 
-import difflib
 import os
 import tomllib
 from pathlib import Path
 
-from comparisons.common.errors import SceneError
+from comparisons.common.errors import SceneError, nearest
 
 SCENES = Path(__file__).parent / "library"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
@@ -39,9 +38,8 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
         raise SceneError(
             f"{given}: there is no such file; allowed is a scene file or a scene's name"
         )
-    near = difflib.get_close_matches(given, names, n=1, cutoff=0.0)
     raise SceneError(
-        f"{given}: is neither a file nor a scene; the nearest scene is {near[0]}, "
+        f"{given}: is neither a file nor a scene; the nearest scene is {nearest(given, names)}, "
         f"all are {', '.join(names)}"
     )
 

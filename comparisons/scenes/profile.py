@@ -24,9 +24,8 @@ from analytic.surface.turned import turned
 from comparisons.common.errors import SceneError
 from comparisons.common.units import LENGTH, unit_in_si
 from comparisons.scenes.scene import Load, ProfileInfo
-from comparisons.scenes.schema.profile import FILTER, ProfileTable
-from comparisons.scenes.schema.profile_fields import AUTOMATIC
-from comparisons.scenes.schema.section import allowed
+from comparisons.scenes.schema.fields import allowed
+from comparisons.scenes.schema.profile import AUTOMATIC, FILTER, ProfileSection
 
 SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
 SINUSOID_WAVES = 3.0  # and at least so many wavelengths
@@ -40,14 +39,14 @@ _MAKERS = {
 # What to say where a file does not tell it, and the scene does not either.
 _ALLOWED = {
     "x_unit": "exactly one of x_unit and spacing",
-    "z_unit": allowed(ProfileTable, "z_unit"),
-    "spacing": allowed(ProfileTable, "spacing"),
+    "z_unit": allowed(ProfileSection, "z_unit"),
+    "spacing": allowed(ProfileSection, "spacing"),
 }
 
 
 @dataclass(frozen=True)
-class KeptTrace:
-    """A trace that was read or made before, and the SHA-256 of its file, None for a made one."""
+class KnownTrace:
+    """A trace that is read or made already, and the SHA-256 of its file, None for a made one."""
 
     read: MeasuredProfile
     sha256: str | None
@@ -59,7 +58,7 @@ def profile_of(
     *,
     folder: Path,
     source: str,
-    kept: KeptTrace | None = None,
+    known: KnownTrace | None = None,
 ) -> tuple[Profile, ProfileInfo, float]:
     """The profile with x = 0 under the roller's centre and height 0 on the mean line.
 
@@ -67,13 +66,13 @@ def profile_of(
     position  [m] of the roller's centre on the trace; None is the middle
     folder    that the path of a measured profile starts from
     source    what messages call the scene
-    kept      what to take instead of reading the file, or of making the profile again
+    known     to take instead of reading the file, or of making the profile again
     Returns the account of the whole trace and the position as well. Raises SceneError.
     """
     if "file" in table:
-        trace, origin = _measured(table, folder / table["file"], source, kept)
+        trace, origin = _measured(table, folder / table["file"], source, known)
     else:
-        trace, origin = _made(table, source, kept)
+        trace, origin = _made(table, source, known)
     position = _position(position, trace, source)
     pressed, filtering = _filtered(trace, table, source)
     account = ProfileInfo(
@@ -88,7 +87,7 @@ def profile_of(
 
 
 def sinusoid_length(
-    table: ProfileTable, load: Load, radius: float, roller: Material | None, body: Material
+    table: ProfileSection, load: Load, radius: float, roller: Material | None, body: Material
 ) -> float:
     """Length [m] of a sinusoid that outlasts its contact under `load`.
 
@@ -105,11 +104,11 @@ def sinusoid_length(
 
 
 def _measured(
-    table: Mapping, path: Path, source: str, kept: KeptTrace | None
+    table: Mapping, path: Path, source: str, known: KnownTrace | None
 ) -> tuple[Profile, dict]:
     """The profile in a file without its form, and where it comes from."""
     try:
-        kept = kept or _read(table, path)
+        known = known or _read(table, path)
     except MissingUnitError as error:
         raise SceneError(
             f"{source}: profile.{error.field}: is missing; allowed is {_ALLOWED[error.field]} "
@@ -118,23 +117,23 @@ def _measured(
     except (ValueError, OSError) as error:
         raise SceneError(f"{source}: profile.file: {error}") from error
     try:
-        trace, form = _without_form(kept.read.profile, table["form"])
+        trace, form = _without_form(known.read.profile, table["form"])
     except ValueError as error:
         raise SceneError(f"{source}: profile.form: {error}") from error
     return trace, {
         "source": table["file"],
         "path": path,
-        "trace": kept.read.profile,
-        "sha256": kept.sha256,
+        "trace": known.read.profile,
+        "sha256": known.sha256,
         "form": form,
-        "bridged": kept.read.bridged,
-        "trimmed": kept.read.trimmed,
-        "format": kept.read.format,
-        "place": kept.read.place,
+        "bridged": known.read.bridged,
+        "trimmed": known.read.trimmed,
+        "format": known.read.format,
+        "place": known.read.place,
     }
 
 
-def _read(table: Mapping, path: Path) -> KeptTrace:
+def _read(table: Mapping, path: Path) -> KnownTrace:
     read = read_measured(
         path,
         x_scale=_scale(table, "x_unit"),
@@ -143,7 +142,7 @@ def _read(table: Mapping, path: Path) -> KeptTrace:
         dropouts=table["dropouts"],
         chosen=_chosen(table),
     )
-    return KeptTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
+    return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 def _scale(table: Mapping, field: str) -> float | None:
@@ -155,12 +154,12 @@ def _chosen(table: Mapping) -> MapLine | None:
     return MapLine(**given) if given else None
 
 
-def _made(table: Mapping, source: str, kept: KeptTrace | None) -> tuple[Profile, dict]:
+def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:
     """The profile that `analytic.surface.synthetic` makes, about its mean line, and where it comes
     from."""
     parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
     try:
-        trace = kept.read.profile if kept else _MAKERS[table["kind"]](**parameters)
+        trace = known.read.profile if known else _MAKERS[table["kind"]](**parameters)
     except ValueError as error:
         raise SceneError(f"{source}: profile: {error}") from error
     return trace, {"source": table["kind"], "form": RemovedForm("none"), "trace": trace}

@@ -2,14 +2,15 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from analytic.material import Material
+from comparisons.common.errors import InputError
 from comparisons.scenes.files import find_scene, read_toml
-from comparisons.scenes.profile import KeptTrace, profile_of, sinusoid_length
+from comparisons.scenes.profile import KnownTrace, profile_of, sinusoid_length
 from comparisons.scenes.scene import (
     Budget,
     Coated,
@@ -20,14 +21,14 @@ from comparisons.scenes.scene import (
     Yielding,
 )
 from comparisons.scenes.schema.finite_element import settings_of
-from comparisons.scenes.schema.messages import scene_error
 from comparisons.scenes.schema.running_in import running_in_of
 from comparisons.scenes.schema.scene import (
-    BodyTable,
-    CoatingTable,
-    RollerTable,
-    SceneTables,
+    BodySection,
+    CoatingSection,
+    RollerSection,
+    SceneFile,
     plain_tables,
+    scene_error,
 )
 
 LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
@@ -46,17 +47,17 @@ def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
 
 
 def resolve_tables(
-    tables: Mapping, *, name: str, folder: Path, source: str, kept: KeptTrace | None = None
+    tables: Mapping, *, name: str, folder: Path, source: str, trace: KnownTrace | None = None
 ) -> ResolvedScene:
     """The scene that `tables`, as TOML has them, describe.
 
     folder  that the profile's path starts from
     source  what messages call the scene
-    kept    the trace to take in place of the profile's file
+    trace   to take in place of the profile's file
     Raises SceneError as `load_scene` does.
     """
     try:
-        scene = SceneTables.model_validate(tables)
+        scene = SceneFile.model_validate(tables)
     except ValidationError as error:
         raise scene_error(error, source) from error
     body = Material(scene.body.youngs_modulus, scene.body.poissons_ratio)
@@ -80,7 +81,7 @@ def resolve_tables(
                 length += scene.running_in.travel(position)
             plain["profile"].setdefault("length", length)
         profile, info, position = profile_of(
-            plain["profile"], scene.load.position, folder=folder, source=source, kept=kept
+            plain["profile"], scene.load.position, folder=folder, source=source, known=trace
         )
         if info.cutoff is not None:
             plain["profile"]["cutoff"] = info.cutoff  # of "auto", what it came to
@@ -120,17 +121,28 @@ def resolve_tables(
     )
 
 
-def _roller(table: RollerTable) -> Material | None:
+def _roller(table: RollerSection) -> Material | None:
     return None if table.rigid else Material(table.youngs_modulus, table.poissons_ratio)
 
 
-def _yielding(table: BodyTable) -> Yielding | None:
+def _yielding(table: BodySection) -> Yielding | None:
     if table.yield_stress is None:
         return None
     return Yielding(table.yield_stress, table.hardening_modulus or 0.0)
 
 
-def _coating(table: CoatingTable | None) -> Coated | None:
+def _coating(table: CoatingSection | None) -> Coated | None:
     if table is None:
         return None
     return Coated(Material(table.youngs_modulus, table.poissons_ratio), table.thickness)
+
+
+def with_tolerance(scene: ResolvedScene, tolerance: float) -> ResolvedScene:
+    """The scene with one relative tolerance for all that it judges.
+
+    Raises InputError unless it is above 0 and below 1.
+    """
+    if not 0.0 < tolerance < 1.0:
+        raise InputError(f"--tolerance: is {tolerance:g}; allowed is above 0 and below 1")
+    judged_by = dict.fromkeys(scene.tolerance, tolerance)
+    return replace(scene, tolerance=judged_by, tables=scene.tables | {"tolerance": dict(judged_by)})

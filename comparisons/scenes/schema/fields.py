@@ -1,16 +1,29 @@
-"""The types of a scene's fields: what each may hold, read by pydantic, and said in one place.
+"""What a section of a scene file is: fields of a few types, checked by pydantic, and rules.
 
-Every type here has `read(given)`, which returns the value or raises ValueError with
-"problem; allowed is …", and `allowed()`, which is the last part alone, for a missing field.
+Every type of field has `read(given)`, which returns the value or raises ValueError with "problem;
+allowed is …", and `allowed()`, which is the last part alone, for a missing field.
 """
 
-import difflib
+import operator
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Annotated, get_args
 
+from pydantic import BaseModel, ConfigDict
+from pydantic.fields import FieldInfo
 from pydantic_core import core_schema
 
-from comparisons.common.units import LENGTH, Dimension, UnitError, describe, to_si, unit_in_si
+from comparisons.common.errors import nearest
+from comparisons.common.units import (
+    DIMENSIONLESS,
+    LENGTH,
+    Dimension,
+    UnitError,
+    describe,
+    to_si,
+    unit_in_si,
+)
 from comparisons.scenes.scene import Extent
 
 # Of a number in SI, but for 0. Products of some of them still fit a double.
@@ -63,28 +76,22 @@ class Number(FieldType):
             value = _of_sane_size(given, self.dimension)
         except UnitError as error:
             raise self.wrong(str(error)) from error
-        if (
-            (self.above is not None and not value > self.above)
-            or (self.at_least is not None and not value >= self.at_least)
-            or (self.below is not None and not value < self.below)
-            or (self.at_most is not None and not value <= self.at_most)
-        ):
+        if not all(holds(value, bound) for _, holds, bound in self._bounds()):
             raise self.wrong(f"is {describe(given)}")
         return value + 0.0  # -0.0 is 0.0
 
+    def _bounds(self) -> list[tuple[str, Callable[[float, float], bool], float]]:
+        bounds = (
+            ("above", operator.gt, self.above),
+            ("at least", operator.ge, self.at_least),
+            ("below", operator.lt, self.below),
+            ("at most", operator.le, self.at_most),
+        )
+        return [bound for bound in bounds if bound[2] is not None]
+
     def allowed(self) -> str:
-        bounds = [
-            f"{word} {bound:g}"
-            for word, bound in (
-                ("above", self.above),
-                ("at least", self.at_least),
-                ("below", self.below),
-                ("at most", self.at_most),
-            )
-            if bound is not None
-        ]
-        phrase = " ".join([self.dimension.phrase, " and ".join(bounds)]).strip()
-        return f"{phrase}{self.dimension.writing()}"
+        bounds = " and ".join(f"{word} {bound:g}" for word, _, bound in self._bounds())
+        return f"{self.dimension.phrase} {bounds}".strip() + self.dimension.writing()
 
 
 @dataclass(frozen=True)
@@ -95,9 +102,7 @@ class Whole(FieldType):
     at_most: int
 
     def read(self, given: object) -> int:
-        if isinstance(given, bool) or not isinstance(given, int):
-            raise self.wrong(f"is {describe(given)}")
-        if not self.at_least <= given <= self.at_most:
+        if type(given) is not int or not self.at_least <= given <= self.at_most:
             raise self.wrong(f"is {describe(given)}")
         return given
 
@@ -125,15 +130,15 @@ class Text(FieldType):
 
 
 @dataclass(frozen=True)
-class Choice(FieldType):
+class OneOf(FieldType):
     """One of a few words."""
 
     words: tuple[str, ...]
 
     def read(self, given: object) -> str:
         if given not in self.words:
-            near = difflib.get_close_matches(given, self.words, 1) if isinstance(given, str) else []
-            hint = f' (did you mean "{near[0]}"?)' if near else ""
+            near = nearest(given, self.words, 0.6) if isinstance(given, str) else None
+            hint = f' (did you mean "{near}"?)' if near else ""
             raise self.wrong(f"is {describe(given)}{hint}")
         return given
 
@@ -200,8 +205,8 @@ class Several(FieldType):
         if not values:
             raise self.wrong("is an empty list")
         read = tuple(self.each.read(value) for value in values)
-        for i, value in enumerate(read):
-            if value in read[:i]:
+        for value in read:
+            if read.count(value) > 1:
                 raise self.wrong(f"lists {value:g} twice")
         return read
 
@@ -221,10 +226,8 @@ class Grid(FieldType):
         if len(given) != 2:
             raise self.wrong(f"is a list of {len(given)}")
         for number in given:
-            if isinstance(number, bool) or not isinstance(number, int):
+            if type(number) is not int or number < 3:
                 raise self.wrong(f"holds {describe(number)}")
-            if number < 3:
-                raise self.wrong(f"holds {number}")
         columns, rows = given
         if columns * rows > self.most:
             raise self.wrong(f"asks for {describe(columns * rows)} points")
@@ -235,3 +238,48 @@ class Grid(FieldType):
             "a list of two whole numbers [along x, along z], at least 3 each "
             f"and at most {self.most} points in all"
         )
+
+
+Length = Annotated[float, Number(LENGTH, above=0.0)]
+Fraction = Annotated[float, Number(DIMENSIONLESS, above=0.0, below=1.0)]
+
+
+class FieldError(ValueError):
+    """A rule between fields is broken; `field` names the one to change, within its section."""
+
+    def __init__(self, field: str, message: str) -> None:
+        super().__init__(message)
+        self.field = field
+
+
+class Section(BaseModel):
+    """One section: unknown fields are errors."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    def one_of(self, names: Sequence[str], joint: str, or_none: bool = False) -> None:
+        """Raise FieldError unless exactly one of these fields is given, or none with `or_none`."""
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) > 1 or not (given or or_none):
+            raise FieldError(
+                given[1] if given else names[0],
+                f"is {f'given beside {given[0]}' if given else 'missing'}; "
+                f"allowed is exactly one of {joint.join(names)}",
+            )
+
+
+def allowed(table: type[Section], name: str) -> str:
+    """What a field may hold, in words."""
+    return field_type(table, name).allowed()
+
+
+def field_type(table: type[Section], name: str) -> FieldType:
+    """What reads a field."""
+    notes = _annotations(table.model_fields[name])
+    return next(note for note in notes if isinstance(note, FieldType))
+
+
+def _annotations(info: FieldInfo) -> tuple:
+    """A field's notes; those of `Annotated[…] | None` stand inside the union."""
+    inner = [note for part in get_args(info.annotation) for note in get_args(part)[1:]]
+    return (*info.metadata, *inner)

@@ -6,8 +6,7 @@ from pydantic import model_validator
 
 from comparisons.common.units import DIMENSIONLESS
 from comparisons.scenes.scene import FiniteElementSettings
-from comparisons.scenes.schema.fields import Choice, Number, Truth
-from comparisons.scenes.schema.section import FieldError, Table
+from comparisons.scenes.schema.fields import FieldError, Number, OneOf, Section, Truth
 
 HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -16,23 +15,29 @@ QUADRATIC_UP_TO = 0.49
 HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
 
 
-class FiniteElementTable(Table):
+SEVERAL_FRICTIONS = (
+    "is true with {} friction coefficients, each of which has pressures of its own then; "
+    "allowed is one friction coefficient"
+)
+
+
+class FiniteElementSection(Section):
     """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
 
-    geometry: Annotated[str, Choice(("flat", "rough"))] = "flat"
-    gap: Annotated[str, Choice(("reference", "displaced"))] | None = None
-    roller_shape: Annotated[str, Choice(("parabola", "circle"))] = "parabola"
-    roller_body: Annotated[str, Choice(("half-plane", "disc"))] = "half-plane"
+    geometry: Annotated[str, OneOf(("flat", "rough"))] = "flat"
+    gap: Annotated[str, OneOf(("reference", "displaced"))] | None = None
+    roller_shape: Annotated[str, OneOf(("parabola", "circle"))] = "parabola"
+    roller_body: Annotated[str, OneOf(("half-plane", "disc"))] = "half-plane"
     coupled: Annotated[bool, Truth()] | None = None
-    deformation: Annotated[str, Choice(("linear", "finite"))] = "linear"
+    deformation: Annotated[str, OneOf(("linear", "finite"))] = "linear"
     plastic: Annotated[bool, Truth()] = False
-    element: Annotated[str, Choice(("P1", "P2", "P3"))] | None = None
-    far_field: Annotated[str, Choice(("held", "half-plane"))] = "held"
+    element: Annotated[str, OneOf(("P1", "P2", "P3"))] | None = None
+    far_field: Annotated[str, OneOf(("held", "half-plane"))] = "held"
     block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
 
     @model_validator(mode="after")
-    def _nonlinear_bodies_have_what_they_take(self) -> "FiniteElementTable":
+    def _nonlinear_bodies_have_what_they_take(self) -> "FiniteElementSection":
         nonlinear = "finite_element.deformation" if self.deformation == "finite" else "plastic"
         if self.deformation == "finite" and self.plastic:
             raise FieldError(
@@ -66,13 +71,18 @@ class FiniteElementTable(Table):
         return found
 
     def check(
-        self, roller: Table, body: Table, load: Table, profile: Table | None, coating: Table | None
+        self,
+        roller: Section,
+        body: Section,
+        load: Section,
+        profile: Section | None,
+        coating: Section | None,
     ) -> None:
         """Raise FieldError unless the rest of the scene fits what this section asks for."""
         unbounded = body.thickness is None and body.width is None
         coated, finite = coating is not None, self.deformation == "finite"
         coupled = load.coupled if self.coupled is None else self.coupled
-        nonlinear = self.nonlinear
+        frictions = len(load.friction)
         rules = [
             (
                 self.geometry == "rough" and profile is None,
@@ -80,14 +90,14 @@ class FiniteElementTable(Table):
                 'is "rough" for a smooth body; allowed with [profile]',
             ),
             (
-                nonlinear and self.far_field == "half-plane",
+                self.nonlinear and self.far_field == "half-plane",
                 "far_field",
                 'is "half-plane" for a body that is not linear; allowed is "held"',
             ),
             (
-                nonlinear and len(load.friction) != 1,
+                self.nonlinear and frictions != 1,
                 "plastic" if self.plastic else "deformation",
-                f"wants one friction coefficient, not {len(load.friction)}: each has pressures of "
+                f"wants one friction coefficient, not {frictions}: each has pressures of "
                 "its own; allowed is load.friction = one number",
             ),
             (
@@ -117,10 +127,9 @@ class FiniteElementTable(Table):
                 "is true, but the body has no yield stress; allowed with body.yield_stress",
             ),
             (
-                bool(self.coupled) and len(load.friction) != 1,
+                bool(self.coupled) and frictions != 1,
                 "coupled",
-                f"is true with {len(load.friction)} friction coefficients, each of which has "
-                "pressures of its own then; allowed is one friction coefficient",
+                SEVERAL_FRICTIONS.format(frictions),
             ),
             (
                 finite and not roller.rigid,
@@ -135,7 +144,7 @@ class FiniteElementTable(Table):
             (
                 finite and profile is not None and self.geometry == "flat",
                 "geometry",
-                'is "flat" at finite deformation, which takes a real boundary; allowed is "rough"',
+                'is "flat" at finite deformation, which takes a rough boundary; allowed is "rough"',
             ),
             (
                 finite and max(load.friction) > 0.0 and not coupled,
@@ -167,7 +176,7 @@ class FiniteElementTable(Table):
 
 
 def settings_of(
-    table: FiniteElementTable, coupled: bool, poissons_ratio: float
+    table: FiniteElementSection, coupled: bool, poissons_ratio: float
 ) -> FiniteElementSettings:
     """The section with its defaults.
 

@@ -8,16 +8,75 @@ from pydantic import model_validator
 
 from analytic.profile import MAX_SAMPLES
 from analytic.surface.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
-from comparisons.common.units import DIMENSIONLESS, LENGTH
-from comparisons.scenes.schema.fields import Choice, Number, Text, Unit, Whole
-from comparisons.scenes.schema.profile_fields import CutOff, Segment
-from comparisons.scenes.schema.section import FieldError, Length, Table, allowed
+from comparisons.common.units import DIMENSIONLESS, LENGTH, describe
+from comparisons.scenes.schema.fields import (
+    FieldError,
+    FieldType,
+    Length,
+    Number,
+    OneOf,
+    Section,
+    Text,
+    Unit,
+    Whole,
+    allowed,
+)
 
-Positive = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
+AUTOMATIC = "auto"
+FILTER = ("cutoff", "short_cutoff")  # fields of every variety
+POSITIVE = Number(LENGTH, above=0.0)
+PLACE = Number(LENGTH, at_least=0.0)
+
+
+class CutOff(FieldType):
+    """A length above 0, or "auto"."""
+
+    def read(self, given: object) -> float | str:
+        if given == AUTOMATIC:
+            return AUTOMATIC
+        try:
+            return POSITIVE.read(given)
+        except ValueError as error:
+            raise self.wrong(str(error).partition(";")[0]) from error
+
+    def allowed(self) -> str:
+        return f'{POSITIVE.allowed()}, or "{AUTOMATIC}"'
+
+
+class Segment(FieldType):
+    """[[x0, y0], [x1, y1]]: two points of two lengths each, at least 0."""
+
+    def read(self, given: object) -> tuple[tuple[float, float], tuple[float, float]]:
+        points = self._pair(given)
+        start, stop = (
+            tuple(self._length(value) for value in self._pair(point)) for point in points
+        )
+        if start == stop:
+            raise self.wrong("starts where it ends")
+        return start, stop
+
+    def _pair(self, given: object) -> list | tuple:
+        if not isinstance(given, list | tuple):
+            raise self.wrong(f"holds {describe(given)}")
+        if len(given) != 2:
+            raise self.wrong(f"holds a list of {len(given)}")
+        return given
+
+    def _length(self, given: object) -> float:
+        try:
+            return PLACE.read(given)
+        except ValueError as error:
+            raise self.wrong(f"holds a place that {str(error).partition(';')[0]}") from error
+
+    def allowed(self) -> str:
+        return 'two points, such as [["0 um", "10 um"], ["500 um", "10 um"]], none below 0'
+
+
+Ratio = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
 Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 
 
-class ProfileTable(Table):
+class ProfileSection(Section):
     """A measured profile (`file`) or a made one (`kind`).
 
     The parameters of a made profile are those of `analytic.surface.synthetic`, which also checks
@@ -31,14 +90,14 @@ class ProfileTable(Table):
     row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
     column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
     line: Annotated[tuple, Segment()] | None = None
-    form: Annotated[str, Choice(("none", "mean", "line", "arc"))] | None = None
-    dropouts: Annotated[str, Choice(("refuse", "bridge"))] | None = None
-    kind: Annotated[str, Choice(("sinusoid", "self-affine", "ground", "turned"))] | None = None
+    form: Annotated[str, OneOf(("none", "mean", "line", "arc"))] | None = None
+    dropouts: Annotated[str, OneOf(("refuse", "bridge"))] | None = None
+    kind: Annotated[str, OneOf(("sinusoid", "self-affine", "ground", "turned"))] | None = None
     wavelength: Length | None = None
     amplitude: Length | None = None
     samples_per_wavelength: Samples | None = None
     hurst: Annotated[float, Number(DIMENSIONLESS, above=0.0, at_most=1.0)] | None = None
-    rms_slope: Positive | None = None
+    rms_slope: Ratio | None = None
     rms_height: Length | None = None
     samples: Samples | None = None
     length: Length | None = None
@@ -46,8 +105,8 @@ class ProfileTable(Table):
     shortest_wavelength: Length | None = None
     roll_off_wavelength: Length | None = None
     longest_wavelength: Length | None = None
-    decay: Positive | None = None
-    one_sidedness: Positive | None = None
+    decay: Ratio | None = None
+    one_sidedness: Ratio | None = None
     feed: Length | None = None
     nose_radius: Length | None = None
     ridge_radius: Length | None = None
@@ -69,16 +128,16 @@ class ProfileTable(Table):
         if not isinstance(given, dict):
             return given
         kind = given.get("kind", "file")
-        variety = PROFILE_VARIETIES.get(kind) if isinstance(kind, str) else None
+        variety = VARIETIES.get(kind) if isinstance(kind, str) else None
         return {**variety.defaults, **given} if variety else given
 
     @model_validator(mode="after")
-    def _one_variety(self) -> "ProfileTable":
+    def _one_variety(self) -> "ProfileSection":
         if self.file is not None and self.kind is not None:
             raise FieldError("kind", "is given beside file; allowed is one of the two")
         if self.file is None and self.kind is None:
             raise FieldError("file", "is missing; allowed is file (measured) or kind (made)")
-        variety = PROFILE_VARIETIES[self.variety]
+        variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
                 raise FieldError(
@@ -89,31 +148,18 @@ class ProfileTable(Table):
         for name in variety.needed:
             if getattr(self, name) is None:
                 raise FieldError(
-                    name, f"is missing; allowed is {allowed(ProfileTable, name)} ({variety.title})"
+                    name,
+                    f"is missing; allowed is {allowed(ProfileSection, name)} ({variety.title})",
                 )
         for names in variety.one_of:
-            given = [name for name in names if getattr(self, name) is not None]
-            if len(given) != 1:
-                raise FieldError(
-                    names[-1] if given else names[0],
-                    f"is {'given beside ' + names[0] if given else 'missing'}; "
-                    f"allowed is exactly one of {' and '.join(names)}",
-                )
+            self.one_of(names, " and ")
         for names in variety.at_most_one_of:
-            given = [name for name in names if getattr(self, name) is not None]
-            if len(given) > 1:
-                raise FieldError(
-                    given[1],
-                    f"is given beside {given[0]}; allowed is exactly one of {' and '.join(names)}",
-                )
+            self.one_of(names, " and ", or_none=True)
         return self
 
 
-FILTER = ("cutoff", "short_cutoff")  # every variety has them
-
-
 @dataclass(frozen=True)
-class ProfileVariety:
+class Variety:
     """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
 
     title: str
@@ -134,28 +180,28 @@ class ProfileVariety:
         }
 
 
-PROFILE_VARIETIES = {
-    "file": ProfileVariety(
+VARIETIES = {
+    "file": Variety(
         "a measured profile",
         needed=("file",),
         optional=("z_unit",),  # a file that is not text may bring its units and its size
         defaults={"form": "line", "dropouts": "refuse"},
         at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
     ),
-    "sinusoid": ProfileVariety(
+    "sinusoid": Variety(
         'kind = "sinusoid"',
         needed=("kind", "wavelength", "amplitude"),
         optional=("length",),
         defaults={"samples_per_wavelength": SAMPLES_PER_WAVELENGTH},
     ),
-    "self-affine": ProfileVariety(
+    "self-affine": Variety(
         'kind = "self-affine"',
         needed=("kind", "hurst", "samples", "length"),
         optional=("shortest_wavelength", "longest_wavelength"),
         defaults={"seed": 0},
         one_of=(("rms_slope", "rms_height"),),
     ),
-    "ground": ProfileVariety(
+    "ground": Variety(
         'kind = "ground"',
         needed=(
             "kind",
@@ -168,7 +214,7 @@ PROFILE_VARIETIES = {
         ),
         defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
     ),
-    "turned": ProfileVariety(
+    "turned": Variety(
         'kind = "turned"',
         needed=("kind", "feed", "nose_radius", "length"),
         optional=("ridge_radius", "samples_per_feed", "noise", "noise_wavelength"),

@@ -10,14 +10,13 @@ from analytic.running_in import SWEEPS
 from comparisons.common.errors import SceneError
 from comparisons.common.units import LENGTH, LOAD, PRESSURE
 from comparisons.scenes.scene import RunningIn
-from comparisons.scenes.schema.fields import Number, Several, Whole
-from comparisons.scenes.schema.section import FieldError, Length, Table
+from comparisons.scenes.schema.fields import FieldError, Length, Number, Section, Several, Whole
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
 
 
-class RunningInTable(Table):
+class RunningInSection(Section):
     """Places of the roller one by one (`positions`), or evenly along a `stroke` about its own."""
 
     hardness: Annotated[float, Number(PRESSURE, above=0.0)] | None = None
@@ -28,19 +27,16 @@ class RunningInTable(Table):
     sweeps: Annotated[int, Whole(1, MOST_PASSES)] = SWEEPS
 
     @model_validator(mode="after")
-    def _one_way_to_give_the_positions(self) -> "RunningInTable":
-        both, none = "given beside positions", "missing"
-        if (self.positions is None) == (self.stroke is None):
-            raise FieldError(
-                "positions" if self.stroke is None else "stroke",
-                f"is {none if self.stroke is None else both}; "
-                "allowed is exactly one of positions and stroke",
-            )
+    def _one_way_to_give_the_positions(self) -> "RunningInSection":
+        self.one_of(("positions", "stroke"), " and ")
         if self.positions is not None and self.passes is not None:
-            raise FieldError("passes", f"is {both}, which are one pass each; allowed with stroke")
+            raise FieldError(
+                "passes",
+                "is given beside positions, which are one pass each; allowed with stroke",
+            )
         return self
 
-    def check(self, profile: Table | None, hardness: float | None, load_kind: str) -> None:
+    def check(self, profile: Section | None, hardness: float | None, load_kind: str) -> None:
         """Raise FieldError unless the rest of the scene gives what this section leaves out."""
         if profile is None:
             raise FieldError(
@@ -58,17 +54,17 @@ class RunningInTable(Table):
             )
 
     def travel(self, position: float) -> float:
-        """Twice the farthest that the roller goes from `position` [m]: so much longer than for
-        one contact a trace must be."""
+        """Twice the largest distance of the roller from `position` [m]: a trace must be longer by
+        that than for one contact."""
         if self.stroke is not None:
             return self.stroke
         return 2.0 * float(np.abs(np.array(self.positions) - position).max())
 
 
 def running_in_of(
-    table: RunningInTable, hardness: float | None, position: float, placed: Profile, source: str
+    table: RunningInSection, hardness: float | None, position: float, placed: Profile, source: str
 ) -> tuple[RunningIn, dict]:
-    """How the scene's surface is run in, and the fields that the section leaves to defaults.
+    """How the scene's surface is run in, and the defaults of fields that the section leaves out.
 
     hardness  [Pa] of the body, if it has one
     position  [m] of the roller's centre on the trace

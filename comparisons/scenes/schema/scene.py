@@ -1,30 +1,36 @@
 """A scene file as tables: which sections and fields there are, and what must hold between them.
 
-Field types are in `scene_fields`; every validator here is a rule between fields, and raises
-FieldError so that the message can name the field that is to be changed.
+Every validator here is a rule between fields, and raises FieldError so that the message can name
+the field that is to be changed. What is wrong is one line: "file: section.field: problem; allowed
+is …".
 """
 
 from typing import Annotated, ClassVar
 
-from pydantic import model_validator
+from pydantic import ValidationError, model_validator
 
+from comparisons.common.errors import SceneError, nearest
 from comparisons.common.quantities import QUANTITIES
-from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME
+from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME, describe
 from comparisons.scenes.scene import Extent
 from comparisons.scenes.schema.fields import (
-    Choice,
     ExtentField,
+    FieldError,
+    Fraction,
     Grid,
+    Length,
     Number,
+    OneOf,
+    Section,
     Several,
     Text,
     Truth,
     Whole,
+    allowed,
 )
-from comparisons.scenes.schema.finite_element import FiniteElementTable
-from comparisons.scenes.schema.profile import ProfileTable
-from comparisons.scenes.schema.running_in import RunningInTable
-from comparisons.scenes.schema.section import FieldError, Fraction, Length, Table
+from comparisons.scenes.schema.finite_element import SEVERAL_FRICTIONS, FiniteElementSection
+from comparisons.scenes.schema.profile import ProfileSection
+from comparisons.scenes.schema.running_in import RunningInSection
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 
@@ -33,14 +39,14 @@ Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=
 PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
 
 
-class RollerTable(Table):
+class RollerSection(Section):
     radius: Length
     rigid: Annotated[bool, Truth()] = False
     youngs_modulus: Pressure | None = None
     poissons_ratio: PoissonsRatio | None = None
 
     @model_validator(mode="after")
-    def _elastic_or_rigid(self) -> "RollerTable":
+    def _elastic_or_rigid(self) -> "RollerSection":
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:
@@ -55,7 +61,7 @@ class RollerTable(Table):
         return self
 
 
-class BodyTable(Table):
+class BodySection(Section):
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
     hardness: Pressure | None = None
@@ -63,10 +69,10 @@ class BodyTable(Table):
     hardening_modulus: Annotated[float, Number(PRESSURE, at_least=0.0)] | None = None
     thickness: Length | None = None
     width: Length | None = None
-    base: Annotated[str, Choice(("bonded", "frictionless"))] | None = None
+    base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
 
     @model_validator(mode="after")
-    def _base_of_a_layer(self) -> "BodyTable":
+    def _base_of_a_layer(self) -> "BodySection":
         if self.base is not None and self.thickness is None:
             raise FieldError(
                 "base", "is given for a half-plane, which has none; allowed only with thickness"
@@ -74,7 +80,7 @@ class BodyTable(Table):
         return self
 
     @model_validator(mode="after")
-    def _hardening_of_what_yields(self) -> "BodyTable":
+    def _hardening_of_what_yields(self) -> "BodySection":
         if self.hardening_modulus is not None and self.yield_stress is None:
             raise FieldError(
                 "hardening_modulus",
@@ -83,13 +89,13 @@ class BodyTable(Table):
         return self
 
 
-class CoatingTable(Table):
+class CoatingSection(Section):
     thickness: Length
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
 
 
-class LoadTable(Table):
+class LoadSection(Section):
     per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
     hertz_peak_pressure: Pressure | None = None
     approach: Length | None = None
@@ -105,34 +111,24 @@ class LoadTable(Table):
         return next(name for name in self.KINDS if getattr(self, name) is not None)
 
     @model_validator(mode="after")
-    def _one_load(self) -> "LoadTable":
-        given = [name for name in self.KINDS if getattr(self, name) is not None]
-        if len(given) != 1:
-            raise FieldError(
-                given[1] if given else "per_length",
-                f"is {f'given beside {given[0]}' if given else 'missing'}; "
-                "allowed is exactly one of " + ", ".join(self.KINDS),
-            )
+    def _one_load(self) -> "LoadSection":
+        self.one_of(self.KINDS, ", ")
         return self
 
     @model_validator(mode="after")
-    def _one_friction_where_it_moves_the_contact(self) -> "LoadTable":
+    def _one_friction_where_it_moves_the_contact(self) -> "LoadSection":
         if self.coupled and len(self.friction) != 1:
-            raise FieldError(
-                "coupled",
-                f"is true with {len(self.friction)} friction coefficients, each of which has "
-                "pressures of its own then; allowed is one friction coefficient",
-            )
+            raise FieldError("coupled", SEVERAL_FRICTIONS.format(len(self.friction)))
         return self
 
 
-class StressTable(Table):
+class StressSection(Section):
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
     half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
     points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS)] = (600, 200)
 
 
-class ToleranceTable(Table):
+class ToleranceSection(Section):
     peak_pressure: Fraction = 0.02
     contact_length: Fraction = 0.02
     tau1_max: Fraction = 0.02
@@ -144,35 +140,35 @@ class ToleranceTable(Table):
     tau1_field_deep: Fraction | None = None
 
 
-class ResolutionTable(Table):
+class ResolutionSection(Section):
     pitch: Length | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
 
-class BudgetTable(Table):
+class BudgetSection(Section):
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
     effects: Annotated[bool, Truth()] = True
 
 
-class SceneTables(Table):
+class SceneFile(Section):
     """The whole file."""
 
     title: Annotated[str, Text("what the scene shows")] | None = None
-    roller: RollerTable
-    body: BodyTable
-    coating: CoatingTable | None = None
-    profile: ProfileTable | None = None
-    load: LoadTable
-    running_in: RunningInTable | None = None
-    stress: StressTable | None = None
-    tolerance: ToleranceTable = ToleranceTable()
-    finite_element: FiniteElementTable = FiniteElementTable()
-    resolution: ResolutionTable = ResolutionTable()
-    budget: BudgetTable = BudgetTable()
+    roller: RollerSection
+    body: BodySection
+    coating: CoatingSection | None = None
+    profile: ProfileSection | None = None
+    load: LoadSection
+    running_in: RunningInSection | None = None
+    stress: StressSection | None = None
+    tolerance: ToleranceSection = ToleranceSection()
+    finite_element: FiniteElementSection = FiniteElementSection()
+    resolution: ResolutionSection = ResolutionSection()
+    budget: BudgetSection = BudgetSection()
 
     @model_validator(mode="after")
-    def _approach_has_a_datum(self) -> "SceneTables":
+    def _approach_has_a_datum(self) -> "SceneFile":
         if self.load.approach is None:
             return self
         if self.body.thickness is None:
@@ -190,18 +186,18 @@ class SceneTables(Table):
         return self
 
     @model_validator(mode="after")
-    def _running_in_has_what_it_takes(self) -> "SceneTables":
+    def _running_in_has_what_it_takes(self) -> "SceneFile":
         if self.running_in is not None:
             self.running_in.check(self.profile, self.body.hardness, self.load.kind)
         return self
 
     @model_validator(mode="after")
-    def _finite_elements_have_what_they_take(self) -> "SceneTables":
+    def _finite_elements_have_what_they_take(self) -> "SceneFile":
         self.finite_element.check(self.roller, self.body, self.load, self.profile, self.coating)
         return self
 
     @model_validator(mode="after")
-    def _coating_is_on_something(self) -> "SceneTables":
+    def _coating_is_on_something(self) -> "SceneFile":
         if self.coating is None:
             return self
         thickness = self.body.thickness
@@ -219,7 +215,7 @@ class SceneTables(Table):
         return self
 
     @model_validator(mode="after")
-    def _friction_is_held(self) -> "SceneTables":
+    def _friction_is_held(self) -> "SceneFile":
         body = self.body
         if body.base == "frictionless" and body.width is not None and max(self.load.friction) > 0.0:
             raise FieldError(
@@ -230,35 +226,33 @@ class SceneTables(Table):
         return self
 
     @model_validator(mode="after")
-    def _judged_stress_is_asked_for(self) -> "SceneTables":
-        if self.stress is None:
-            for name in _of_stress():
-                if name in self.tolerance.model_fields_set:
-                    raise FieldError(
-                        f"tolerance.{name}",
-                        "needs a [stress] section; allowed is "
-                        + ", ".join(sorted(set(QUANTITIES) - set(_of_stress())))
-                        + " without one",
-                    )
+    def _judged_stress_is_asked_for(self) -> "SceneFile":
+        for name in _of_stress():
+            if self.stress is None and name in self.tolerance.model_fields_set:
+                others = ", ".join(sorted(set(QUANTITIES) - set(_of_stress())))
+                raise FieldError(
+                    f"tolerance.{name}",
+                    f"needs a [stress] section; allowed is {others} without one",
+                )
         return self
 
 
-SECTIONS: dict[str, type[Table]] = {
-    "roller": RollerTable,
-    "body": BodyTable,
-    "coating": CoatingTable,
-    "profile": ProfileTable,
-    "load": LoadTable,
-    "running_in": RunningInTable,
-    "stress": StressTable,
-    "tolerance": ToleranceTable,
-    "finite_element": FiniteElementTable,
-    "resolution": ResolutionTable,
-    "budget": BudgetTable,
+SECTIONS: dict[str, type[Section]] = {
+    "roller": RollerSection,
+    "body": BodySection,
+    "coating": CoatingSection,
+    "profile": ProfileSection,
+    "load": LoadSection,
+    "running_in": RunningInSection,
+    "stress": StressSection,
+    "tolerance": ToleranceSection,
+    "finite_element": FiniteElementSection,
+    "resolution": ResolutionSection,
+    "budget": BudgetSection,
 }
 
 
-def plain_tables(scene: SceneTables) -> dict:
+def plain_tables(scene: SceneFile) -> dict:
     """The scene as a file would have it: defaults written out, SI numbers, no None.
 
     Reading the result as a scene gives the same scene. JSON and TOML can hold it.
@@ -276,9 +270,60 @@ def _of_stress() -> list[str]:
 
 
 def _plain(value: object) -> object:
-    if isinstance(value, Table):
+    if isinstance(value, Section):
         pairs = ((name, getattr(value, name)) for name in type(value).model_fields)
         return {name: _plain(item) for name, item in pairs if item is not None}
     if isinstance(value, Extent):
         return value.value if value.in_half_widths else f"{value.value!r} m"
     return [_plain(item) for item in value] if isinstance(value, tuple) else value
+
+
+def scene_error(error: ValidationError, where: str) -> SceneError:
+    """The one line that stands for `error`; `where` names the scene.
+
+    A misspelt name usually leaves a needed field missing as well, so unknown names come first.
+    """
+    problems = error.errors(include_url=False)
+    unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
+    return SceneError(f"{where}: {_line((unknown or problems)[0])}")
+
+
+def _line(problem: dict) -> str:
+    location, kind = problem["loc"], problem["type"]
+    if kind == "extra_forbidden":
+        return _unknown(location, problem["input"])
+    if kind == "missing" and len(location) == 1:
+        return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
+    if kind == "missing":
+        section, name = location
+        return f"{section}.{name}: is missing; allowed is {allowed(SECTIONS[section], name)}"
+    if kind == "model_type":
+        return (
+            f"{location[0]}: is {describe(problem['input'])}; allowed is a section [{location[0]}]"
+        )
+    cause = problem.get("ctx", {}).get("error")
+    if isinstance(cause, FieldError):
+        location = (*location, cause.field)
+    return f"{'.'.join(map(str, location))}: {cause or problem['msg']}"
+
+
+def _unknown(location: tuple, given: object) -> str:
+    """A name that no section has: the nearest one, in its own section if there is one alike."""
+    *section, name = map(str, location)
+    place = ".".join([*section, name])
+    sections = {table: f"[{table}]" for table in SECTIONS}
+    if not section and isinstance(given, dict):
+        return f"{place}: is no known section; the nearest is {_nearest(name, sections)}"
+    fields = {
+        table: {field: f"{table}.{field}" for field in model.model_fields}
+        for table, model in SECTIONS.items()
+    }
+    own = fields[section[0]] if section else {"title": "title", **sections}
+    anywhere = {field: shown for table in fields.values() for field, shown in table.items()}
+    near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
+    return f"{place}: is no known field; the nearest is {near}"
+
+
+def _nearest(name: str, shown: dict[str, str], alike: float = 0.0) -> str | None:
+    """How the name most like `name` is shown."""
+    return shown.get(nearest(name.casefold(), shown, alike))

@@ -1,6 +1,6 @@
 """Every field of a scene that has a measured profile: what it is, and an example.
 
-What a field may hold is not repeated here: `comparisons.scenes.schema.section.allowed` says it, as
+What a field may hold is not repeated here: `comparisons.scenes.schema.fields.allowed` says it, as
 error messages do.
 """
 

@@ -5,9 +5,9 @@ import re
 from collections.abc import Mapping
 from textwrap import wrap
 
+from comparisons.scenes.schema.fields import allowed
 from comparisons.scenes.schema.scene import SECTIONS as TABLES
-from comparisons.scenes.schema.scene import SceneTables
-from comparisons.scenes.schema.section import allowed
+from comparisons.scenes.schema.scene import SceneFile
 from comparisons.studies.init.fields import SECTIONS, TITLE
 
 WIDTH = 96
@@ -27,7 +27,7 @@ def scene_text(title: str, values: Values, notes: Values) -> str:
     values  section, then field: what it is set to, as TOML; other fields stand there unused
     notes   the same: what is to be said of it besides
     """
-    heading = f"{TITLE[0]}; allowed is {allowed(SceneTables, 'title')}"
+    heading = f"{TITLE[0]}; allowed is {allowed(SceneFile, 'title')}"
     lines = [HEAD, *_comment(heading), f"title = {toml(title)}"]
     for section, (words, fields) in SECTIONS.items():
         used = values.get(section, {})

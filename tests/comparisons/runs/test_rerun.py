@@ -14,8 +14,7 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.common.model_names import MODELS
 from comparisons.common.provenance import versions
-from comparisons.runs.rerun import rerun
-from comparisons.runs.rerun_table import rerun_summary
+from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene, resolve_tables
 

@@ -24,7 +24,7 @@ from comparisons.scenes.scene import (
     Resolution,
     RunningIn,
 )
-from comparisons.scenes.schema.scene import SECTIONS, ToleranceTable
+from comparisons.scenes.schema.scene import SECTIONS, ToleranceSection
 
 STEEL = {"youngs_modulus": "207 GPa", "poissons_ratio": 0.3}
 BARE = {
@@ -152,7 +152,7 @@ def test_everything_that_can_be_said():
 
 
 def test_every_compared_quantity_can_be_judged():
-    assert set(ToleranceTable.model_fields) == set(QUANTITIES)
+    assert set(ToleranceSection.model_fields) == set(QUANTITIES)
 
 
 def test_extent_in_metres():

@@ -9,8 +9,7 @@ import pytest
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene, resolve_tables
-from comparisons.scenes.tolerance import with_tolerance
+from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {

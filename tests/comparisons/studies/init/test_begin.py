@@ -10,9 +10,9 @@ import pytest
 from comparisons.cli import main
 from comparisons.scenes.files import SCENES
 from comparisons.scenes.resolve import load_scene
-from comparisons.scenes.schema.profile import PROFILE_VARIETIES
-from comparisons.scenes.schema.scene import SECTIONS, SceneTables
-from comparisons.scenes.schema.section import field_type
+from comparisons.scenes.schema.fields import field_type
+from comparisons.scenes.schema.profile import VARIETIES
+from comparisons.scenes.schema.scene import SECTIONS, SceneFile
 from comparisons.studies.init.begin import begin
 from comparisons.studies.init.fields import SECTIONS as DESCRIBED
 from comparisons.studies.init.scene_text import scene_text
@@ -167,7 +167,7 @@ def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
 
 
 def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
-    of_a_file = PROFILE_VARIETIES["file"].fields()
+    of_a_file = VARIETIES["file"].fields()
     for section, table in SECTIONS.items():
         names = set(table.model_fields) if section != "profile" else of_a_file
         fields = DESCRIBED[section][1]
@@ -175,7 +175,7 @@ def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
         for name, (_, example) in fields.items():
             value = tomllib.loads(f"value = {example}")["value"]
             field_type(table, name).read(value)
-    assert set(SceneTables.model_fields) == {"title", *DESCRIBED}
+    assert set(SceneFile.model_fields) == {"title", *DESCRIBED}
 
 
 def test_unused_sections_come_alive_when_their_signs_are_taken_away():
