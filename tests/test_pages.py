@@ -6,11 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL
 from comparisons.assessment.effects.budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.assessment.effects.effects import EFFECTS
 from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE
-from comparisons.assessment.uncertainty import DOMAIN, LOWEST_ORDER
+from comparisons.assessment.uncertainty import DOMAIN, LOWEST_ORDER, PRESSURE_PER_RESIDUAL
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
 

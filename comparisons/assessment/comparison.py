@@ -4,34 +4,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.assessment.uncertainty import DOMAIN, Convergence, grid_convergence
+from comparisons.assessment.uncertainty import (
+    LENGTHS,
+    Uncertainty,
+    difference_of_figures,
+    far_boundary,
+    grid_convergence,
+    largest_iteration,
+    length_resolution,
+)
 from comparisons.assessment.verdict import Comparison, judge
 from comparisons.common.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
 from comparisons.models.level import Level, ModelRun, StressResult, Window
 from comparisons.models.problem import Problem
-
-# A contact residual r leaves errors of up to this multiple of r in the pressures: 1e-6 of the
-# displacements' range was seen to leave 2e-3.
-PRESSURE_PER_RESIDUAL = 2e3
-
-# Of a pitch: how well `contact_patches` finds the edge of a smooth contact between two nodes, at
-# any place of it and on every level alike (0.047 at worst in 280 contacts).
-EDGE_FOUND = 0.05
-
-
-@dataclass(frozen=True)
-class Uncertainty:
-    """Relative uncertainty of a figure, by cause; `convergence` tells how refinement went."""
-
-    iteration: float
-    discretisation: float
-    domain: float
-    convergence: Convergence
-
-    @property
-    def total(self) -> float:
-        """Sum of the parts: they are bounds, not random."""
-        return self.iteration + self.discretisation + self.domain
 
 
 @dataclass(frozen=True)
@@ -111,33 +96,18 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     for name, value in history[-1].items():
         values = [figures_of_level[name] for figures_of_level in history]
         resolution = 0.0
-        if name in ("contact_length", "contact_ratio"):
+        if name in LENGTHS:
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
             resolution *= value / run.finest.contact_length
         convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         scale = abs(value) or QUANTITIES[name].scale(problem.hertz)
         found[name] = Uncertainty(
-            iteration=PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst,
+            iteration=largest_iteration(run.finest),
             discretisation=convergence.uncertainty / scale,
-            domain=DOMAIN * abs(moved[name] - history[0][name]) / scale,
+            domain=far_boundary(moved[name], history[0][name]) / scale,
             convergence=convergence,
         )
     return found
-
-
-def reference_share(ratio: float) -> float:
-    """By how much the relative uncertainty of a reference counts in (figure - reference) /
-    reference, with `ratio` the figure over it: |ratio| to first order. Not less than whole, for a
-    figure that vanishes says nothing of what it is measured by."""
-    return max(1.0, abs(ratio))
-
-
-def length_resolution(pitch: float, patches: int) -> float:
-    """How finely the length of contact [m] in a number of patches can be told.
-
-    The two edges of a patch may err alike, those of different patches err by chance.
-    """
-    return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
 
 
 def pair_history(
@@ -153,14 +123,13 @@ def pair_history(
     history = [norms(one, other, problem, friction, window) for one, other in pairs]
     first, check = finite_element.levels[0], finite_element.far_boundary_check
     moved = norms(check, first, problem, friction, window) if check else {}
-    residual = max(run.finest.solution.residuals.worst for run in (half_plane, finite_element))
     found = {}
     for name in history[-1]:
         convergence = grid_convergence([h[name] for h in history], QUANTITIES[name].formal_order)
         found[name] = Uncertainty(
-            iteration=PRESSURE_PER_RESIDUAL * residual,
+            iteration=largest_iteration(half_plane.finest, finite_element.finest),
             discretisation=convergence.uncertainty,
-            domain=DOMAIN * moved.get(name, 0.0),
+            domain=far_boundary(moved.get(name, 0.0)),
             convergence=convergence,
         )
     return PairHistory(friction, tuple(history), found)
@@ -218,8 +187,8 @@ def compare(
             least = QUANTITIES[name].scale(problem.hertz)
             scale = abs(second) or least
             difference = (first - second) / scale
-            doubt = (abs(first) or least) / scale * doubt_one[name].total
-            doubt += reference_share(first / scale) * doubt_other[name].total
+            own = (abs(first) or least) / scale * doubt_one[name].total
+            doubt = difference_of_figures(own, first / scale, doubt_other[name].total)
         elif name in doubt_norm:
             first = second = None
             difference, doubt = doubt_norm[name].convergence.value, doubt_norm[name].total

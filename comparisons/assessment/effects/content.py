@@ -2,9 +2,10 @@
 
 import math
 
-from comparisons.assessment.comparison import Uncertainty, uncertainties
+from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.effects.budget import ErrorBudget
 from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.assessment.verdict import Comparison
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem

@@ -11,12 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.assessment.comparison import (
-    PRESSURE_PER_RESIDUAL,
-    length_resolution,
-    pair_history,
-    reference_share,
-)
+from comparisons.assessment.comparison import pair_history
 from comparisons.assessment.effects.contributions import EffectContributions
 from comparisons.assessment.effects.quantities_of_interest import (
     QuantitiesOfInterest,
@@ -25,13 +20,19 @@ from comparisons.assessment.effects.quantities_of_interest import (
 )
 from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.variants import strain_doubt
-from comparisons.assessment.uncertainty import grid_convergence, two_grids
+from comparisons.assessment.uncertainty import (
+    LENGTHS,
+    difference_of_figures,
+    difference_of_norms,
+    effect_resolution,
+    grid_convergence,
+    largest_iteration,
+    two_grids,
+)
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import ModelRun, Window
 from comparisons.models.problem import Problem
-
-LENGTHS = ("contact_length", "contact_ratio")
 
 
 @dataclass(frozen=True)
@@ -81,13 +82,11 @@ def model_errors(
     half_plane = [
         answer_of(level, problem, friction) for level in runs["half_plane"].levels[: len(history)]
     ]
-    residual = max(
-        level.solution.residuals.worst
-        for run in runs.values()
-        for level in (run.finest, run.levels[len(history) - 1])
+    number = len(history) - 1
+    iteration = largest_iteration(
+        *(level for run in runs.values() for level in (run.finest, run.levels[number]))
     )
-    grid = runs["finite_element"].levels[len(history) - 1]
-    edge = 2.0 * length_resolution(grid.grid.pitch, len(grid.patches)) / grid.contact_length
+    edge = effect_resolution(runs["finite_element"].levels[number])
 
     def share(name: str, changes: list[QuantitiesOfInterest]) -> Estimate:
         if QUANTITIES[name].of_pair:
@@ -101,7 +100,7 @@ def model_errors(
         if not any(values):
             return Estimate(0.0, 0.0)
         doubt = _doubt(values, name, edge)
-        return Estimate(values[-1], doubt + PRESSURE_PER_RESIDUAL * residual)
+        return Estimate(values[-1], doubt + iteration)
 
     lacking = [parts.lacking for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]
@@ -123,11 +122,10 @@ def model_errors(
         if not QUANTITIES[name].of_pair:
             value, doubt = _of_figure(row, numerical, last.lacking.figures[name], missing, problem)
         elif _is_any(last.lacking):
-            norm, there = share(name, own), pair.norms[len(history) - 1][name]
-            # norms of two levels may agree by chance: by parts, after the triangle's inequality
-            apart = numerical + abs(there - row.difference) + missing.uncertainty
+            norm, there = share(name, own), pair.norms[number][name]
+            parts = numerical, abs(there - row.difference), missing.uncertainty
             value = norm.value
-            doubt = max(norm.uncertainty + pair.uncertainties[name].domain, apart)
+            doubt = difference_of_norms(norm.uncertainty, pair.uncertainties[name].domain, parts)
         else:
             value, doubt = row.difference, numerical
         found.append(
@@ -155,7 +153,7 @@ def _of_figure(
     whole = row.finite_element + lacking
     scale = _scale(whole, row.quantity, problem)
     numerical *= _scale(row.finite_element, row.quantity, problem) / scale
-    doubt = numerical + reference_share(row.half_plane / scale) * missing.uncertainty
+    doubt = difference_of_figures(numerical, row.half_plane / scale, missing.uncertainty)
     return (row.half_plane - whole) / scale, doubt
 
 

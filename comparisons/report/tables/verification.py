@@ -5,8 +5,9 @@ import shlex
 from itertools import chain, repeat
 
 from analytic.contact.problem import KKT_TOLERANCE
-from comparisons.assessment.comparison import Uncertainty, figures, uncertainties
+from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
 from comparisons.common.quantities import QUANTITIES, label

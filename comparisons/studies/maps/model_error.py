@@ -9,18 +9,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from comparisons.assessment.comparison import (
-    PRESSURE_PER_RESIDUAL,
-    figures,
-    length_resolution,
-    norms,
+from comparisons.assessment.comparison import figures, norms
+from comparisons.assessment.uncertainty import (
+    LENGTHS,
+    far_boundary,
+    grid_convergence,
+    relative_resolution,
+    summed_iteration,
 )
-from comparisons.assessment.uncertainty import DOMAIN, grid_convergence
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun, Window
 from comparisons.models.problem import Problem
-
-LENGTHS = ("contact_length", "contact_ratio")
 
 
 @dataclass(frozen=True)
@@ -52,16 +51,16 @@ def model_errors(
         )
     one = figures(half_plane.finest, problem, friction)
     other = figures(finite_element.finest, problem, friction)
-    residual = sum(run.finest.solution.residuals.worst for run in (half_plane, finite_element))
+    finest = half_plane.finest, finite_element.finest
     found = {}
     for name in (name for name in QUANTITIES if name in history[-1]):
         convergence = grid_convergence(
             [differences[name] for differences in history],
             QUANTITIES[name].formal_order,
-            _resolution(half_plane.finest, finite_element.finest) if name in LENGTHS else 0.0,
+            relative_resolution(*finest) if name in LENGTHS else 0.0,
         )
-        domain = DOMAIN * abs(moved[name] - history[0][name])
-        doubt = convergence.uncertainty + domain + PRESSURE_PER_RESIDUAL * residual
+        domain = far_boundary(moved[name], history[0][name])
+        doubt = convergence.uncertainty + domain + summed_iteration(*finest)
         found[name] = PointError(
             one.get(name),
             other.get(name),
@@ -69,13 +68,6 @@ def model_errors(
             float(doubt) if np.isfinite(doubt) else None,
         )
     return found
-
-
-def _resolution(one: Level, other: Level) -> float:
-    """How finely the relative difference of two lengths of contact can be told."""
-    edges = [length_resolution(level.grid.pitch, len(level.patches)) for level in (one, other)]
-    ratio = one.contact_length / other.contact_length
-    return (edges[0] + ratio * edges[1]) / other.contact_length
 
 
 def _differences(

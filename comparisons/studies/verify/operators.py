@@ -18,8 +18,11 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
-from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL, length_resolution
-from comparisons.assessment.uncertainty import grid_convergence
+from comparisons.assessment.uncertainty import (
+    PRESSURE_PER_RESIDUAL,
+    grid_convergence,
+    length_resolution,
+)
 from comparisons.common.quantities import QUANTITIES
 from comparisons.studies.verify.pairs import Pair
 from comparisons.studies.verify.scenes import (

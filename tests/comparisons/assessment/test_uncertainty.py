@@ -11,8 +11,8 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
-from comparisons.assessment.comparison import compare, length_resolution, uncertainties
-from comparisons.assessment.uncertainty import DOMAIN, grid_convergence
+from comparisons.assessment.comparison import compare, uncertainties
+from comparisons.assessment.uncertainty import DOMAIN, grid_convergence, length_resolution
 from comparisons.models.level import ModelRun
 from comparisons.results.outcome import Outcome
 

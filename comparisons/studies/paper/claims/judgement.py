@@ -9,8 +9,7 @@ stand-in profile was made to show what the claim says.
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 
-from comparisons.assessment.comparison import PRESSURE_PER_RESIDUAL
-from comparisons.assessment.uncertainty import DOMAIN, grid_convergence
+from comparisons.assessment.uncertainty import far_boundary, grid_convergence, largest_iteration
 from comparisons.common.model_names import LABELS, MODELS
 from comparisons.common.numbers import plain
 from comparisons.results.outcome import Outcome
@@ -155,11 +154,11 @@ def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False
     if exact:
         return MeasuredNumber(value, 0.0, converged)
     uncertainty = grid_convergence(values, ORDER).uncertainty
-    uncertainty += PRESSURE_PER_RESIDUAL * run.finest.solution.residuals.worst * abs(value)
+    uncertainty += largest_iteration(run.finest) * abs(value)
     uncertainty += abs(reading(replace(views[-1], every=2)) - value)
     if run.far_boundary_check is not None:
         check = LevelView(model, outcome.problem, run.far_boundary_check, outcome.window)
-        uncertainty += DOMAIN * abs(reading(check) - values[0])
+        uncertainty += far_boundary(reading(check), values[0])
     return MeasuredNumber(value, float(uncertainty), converged)
 
 
