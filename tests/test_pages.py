@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from comparisons.assessment.effects.budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.effects.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE
 from comparisons.assessment.uncertainty import DOMAIN, LOWEST_ORDER, PRESSURE_PER_RESIDUAL
 from comparisons.scenes.resolve import resolve_tables

@@ -75,7 +75,7 @@ class Run(Printed):
 
     def contact(self, model: str = "half_plane") -> dict[str, np.ndarray]:
         """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
-        from comparisons.models.deformed import deformed_height
+        from comparisons.models.level import deformed_height
 
         if model not in self.outcome.runs:
             raise InputError(f"model: is {model}; allowed is {' or '.join(self.outcome.runs)}")

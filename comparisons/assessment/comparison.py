@@ -15,8 +15,9 @@ from comparisons.assessment.uncertainty import (
 )
 from comparisons.assessment.verdict import Comparison, judge
 from comparisons.common.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
-from comparisons.models.level import Level, ModelRun, StressResult, Window
+from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,14 @@ from comparisons.assessment.comparison import discretisations
 from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory, no_progress
-from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 if TYPE_CHECKING:
-    from comparisons.models.expected import Expected
     from comparisons.models.finite_element.bodies import BodyStore
+    from comparisons.models.level import ExpectedCost
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
 USUAL_GROWTH = 2.2  # of a level's time over the one before: for what is told, nothing is decided
@@ -165,7 +166,7 @@ def _spent(problem: Problem, plan: Plan, runs: dict[str, ModelRun]) -> str | Non
     return None
 
 
-def _expected_of(name: str, problem: Problem, plan: Plan, finest: Level) -> "Expected":
+def _expected_of(name: str, problem: Problem, plan: Plan, finest: Level) -> "ExpectedCost":
     """What the level after the finest one of a model will take."""
     if name == "half_plane":
         from comparisons.models.half_plane import expected_of

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 
 Verdict = Literal["agree", "differ", "inconclusive"]
 Validity = Literal["holds", "fails", "inconclusive"]

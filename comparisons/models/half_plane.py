@@ -10,19 +10,18 @@ from analytic.operators.tangential import CoupledHalfPlane
 from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
 from comparisons.common.progress import Stages, peak_memory
-from comparisons.models.expected import Expected
-from comparisons.models.level import Level, StressResult, Window
+from comparisons.models.level import ExpectedCost, Level, StressResult
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
-from comparisons.models.window import search_window
+from comparisons.models.window import Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes.
 SECONDS_PER_NODE, BYTES_PER_NODE = 3.5e-5, 700.0
 
 
-def expected_of(count: int) -> Expected:
+def expected_of(count: int) -> ExpectedCost:
     """What a level of so many pressure elements will take."""
-    return Expected(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
+    return ExpectedCost(count, BYTES_PER_NODE * count, SECONDS_PER_NODE * count)
 
 
 def half_plane_level(

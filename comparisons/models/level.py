@@ -7,33 +7,19 @@ import numpy as np
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress_state import Extremum, StressState
-from comparisons.models.finite_element.compliance_check import OperatorCheck
+from comparisons.models.finite_element.compliance_check import ComplianceCheck
+from comparisons.models.problem import Problem, mean_height
 from meshes.block import BlockMesh
 
 
 @dataclass(frozen=True)
-class Window:
-    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
+class ExpectedCost:
+    """What a level will take by measured laws, before it is begun: `unknowns`, `memory` [bytes] at
+    the peak, `seconds`."""
 
-    reach   [m] extremes are searched at |x| <= reach, whatever the density of x
-
-    The spacing in x is the pitch of every level's pressure elements times or over a power of two.
-    """
-
-    x: np.ndarray
-    z: np.ndarray
-    reach: float
-
-    def stride(self, pitch: float) -> int:
-        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
-        return 2 ** max(0, self._octaves(pitch))
-
-    def subdivisions(self, pitch: float) -> int:
-        """Parts into which x divides a pitch [m], 1 where x is coarser."""
-        return 2 ** max(0, -self._octaves(pitch))
-
-    def _octaves(self, pitch: float) -> int:
-        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
+    unknowns: int
+    memory: float
+    seconds: float
 
 
 @dataclass(frozen=True)
@@ -99,7 +85,7 @@ class Level:
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None
-    operator: OperatorCheck | None = None
+    operator: ComplianceCheck | None = None
 
     @property
     def contact_length(self) -> float:
@@ -144,3 +130,12 @@ class ModelRun:
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total
+
+
+def deformed_height(problem: Problem, level: Level) -> np.ndarray:
+    """Heights (n,) [m] of the rough body's surface under load, averaged over each hat.
+
+    Zero displacement at the mean of the grid's two ends: a datum that both models have.
+    """
+    ends = level.displacement[[0, -1]].mean()
+    return mean_height(problem, level.grid) - (level.displacement - ends)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from comparisons.common.model_names import MODELS
 from comparisons.models.assumptions import assumptions_of
-from comparisons.models.finite_element.compliance_difference import no_check
+from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
 

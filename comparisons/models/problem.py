@@ -116,6 +116,13 @@ class Problem:
         return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
 
 
+def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
+    """Heights (n,) [m] of the rough body's surface without load, averaged over each hat."""
+    if problem.scene.profile is None:
+        return np.zeros(grid.count)
+    return grid.hat_integrals(problem.scene.profile.spline(), problem.knots) / grid.weights
+
+
 def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
 

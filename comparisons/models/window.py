@@ -1,15 +1,41 @@
 """The points of the stress fields: where models and levels are compared, and searched."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from analytic.stress.field import graded_depths
 from comparisons.common.errors import SceneError
-from comparisons.models.level import Window
 from comparisons.models.problem import Problem
 
 FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
 SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
+
+
+@dataclass(frozen=True)
+class Window:
+    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
+
+    reach   [m] extremes are searched at |x| <= reach, whatever the density of x
+
+    The spacing in x is the pitch of every level's pressure elements times or over a power of two.
+    """
+
+    x: np.ndarray
+    z: np.ndarray
+    reach: float
+
+    def stride(self, pitch: float) -> int:
+        """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
+        return 2 ** max(0, self._octaves(pitch))
+
+    def subdivisions(self, pitch: float) -> int:
+        """Parts into which x divides a pitch [m], 1 where x is coarser."""
+        return 2 ** max(0, -self._octaves(pitch))
+
+    def _octaves(self, pitch: float) -> int:
+        return round(np.log2((self.x[-1] - self.x[0]) / (len(self.x) - 1) / pitch))
 
 
 def window_of(problem: Problem) -> Window:

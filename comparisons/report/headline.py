@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (

@@ -21,7 +21,7 @@ import io
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.common.errors import InputError
 from comparisons.common.files import whole_file, write_whole
 from comparisons.common.quantities import QUANTITIES

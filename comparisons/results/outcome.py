@@ -4,13 +4,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons.assessment.comparison import PairHistory
-from comparisons.assessment.coupling import Coupling
-from comparisons.assessment.effects.budget import ErrorBudget
+from comparisons.assessment.effects.error_budget import ErrorBudget
+from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.errors import ExitStatus
-from comparisons.models.level import ModelRun, Window
+from comparisons.models.level import ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 
 @dataclass(frozen=True)

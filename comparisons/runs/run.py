@@ -4,8 +4,8 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.coupling import couplings
-from comparisons.assessment.effects.budget import error_budget
+from comparisons.assessment.effects.error_budget import error_budget
+from comparisons.assessment.normal_tangential_coupling import couplings
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
@@ -91,7 +91,7 @@ def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCa
             f"{scene.source}: load.approach: takes finite elements to find its load; "
             "allowed with the half-plane alone is per_length or hertz_peak_pressure"
         )
-    from comparisons.models.finite_element.load_at_approach import problem_of_approach
+    from comparisons.models.finite_element.level import problem_of_approach
 
     return problem_of_approach(scene, callback)
 

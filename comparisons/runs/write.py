@@ -8,8 +8,7 @@ from comparisons.common.files import published
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
-from comparisons.models.deformed import deformed_height
-from comparisons.models.level import Level
+from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem
 from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.results.outcome import Outcome

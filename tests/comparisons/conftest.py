@@ -24,14 +24,15 @@ from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, StressState
 from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.effects.budget import error_budget
+from comparisons.assessment.effects.error_budget import error_budget
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
 from comparisons.common.provenance import digest
-from comparisons.models.level import Level, MeshField, ModelRun, StressResult, Window
+from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import Window
 from comparisons.report.figures.style import Picture
 from comparisons.report.page import Pictures
 from comparisons.results.outcome import Outcome
@@ -150,7 +151,7 @@ def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
         comparisons = compared(problem, runs, window)
         kept = level_cache(Path("results/made"), scene, plan)
         rows = {mu: {c.quantity: SAMPLING for c in comparisons} for mu in scene.friction}
-        with patch("comparisons.assessment.effects.budget.sampling_changes", lambda *_: rows):
+        with patch("comparisons.assessment.effects.error_budget.sampling_changes", lambda *_: rows):
             budget = error_budget(problem, plan, window, runs, comparisons, (), kept, no_progress)
     hashes = {
         f"{name}_pressure": digest(run.finest.solution.pressure) for name, run in runs.items()

@@ -9,14 +9,15 @@ All are relative sizes without a sign, meant to be too large rather than too sma
 what is computed, and stand for what is not. Each is a factor times a group; the factors bound what
 full solutions of smooth and wavy bodies showed, those of the maps among them, by quantity: stresses
 keep more of an effect than the contact, fields next to the surface most. That friction moves the
-surfaces is measured on the half-plane (`comparisons.assessment.coupling`) where it is known.
+surfaces is measured on the half-plane (`comparisons.assessment.normal_tangential_coupling`) where
+it is known.
 """
 
 from collections.abc import Iterable
 
 from analytic.material import dundurs_constants
 from analytic.surface.roughness import shortest_wavelength
-from comparisons.assessment.coupling import Coupling
+from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.problem import Problem
 

@@ -31,8 +31,9 @@ from comparisons.assessment.uncertainty import (
 )
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.quantities import QUANTITIES
-from comparisons.models.level import ModelRun, Window
+from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,9 @@ import numpy as np
 
 from comparisons.assessment.comparison import figures, pair_norms
 from comparisons.common.quantities import QUANTITIES
-from comparisons.models.level import Level, Window
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from comparisons.assessment.coupling import Coupling
-from comparisons.assessment.effects.effects import EFFECTS, contained
+from comparisons.assessment.effects.catalogue import EFFECTS, contained
 from comparisons.assessment.effects.estimates import Sizes, estimates
+from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
 

@@ -15,7 +15,7 @@ the two shares.
 from dataclasses import dataclass, replace
 
 from analytic.material import Material
-from comparisons.assessment.effects.effects import with_effects
+from comparisons.assessment.effects.catalogue import with_effects
 from comparisons.models.problem import Problem
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
 

@@ -5,8 +5,8 @@ import numpy as np
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import machine_memory
-from comparisons.models.expected import Expected
 from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
+from comparisons.models.level import ExpectedCost
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from fem.nonlinear.press_plastic import INCREMENTS
@@ -24,7 +24,9 @@ FINITE_SECONDS, FLOW_SECONDS = 1.0e-4, 1.2e-4
 FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
 
 
-def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray) -> Expected:
+def expected(
+    problem: Problem, plan: Plan, refinement: Refinement, patches: np.ndarray
+) -> ExpectedCost:
     """For contact predicted on `patches` (k, 2) [m]."""
     unknowns = expected_unknowns(problem, plan, refinement, patches)
     factorisation = factorisation_seconds(unknowns)
@@ -36,7 +38,7 @@ def expected(problem: Problem, plan: Plan, refinement: Refinement, patches: np.n
     if settings.plastic:
         steps = flow_increments(problem, refinement.pitch)
         seconds, memory = seconds + FLOW_SECONDS * steps * unknowns, NONLINEAR_BYTES
-    return Expected(unknowns, memory * unknowns, seconds)
+    return ExpectedCost(unknowns, memory * unknowns, seconds)
 
 
 def flow_increments(problem: Problem, pitch: float) -> int:
@@ -45,7 +47,7 @@ def flow_increments(problem: Problem, pitch: float) -> int:
     return max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(pitch)))
 
 
-def refuse_too_large(problem: Problem, wanted: Expected, pitch: float) -> None:
+def refuse_too_large(problem: Problem, wanted: ExpectedCost, pitch: float) -> None:
     """Raise SceneError where a level takes more memory than it may, or than there is."""
     source, allowed = problem.scene.source, problem.scene.budget.memory
     need = (

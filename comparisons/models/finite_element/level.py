@@ -4,6 +4,11 @@ The rough body is a block: of the scene's own thickness and width where they are
 large that it stands for a half-plane. An elastic roller is a body of its own under the same
 pressures: a flat block, or a sector of its true circle. The contact is solved on the sum of both
 surface compliances; analytic operators only predict it.
+
+The load that brings the bodies together by a prescribed approach, from finite elements.
+
+Only a body with a datum has an approach: a layer on its base under a rigid roller. The half-plane
+is then compared under the load that the layer carries.
 """
 
 from dataclasses import replace
@@ -13,18 +18,21 @@ import numpy as np
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import solve_contact
-from comparisons.common.progress import Stages, peak_memory
+from comparisons.common.errors import SceneError
+from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of
-from comparisons.models.finite_element.compliance_difference import no_check, operator_check
+from comparisons.models.finite_element.compliance_check import no_check, operator_check
 from comparisons.models.finite_element.contact import mutual_compliance, solve_mutual
 from comparisons.models.finite_element.cost import expected, refuse_too_large
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import pressed_linearly, stresses_of
-from comparisons.models.level import Level, Window
+from comparisons.models.level import Level
 from comparisons.models.nearest_operator import nearest_operator
-from comparisons.models.plan import Plan
-from comparisons.models.problem import Problem
+from comparisons.models.plan import Plan, make_plan
+from comparisons.models.problem import Problem, problem_of
+from comparisons.models.window import Window
+from comparisons.scenes.scene import ResolvedScene
 from meshes.refined_ranges import merge, unrefined_contact
 
 MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
@@ -114,3 +122,39 @@ def finite_element_level(
     with stages.stage("stresses", "finite elements: stresses"):
         stresses, mesh_field = stresses_of(pressed, scene.friction, window)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
+
+
+SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
+MOST_ROUNDS = 12
+
+
+def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Problem:
+    """The scene's problem with the load [N/m] that goes with its approach, to SETTLED or better.
+
+    Each round meshes for the load of the one before and prescribes the approach there. Raises
+    SceneError if the rounds do not settle.
+    """
+    wanted = scene.load.value
+    # a rigid body of the roller's shape would cut the surface over twice this half-width
+    half_width = np.sqrt(scene.roller_radius * wanted)
+    modulus = scene.body.plane_strain_modulus
+    load = np.pi * modulus * half_width**2 / (4.0 * scene.roller_radius)
+    store = BodyStore()
+    for _ in range(MOST_ROUNDS):
+        problem = problem_of(scene, load)
+        plan = make_plan(problem, ("finite_element",))
+        pitch = problem.pitches[-1]
+        callback("finite elements: load of the prescribed approach")
+        level = finite_element_level(
+            problem, plan, Refinement(pitch), None, Stages(), approach=wanted, store=store
+        )
+        before, load = load, level.solution.load
+        low, high = problem.extent
+        if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:
+            load = 2.0 * before  # the contact fills the grid: it carries more than that
+        elif abs(load - before) <= SETTLED * load:
+            return problem_of(scene, load)
+    raise SceneError(
+        f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "
+        "load (per_length) instead"
+    )

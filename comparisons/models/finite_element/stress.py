@@ -10,10 +10,10 @@ from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.mpi import from_first
-from comparisons.models.deformed import mean_height
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
-from comparisons.models.level import MeshField, StressResult, Window
-from comparisons.models.problem import Problem
+from comparisons.models.level import MeshField, StressResult
+from comparisons.models.problem import Problem, mean_height
+from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.hyperelastic import along_surface

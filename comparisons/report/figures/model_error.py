@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.common.numbers import given_percent, percent, plain
 from comparisons.common.quantities import QUANTITIES, label
 from comparisons.report.figures.style import WIDE, Picture, data_uri, figure

@@ -7,8 +7,7 @@ import numpy as np
 
 from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, scale_of, with_unit
-from comparisons.models.deformed import deformed_height
-from comparisons.models.level import Level
+from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem
 from comparisons.report.figures.style import (
     BODY,

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from comparisons.assessment.comparison import figures, uncertainties
-from comparisons.assessment.coupling import SHIFT, Change, Coupling
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.normal_tangential_coupling import SHIFT, Change, Coupling
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
 from comparisons.common.quantities import QUANTITIES, label

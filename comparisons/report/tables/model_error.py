@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.numbers import given_percent, percent, plain
 from comparisons.common.quantities import QUANTITIES, label

@@ -6,12 +6,12 @@ from itertools import chain, repeat
 
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.assessment.comparison import figures, uncertainties
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
 from comparisons.common.quantities import QUANTITIES, label
-from comparisons.models.finite_element.compliance_check import OperatorCheck
+from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.report.tables.text import TextTable
@@ -286,7 +286,7 @@ def operator_note(outcome: Outcome) -> str:
     return f"{READING[check.verdict]} {because}. {HOW.format(datum=datum)}"
 
 
-def _check(outcome: Outcome) -> OperatorCheck | None:
+def _check(outcome: Outcome) -> ComplianceCheck | None:
     run = outcome.runs.get("finite_element")
     return None if run is None else run.finest.operator
 

@@ -82,7 +82,7 @@ def _problem(scene: ResolvedScene, store: Cache, callback: ProgressCallback) -> 
 
 def _load_of_approach(scene: ResolvedScene) -> float:
     """[N/m]; in a process of its own, which an interrupt ends at once."""
-    from comparisons.models.finite_element.load_at_approach import problem_of_approach
+    from comparisons.models.finite_element.level import problem_of_approach
 
     return problem_of_approach(scene, no_progress).hertz.load_per_length
 

@@ -13,9 +13,8 @@ from dataclasses import dataclass, field
 
 from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages, peak_memory
-from comparisons.models.level import Window
 from comparisons.models.problem import Problem, problem_of
-from comparisons.models.window import window_of
+from comparisons.models.window import Window, window_of
 from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.cost.methods import METHODS, Method
 from comparisons.studies.cost.solve import Answer, solved

@@ -15,8 +15,9 @@ import numpy as np
 from analytic.exact.hertz import hertz_extremes, hertz_stress
 from comparisons.assessment.comparison import uncertainties
 from comparisons.common.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
-from comparisons.models.level import ModelRun, Window
+from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 from comparisons.studies.cost.methods import FINEST, is_half_plane_problem
 from comparisons.studies.cost.solve import Answer
 from comparisons.studies.cost.study import Row, Study

@@ -13,10 +13,10 @@ from analytic.stress_state import Extremum
 from comparisons.assessment.comparison import figures
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.level import Level, StressResult, Window
+from comparisons.models.level import Level, StressResult
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem
-from comparisons.models.window import search_window
+from comparisons.models.window import Window, search_window
 from comparisons.studies.cost.methods import Method
 
 

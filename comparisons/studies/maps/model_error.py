@@ -18,8 +18,9 @@ from comparisons.assessment.uncertainty import (
     summed_iteration,
 )
 from comparisons.common.quantities import QUANTITIES
-from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 
 @dataclass(frozen=True)

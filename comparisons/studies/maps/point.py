@@ -11,10 +11,10 @@ from time import perf_counter
 from comparisons.common.errors import one_line
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
-from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
-from comparisons.models.window import window_of
+from comparisons.models.window import Window, window_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.model_error import PointError, model_errors
 from comparisons.studies.maps.request import Asked

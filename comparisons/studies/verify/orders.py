@@ -11,7 +11,7 @@ import numpy as np
 from comparisons.studies.verify.checks import Check, order_check
 from comparisons.studies.verify.pairs import Pair, Solved
 
-# Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
+# ExpectedCost order and how far the observed one may lie from it, both ways. Hertz's contact: the
 # figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
 # square root at the edge. Another choice of 18 contacts was seen to change the orders by up to 0.4.
 EXPECTED = {

@@ -8,9 +8,9 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-import comparisons.assessment.coupling
-from comparisons.assessment.coupling import OFF_THE_GROUND, SHIFT, couplings
+import comparisons.assessment.normal_tangential_coupling
 from comparisons.assessment.effects.estimates import estimates
+from comparisons.assessment.normal_tangential_coupling import OFF_THE_GROUND, SHIFT, couplings
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import Stages, no_progress
@@ -128,12 +128,18 @@ class TestFigures:
         still = {"tau1_max_depth": 0.0, "contact_ratio": 0.0, "peak_pressure": 2.0}
         moved = {"tau1_max_depth": 3e-5, "contact_ratio": 0.0, "peak_pressure": 3.0}
         answers = iter([moved, still])
-        with patch("comparisons.assessment.coupling.figures", lambda *_: next(answers)):
-            changes = comparisons.assessment.coupling._changes(
+        with patch(
+            "comparisons.assessment.normal_tangential_coupling.figures", lambda *_: next(answers)
+        ):
+            changes = comparisons.assessment.normal_tangential_coupling._changes(
                 problem, level, level, 0.3, rigid.window
             )
-        assert changes["tau1_max_depth"] == comparisons.assessment.coupling.Change(3e-5, None)
-        assert changes["contact_ratio"] == comparisons.assessment.coupling.Change(0.0, 0.0)
+        assert changes[
+            "tau1_max_depth"
+        ] == comparisons.assessment.normal_tangential_coupling.Change(3e-5, None)
+        assert changes["contact_ratio"] == comparisons.assessment.normal_tangential_coupling.Change(
+            0.0, 0.0
+        )
         assert changes["peak_pressure"].difference == pytest.approx(0.5)
         told = replace(rigid.couplings[2], changes=changes)
         assert told.as_dict()["tau1_max_depth"] == {"value": 3e-5, "difference": None}
@@ -257,9 +263,9 @@ class TestRoughGround:
         problem = problem_of(scene_of(tables, friction=1.5))
         run_of_it = half_plane_of(problem)
         [expected] = couplings(problem, run_of_it, None, no_progress)
-        stretched = comparisons.assessment.coupling._stretched
+        stretched = comparisons.assessment.normal_tangential_coupling._stretched
         monkeypatch.setattr(
-            comparisons.assessment.coupling,
+            comparisons.assessment.normal_tangential_coupling,
             "_stretched",
             lambda p, g, more: stretched(p, g, 1 + more // 64),
         )

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.transforms import Bbox
 
 from analytic.material import Material
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.report.figures import pressures as pressure_pictures
 from comparisons.report.figures import problem as problem_picture
 from comparisons.report.figures.fields import colour_bar, fill, layout, round_bands

@@ -88,7 +88,7 @@ def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Outcome):
 
 def test_every_kind_has_a_name_of_its_own():
     found = kinds()
-    assert {"ResolvedScene", "ErrorBudget", "RunIn", "OperatorCheck", "ShownField"} <= set(found)
+    assert {"ResolvedScene", "ErrorBudget", "RunIn", "ComplianceCheck", "ShownField"} <= set(found)
     assert all(name == kind.__name__ for name, kind in found.items())
 
 

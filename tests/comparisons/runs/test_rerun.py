@@ -77,7 +77,7 @@ def figures(both):
 def test_the_same_machine_repeats_every_figure_and_touches_nothing(both, figures, monkeypatch):
     """The effects on as many levels as recorded: where time ends those of a run, it does not end
     those of its repetition."""
-    monkeypatch.setattr("comparisons.assessment.effects.budget._settled", lambda *_: False)
+    monkeypatch.setattr("comparisons.assessment.effects.error_budget._settled", lambda *_: False)
     assert figures["error_budget"]["levels"] == 2
     before = contents(both)
     repetition = rerun(both)

@@ -15,8 +15,9 @@ from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.quantities import layer_thickness
-from comparisons.models.level import Level, Window
+from comparisons.models.level import Level
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 from comparisons.studies.paper.claims.zones import (
     agreement_depth,
     highest_point,

@@ -7,7 +7,7 @@ import numpy as np
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress.field import StressField, friction_field
-from comparisons.models.deformed import mean_height
+from comparisons.models.problem import mean_height
 from comparisons.report.figures.fields import COMPONENTS, Component, round_bands
 from comparisons.results.outcome import Outcome
 

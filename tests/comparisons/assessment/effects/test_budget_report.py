@@ -8,9 +8,8 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from comparisons.assessment.effects.budget import ErrorBudget
-from comparisons.assessment.effects.content import error_budget_content, model_error_content
-from comparisons.assessment.effects.effects import EFFECTS
+from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import Choice
 from comparisons.report.figures.model_error import LOOKS, budget_bars, budget_picture
@@ -19,6 +18,7 @@ from comparisons.report.tables.model_error import budget_rows, left_out_line
 from comparisons.report.tables.verification import effects_table
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
+from comparisons.results.result_json import error_budget_content, model_error_content
 
 ESTIMATES = {
     "exact_circle": {"peak_pressure": 0.001, "tau1_max": 0.0015},

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from comparisons.assessment.comparison import figures, norms
-from comparisons.assessment.effects.effects import contained
+from comparisons.assessment.effects.catalogue import contained
 from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages

@@ -2,7 +2,7 @@
 
 import pytest
 
-from comparisons.assessment.effects.effects import (
+from comparisons.assessment.effects.catalogue import (
     EFFECTS,
     contained,
     is_taken_apart,

@@ -9,10 +9,10 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from comparisons.assessment.effects import levels as solve
+from comparisons.assessment.effects import solutions as solve
 from comparisons.assessment.effects.contributions import bodies_for, parts_of
-from comparisons.assessment.effects.levels import Bodies, NotComputedError, processes_beside
 from comparisons.assessment.effects.selection import Choice
+from comparisons.assessment.effects.solutions import Bodies, NotComputedError, processes_beside
 from comparisons.assessment.effects.variants import Body
 from comparisons.assessment.refinement import refined
 from comparisons.common.model_names import MODELS

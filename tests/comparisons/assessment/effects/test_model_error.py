@@ -9,7 +9,7 @@ import pytest
 
 import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
-from comparisons.assessment.effects.budget import ErrorBudget
+from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.verdict import validity_verdict
 from comparisons.common.errors import ExitStatus
 from comparisons.common.model_names import MODELS

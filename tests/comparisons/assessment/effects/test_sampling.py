@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from comparisons.assessment.comparison import figures
-from comparisons.assessment.effects.sampling import sampling_changes
+from comparisons.assessment.effects.error_budget import sampling_changes
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan

@@ -11,8 +11,13 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
-from comparisons.models.finite_element.adaptive import Pressing, adapted_contact, half_plane_block
-from comparisons.models.finite_element.adaptive_refinement import joined_patches, next_sizes
+from comparisons.models.finite_element.adaptive import (
+    Pressing,
+    adapted_contact,
+    half_plane_block,
+    joined_patches,
+    next_sizes,
+)
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance

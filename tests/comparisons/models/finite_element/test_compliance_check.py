@@ -10,17 +10,18 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import bodies as finite_element_bodies
-from comparisons.models.finite_element import compliance_difference as operator_difference
+from comparisons.models.finite_element import compliance_check as operator_difference
 from comparisons.models.finite_element import mesh as finite_element_mesh
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of
 from comparisons.models.finite_element.compliance_check import (
     Column,
+    ComplianceCheck,
     Differences,
-    OperatorCheck,
     Wave,
     judged,
+    no_check,
+    operator_check,
 )
-from comparisons.models.finite_element.compliance_difference import no_check, operator_check
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
@@ -46,7 +47,7 @@ def scene(**sections):
     return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
 
 
-def checked(given) -> OperatorCheck:
+def checked(given) -> ComplianceCheck:
     problem = problem_of(given)
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
     return finite_element_level(problem, plan, refinement, None, Stages(), check=True).operator

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from comparisons.common.progress import no_progress
-from comparisons.models.finite_element.load_at_approach import problem_of_approach
+from comparisons.models.finite_element.level import problem_of_approach
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import methods as cost_methods
 from comparisons.studies.cost import study as cost_study

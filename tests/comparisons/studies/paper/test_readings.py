@@ -11,7 +11,8 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
-from comparisons.models.level import Level, StressResult, Window
+from comparisons.models.level import Level, StressResult
+from comparisons.models.window import Window
 from comparisons.studies.paper.claims import readings as r
 from comparisons.studies.paper.claims.zones import (
     agreement_depth,

@@ -15,9 +15,10 @@ from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures, norms
 from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.models.half_plane import half_plane_on
-from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import no_coupling
 from comparisons.models.problem import Problem, ground
+from comparisons.models.window import Window
 
 SHIFT = "contact_shift"
 OFF_THE_GROUND = "moved by friction, the contact reaches the end of the body"

@@ -1,22 +1,74 @@
-"""The error budget of a finished comparison."""
+"""What a figure owes to the sampling of the trace: solved again from every other sample.
+
+The half-plane is enough, both models press the same curve. Taking every other sample can be done
+in two ways, that of even and that of odd ones; the larger change counts, and stands for what the
+samples themselves leave unknown as if that fell by half with the distance between them.
+
+The error budget of a finished comparison.
+"""
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from comparisons.assessment.coupling import Coupling
+from analytic.grid import roller_gap
+from analytic.profile import Profile, surface
 from comparisons.assessment.effects.contributions import EffectContributions, bodies_for, parts_of
-from comparisons.assessment.effects.levels import Bodies, NotComputedError, processes_beside
 from comparisons.assessment.effects.model_error import ModelError, model_errors
-from comparisons.assessment.effects.sampling import sampling_changes
+from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
 from comparisons.assessment.effects.selection import NONLINEAR, Choice, choose
+from comparisons.assessment.effects.solutions import Bodies, NotComputedError, processes_beside
+from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
-from comparisons.common.progress import ProgressCallback
-from comparisons.models.level import ModelRun, Window
+from comparisons.common.progress import ProgressCallback, Stages
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
+
+REFERENCE = 3  # levels: where edges are as fine as the scene's own resolution asks
+
+
+def sampling_changes(
+    problem: Problem, plan: Plan, window: Window | None, levels: Sequence[Level]
+) -> dict[float, dict[str, float]]:
+    """By friction coefficient and quantity, the relative change from half the samples.
+
+    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
+    """
+    profile, frictions = problem.scene.profile, problem.scene.friction
+    level = levels[:REFERENCE][-1]
+    found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
+    for first in (0, 1):
+        thinned = _pressed(problem, _every_other(profile, first))
+        other = half_plane_level(thinned, plan, level.grid.pitch, window, Stages())
+        for friction in frictions:
+            whole = answer_of(level, problem, friction)
+            change = answer_of(other, thinned, friction) - whole
+            for name, size in sizes(change, whole, problem, window).items():
+                found[friction][name] = max(found[friction].get(name, 0.0), abs(size))
+    return found
+
+
+def _every_other(profile: Profile, first: int) -> Profile:
+    """Every other sample from the given one on, and both ends, so that nothing is cut off."""
+    last = len(profile.x) - 1
+    kept = sorted({0, *range(first, last + 1, 2), last})
+    return Profile(profile.x[kept], profile.height[kept])
+
+
+def _pressed(problem: Problem, profile: Profile) -> Problem:
+    """The problem with another profile, on the same grids."""
+    return replace(
+        problem,
+        scene=replace(problem.scene, profile=profile),
+        gap=roller_gap(problem.scene.roller_radius, surface(profile)),
+        knots=profile.x,
+    )
+
 
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure

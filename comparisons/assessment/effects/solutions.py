@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.contact.problem import ContactError
-from comparisons.assessment.effects.effects import contained, is_taken_apart
+from comparisons.assessment.effects.catalogue import contained, is_taken_apart
 from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest, answer_of
 from comparisons.assessment.effects.variants import Body, problem_with
 from comparisons.common.cache import Cache
@@ -22,9 +22,10 @@ from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory
-from comparisons.models.level import Level, ModelRun, Window
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
