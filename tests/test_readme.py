@@ -22,9 +22,8 @@ from comparisons.cli import main
 from comparisons.commands.arguments import RESULTS
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of

@@ -40,8 +40,8 @@ from typing import TYPE_CHECKING
 
 from comparisons.api.results import CostStudy, Figures, Map, Run
 from comparisons.common.errors import InputError
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.quantities import MODELS, models_named
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
@@ -111,7 +111,7 @@ def run(
     """
     from comparisons.runs.run import run as run_scene
 
-    chosen = tuple(name for name in MODELS if name in _models(models))
+    chosen = models_named(models, "models")
     place = None if out is None else Path(out)
     return Run(run_scene(load(scene, tolerance), place, chosen, progress, fields))
 
@@ -211,14 +211,3 @@ def report(found: Run, path: str | os.PathLike) -> Path:
         raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
     write_whole(path, render(found.outcome))
     return path
-
-
-def _models(given: str | Sequence[str]) -> list[str]:
-    names = [given] if isinstance(given, str) else list(given)
-    plain = [name.replace("-", "_") for name in names]
-    for name, each in zip(names, plain, strict=True):
-        if each not in MODELS:
-            raise InputError(f"models: there is no model {name}; allowed are {', '.join(MODELS)}")
-    if not plain:
-        raise InputError(f"models: is empty; allowed are {', '.join(MODELS)}")
-    return plain

@@ -14,10 +14,12 @@ from comparisons.assessment.uncertainty import (
     length_resolution,
 )
 from comparisons.assessment.verdict import Comparison, judge
-from comparisons.common.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
+from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
+
+NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
 
 
 @dataclass(frozen=True)
@@ -210,3 +212,20 @@ def compare(
             )
         )
     return listed
+
+
+def relative_l2(
+    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
+) -> float:
+    """||values - reference|| / ||reference||; points where either is not finite are left out."""
+    known = np.isfinite(values) & np.isfinite(reference)
+    weights = np.broadcast_to(weights, values.shape)[known]
+    size = np.sum(weights * reference[known] ** 2)
+    if size == 0.0:
+        return 0.0 if not np.any(values[known]) else np.inf
+    return float(np.sqrt(np.sum(weights * (values[known] - reference[known]) ** 2) / size))
+
+
+def layer_thickness(depths: np.ndarray) -> np.ndarray:
+    """Thickness (m,) [m] that each of the ascending depths (m,) [m] stands for in an integral."""
+    return np.gradient(depths) if len(depths) > 1 else np.ones(1)

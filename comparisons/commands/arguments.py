@@ -1,24 +1,84 @@
-"""What several commands take: a scene, a folder, what to print."""
+"""What several commands take, what they return, and what the shell may complete."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial, wraps
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.completion import scenes
-
-Job = Callable[[], int]
-"""What a command returns: the work, which returns the exit status."""
-
 RESULTS = Path("results")
+Job = Callable[[], int]  # the work of a command; returns the exit status
 
-Scene = Annotated[
-    str,
-    typer.Argument(help="A TOML file, or a name that `scenes` lists.", autocompletion=scenes),
-]
+
+def job(work: Callable[..., int]) -> Callable[..., Job]:
+    """A command that only takes its arguments apart and returns the work to do:
+    `comparisons.cli.main` does it, so that every error and interrupt ends there."""
+
+    @wraps(work)
+    def command(*given: object, **named: object) -> Job:
+        return partial(work, *given, **named)
+
+    return command
 
 
 def json_option(name: str) -> typer.models.OptionInfo:
     """The option `--json` of a command that prints `name` then, and else a table."""
     return typer.Option("--json", help=f"Print {name} instead of the table.")
+
+
+def complete_scenes(incomplete: str) -> list[str]:
+    """Names of scenes, TOML files and folders that begin so."""
+    from comparisons.scenes.files import scene_names
+
+    return [*_beginning(scene_names(), incomplete), *_paths(incomplete)]
+
+
+def complete_maps(incomplete: str) -> list[str]:
+    """The same with the names of finished maps."""
+    from comparisons.studies.maps.request import FINISHED
+
+    names = sorted(path.stem for path in FINISHED.glob("*.toml"))
+    return [*_beginning(names, incomplete), *complete_scenes(incomplete)]
+
+
+def complete_groups(incomplete: str) -> list[str]:
+    """Dimensionless groups that a map may have as an axis."""
+    from comparisons.studies.maps.groups import GROUPS
+
+    return _beginning(GROUPS, incomplete)
+
+
+def complete_quantities(incomplete: str) -> list[str]:
+    """Quantities that are compared."""
+    from comparisons.common.quantities import QUANTITIES
+
+    return _beginning(QUANTITIES, incomplete)
+
+
+def complete_models(incomplete: str) -> list[str]:
+    """Models, and both of them."""
+    from comparisons.common.quantities import HYPHENATED
+
+    names = HYPHENATED.values()
+    return _beginning([*names, ",".join(names)], incomplete)
+
+
+def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def _paths(incomplete: str) -> list[str]:
+    folder, slash, _ = incomplete.rpartition("/")
+    paths = sorted(Path(folder + slash or ".").glob("[!.]*"))
+    words = {path: f"{folder}{slash}{path.name}{'/' * path.is_dir()}" for path in paths}
+    wanted = [path for path in paths if path.is_dir() or path.suffix == ".toml"]
+    return _beginning([words[path] for path in wanted], incomplete)
+
+
+Scene = Annotated[
+    str,
+    typer.Argument(
+        help="A TOML file, or a name that `scenes` lists.", autocompletion=complete_scenes
+    ),
+]

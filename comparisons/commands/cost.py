@@ -1,16 +1,16 @@
 """`crosscheck cost`: error against time of every method that applies to a scene."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, Scene, json_option
+from comparisons.commands.arguments import RESULTS, Scene, job, json_option
 from comparisons.commands.output import progress, show, show_file
 from comparisons.common.errors import ExitStatus
 
 
+@job
 def cost(
     scene: Scene,
     out: Annotated[
@@ -19,12 +19,8 @@ def cost(
     ] = None,
     repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
     as_json: Annotated[bool, json_option("cost.json")] = False,
-) -> Job:
+) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
-    return partial(_cost, scene, out, repeats, as_json)
-
-
-def _cost(scene: str, out: Path | None, repeats: int, as_json: bool) -> int:
     from comparisons.scenes.resolve import load_scene
     from comparisons.studies.cost.cost import cost as measured_cost
     from comparisons.studies.cost.table import cost_summary

@@ -11,10 +11,9 @@ import sys
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
-from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.arguments import job, json_option
 from comparisons.commands.output import progress, show, show_json
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Step
@@ -104,12 +103,9 @@ class Finding:
     detail: str
 
 
-def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> Job:
+@job
+def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> int:
     """Show what is installed, what is missing, and how to get it."""
-    return partial(_doctor, as_json)
-
-
-def _doctor(as_json: bool) -> int:
     findings = [Finding("Python", True, f"{platform.python_version()}, {sys.executable}")]
     with progress() as callback, ThreadPoolExecutor(2) as pool:
         for number, finding in enumerate(pool.map(attempt, TRIALS, TRIALS.values()), start=1):

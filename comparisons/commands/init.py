@@ -1,17 +1,17 @@
 """`crosscheck init`: a look at a measured profile, and a scene to start from."""
 
 import sys
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.arguments import job, json_option
 from comparisons.commands.output import is_watched, show, show_json
 from comparisons.common.errors import ExitStatus
 
 
+@job
 def init(
     profile: Annotated[Path, typer.Argument(help="A file with a measured profile.")],
     out: Annotated[
@@ -26,18 +26,12 @@ def init(
     column: Annotated[int | None, typer.Option(help="Of an areal map instead.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the scene's file.")] = False,
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
-) -> Job:
-    """Look at a measured profile and write a commented scene for it."""
-    asked = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
-    return partial(_init, profile, out, asked, force, as_json)
-
-
-def _init(
-    profile: Path, out: Path | None, asked: dict[str, str | int | None], force: bool, as_json: bool
 ) -> int:
+    """Look at a measured profile and write a commented scene for it."""
     from comparisons.studies.init.asked import asked_fields
     from comparisons.studies.init.begin import begin
 
+    asked = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
     begun = begin(profile, out, asked_fields(asked), force)
     if as_json:
         show_json(begun.as_dict())

@@ -1,34 +1,40 @@
 """`crosscheck map`: where the half-plane holds, over two dimensionless groups."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands import completion
-from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.arguments import (
+    RESULTS,
+    complete_groups,
+    complete_maps,
+    complete_quantities,
+    job,
+    json_option,
+)
 from comparisons.commands.output import progress, show, show_json
 from comparisons.common.errors import ExitStatus
 from comparisons.common.mpi import from_first
 
 Axis = typer.Option(
-    help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=completion.groups
+    help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=complete_groups
 )
 
 
+@job
 def map_of(
     scene: Annotated[
         str,
         typer.Argument(
-            help="As for `run`, or the name of a finished map.", autocompletion=completion.maps
+            help="As for `run`, or the name of a finished map.", autocompletion=complete_maps
         ),
     ],
     points: Annotated[str, typer.Option(help="Values along x and y, as NxM.")] = "8x8",
     x: Annotated[str | None, Axis] = None,
     y: Annotated[str | None, Axis] = None,
     quantity: Annotated[
-        str, typer.Option(help="The quantity to show.", autocompletion=completion.quantities)
+        str, typer.Option(help="The quantity to show.", autocompletion=complete_quantities)
     ] = "peak_pressure",
     workers: Annotated[
         str | None,
@@ -38,17 +44,11 @@ def map_of(
         Path | None, typer.Option(help="Folder for the map.", show_default="results/<name>")
     ] = None,
     as_json: Annotated[bool, json_option("map.json")] = False,
-) -> Job:
-    """Map where the half-plane holds, over two dimensionless groups."""
-    return partial(_map, (scene, points, x, y, quantity), workers, out, as_json)
-
-
-def _map(
-    asked: tuple[str | None, ...], workers: str | None, out: Path | None, as_json: bool
 ) -> int:
+    """Map where the half-plane holds, over two dimensionless groups."""
     from comparisons.studies.maps.request import request_of
 
-    request = from_first(lambda: request_of(*asked))
+    request = from_first(lambda: request_of(scene, points, x, y, quantity))
     directory = out or RESULTS / request.name
     from comparisons.studies.maps.command import exit_status, mapped
 

@@ -1,6 +1,7 @@
 """What commands print, and where: results to standard output, progress to a terminal alone."""
 
 import json
+import math
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,20 +9,41 @@ from pathlib import Path
 
 from comparisons.common.errors import one_line
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.progress import ProgressCallback, Step, no_progress
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
 
 
 @contextmanager
 def progress() -> Iterator[ProgressCallback]:
-    """A callback that shows the stage at work and the time left, if anybody watches."""
+    """A callback that shows the stage at work and the time left, if standard error is a terminal;
+    nothing stays there."""
     if not sys.stderr.isatty():
         yield no_progress
         return
-    from comparisons.common.progress_bar import progress_bar
+    from rich import progress as rich
+    from rich.console import Console
+    from rich.table import Column
 
-    with progress_bar() as callback:
+    wide = Column(ratio=1, no_wrap=True, overflow="ellipsis")
+    with rich.Progress(
+        rich.SpinnerColumn(),
+        rich.TextColumn("{task.description}", markup=False, table_column=wide),
+        rich.BarColumn(20),
+        rich.TimeElapsedColumn(),
+        rich.TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+        expand=True,
+        speed_estimate_period=math.inf,
+    ) as shown:
+        task = shown.add_task("", total=None)
+
+        def callback(stage: str) -> None:
+            if isinstance(stage, Step):
+                shown.update(task, total=1.0, completed=stage.done)
+            shown.update(task, description=str(stage), refresh=True)
+
         yield callback
 
 
@@ -42,7 +64,7 @@ def show(renderable: object) -> None:
 
 
 def say(sentence: str) -> None:
-    """Tell on standard error what concerns the user but is no failure of the command."""
+    """Print to standard error what the user should know but is no failure of the command."""
     print(f"crosscheck: {one_line(sentence)}", file=sys.stderr)
 
 

@@ -1,26 +1,22 @@
 """`crosscheck paper`: Bailey and Sayles' figures computed anew."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_json
 
 
+@job
 def paper(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the page.", show_default="results/paper")
     ] = None,
     as_json: Annotated[bool, json_option("paper.json")] = False,
-) -> Job:
+) -> int:
     """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
-    return partial(_paper, out, as_json)
-
-
-def _paper(out: Path | None, as_json: bool) -> int:
     from comparisons.studies.paper.reproduce import paper as reproduced
 
     with progress() as callback:

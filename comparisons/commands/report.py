@@ -1,16 +1,17 @@
 """`crosscheck report`: finished runs' pages drawn again, and one page over all of them."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, say, show, show_json
+from comparisons.common.errors import ExitStatus
 from comparisons.common.mpi import from_first
 
 
+@job
 def report(
     folders: Annotated[
         list[Path], typer.Argument(metavar="DIR...", help="Folders that runs have left.")
@@ -23,17 +24,12 @@ def report(
     ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Print each report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
-) -> Job:
+) -> int:
     """Draw reports again from result files, without solving; sum many runs up on one page."""
-    return partial(_report, folders, summary, pdf, as_json)
-
-
-def _report(folders: list[Path], summary: Path | None, pdf: bool, as_json: bool) -> int:
-    if summary is None and len(folders) > 1:
-        summary = RESULTS / "summary.html"
-    from comparisons.common.errors import ExitStatus
     from comparisons.report.redraw import draw_again, reports_content, reports_table
 
+    if summary is None and len(folders) > 1:
+        summary = RESULTS / "summary.html"
     with progress() as callback:
         reports = from_first(lambda: draw_again(folders, summary, pdf, callback))
     if as_json:

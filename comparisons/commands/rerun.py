@@ -1,25 +1,21 @@
 """`crosscheck rerun`: a recorded run repeated from its own record."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.arguments import job, json_option
 from comparisons.commands.output import progress, show, show_json
 
 
+@job
 def rerun(
     folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that a run has left.")],
     out: Annotated[Path | None, typer.Option(help="Folder that keeps the repetition.")] = None,
     as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
-) -> Job:
+) -> int:
     """Repeat a recorded run from its own record; report every figure that moved."""
-    return partial(_rerun, folder, out, as_json)
-
-
-def _rerun(folder: Path, out: Path | None, as_json: bool) -> int:
     from comparisons.runs.rerun import rerun as repeat
     from comparisons.runs.rerun import rerun_summary
 

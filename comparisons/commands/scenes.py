@@ -1,19 +1,15 @@
 """`crosscheck scenes`: what comes along."""
 
-from functools import partial
 from typing import Annotated
 
-from comparisons.commands.arguments import Job, json_option
+from comparisons.commands.arguments import job, json_option
 from comparisons.commands.output import show_json
 from comparisons.common.errors import ExitStatus
 
 
-def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> Job:
+@job
+def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = False) -> int:
     """List the scenes that come with crosscheck."""
-    return partial(_scenes, as_json)
-
-
-def _scenes(as_json: bool) -> int:
     from comparisons.scenes.files import scene_titles
 
     titles = scene_titles()

@@ -1,16 +1,16 @@
 """`crosscheck table`: many runs as one tidy table."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import Job
+from comparisons.commands.arguments import job
 from comparisons.commands.output import show_json
 from comparisons.common.errors import ExitStatus
 
 
+@job
 def table(
     folders: Annotated[
         list[Path], typer.Argument(metavar="DIR...", help="Folders with runs in or below them.")
@@ -19,12 +19,8 @@ def table(
         Path | None, typer.Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the rows as JSON.")] = False,
-) -> Job:
+) -> int:
     """Put the figures of many runs into one table: a row a run, friction and quantity."""
-    return partial(_table, folders, out, as_json)
-
-
-def _table(folders: list[Path], out: Path | None, as_json: bool) -> int:
     from comparisons.results.flat_table import as_csv, check_ending, tidy_rows, write_table
 
     if out is not None:

@@ -1,4 +1,4 @@
-"""What a run spends its time on: seconds by stage, told to whoever watches."""
+"""Seconds of a run by stage, a callback that hears of each stage, and memory."""
 
 import math
 import resource
@@ -13,7 +13,7 @@ ProgressCallback = Callable[[str], None]
 
 def peak_memory() -> int:
     """Largest resident memory of this process so far [bytes]."""
-    try:  # what getrusage tells includes, in a process just started, that of its parent
+    try:  # getrusage includes the parent's, in a process just started
         with open("/proc/self/status") as file:
             kilobytes = dict(line.split(":", 1) for line in file)["VmHWM"].split()[0]
         return 1024 * int(kilobytes)
@@ -23,7 +23,7 @@ def peak_memory() -> int:
 
 
 def machine_memory() -> float:
-    """Memory that processes of this machine could still get [bytes]; infinite if it tells none."""
+    """Memory that processes of this machine could still get [bytes]; infinite where unknown."""
     try:
         with open("/proc/meminfo") as file:
             kilobytes = dict(line.split(":") for line in file)["MemAvailable"].split()[0]
@@ -33,34 +33,34 @@ def machine_memory() -> float:
 
 
 def no_progress(stage: str) -> None:
-    """A callback that says nothing."""
+    """A progress callback that does nothing."""
 
 
 class Step(str):
-    """The name of a stage, with the share of its task, 0 to 1, that lies behind as it begins."""
+    """The name of a stage, with the share of the task, 0 to 1, that is done as it begins."""
 
-    behind: float
+    done: float
 
-    def __new__(cls, name: str, behind: float) -> "Step":
+    def __new__(cls, name: str, done: float) -> "Step":
         step = super().__new__(cls, name)
-        step.behind = min(max(behind, 0.0), 1.0)
+        step.done = min(max(done, 0.0), 1.0)
         return step
 
 
 def within(callback: ProgressCallback, start: float, stop: float) -> ProgressCallback:
-    """What to hand to a part of a task, which takes it from the share `start` to `stop`."""
+    """The callback of a part of a task that takes the task from the share `start` to `stop`."""
 
-    def told(stage: str) -> None:
+    def of_part(stage: str) -> None:
         if isinstance(stage, Step):
-            stage = Step(stage, start + (stop - start) * stage.behind)
+            stage = Step(stage, start + (stop - start) * stage.done)
         callback(stage)
 
-    return told
+    return of_part
 
 
 @dataclass
 class Stages:
-    """Collects seconds by stage; `callback` is told the name of each stage as it begins."""
+    """Collects seconds by stage; `callback` gets the name of each stage as it begins."""
 
     callback: ProgressCallback = no_progress
     seconds: dict[str, float] = field(default_factory=dict)

@@ -4,12 +4,18 @@ Figures of one model are numbers per level; figures of a pair are relative L2 no
 difference of two fields on the same points, with the finite elements as the reference.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import numpy as np
+from comparisons.common.errors import InputError, nearest
 
-from analytic.exact.hertz import HertzContact
+if TYPE_CHECKING:
+    from analytic.exact.hertz import HertzContact
+
+MODELS = ("half_plane", "finite_element")
+HYPHENATED = {"half_plane": "half-plane", "finite_element": "finite-element"}  # the … model
+LABELS = {"half_plane": "half-plane", "finite_element": "finite elements"}
 
 
 @dataclass(frozen=True)
@@ -27,21 +33,21 @@ class Quantity:
 
     label: str
     unit: str
-    scale: Callable[[HertzContact], float]
+    scale: Callable[["HertzContact"], float]
     formal_order: float
     of_pair: bool = False
     needs_stress: bool = False
 
 
-def _pressure(hertz: HertzContact) -> float:
+def _pressure(hertz: "HertzContact") -> float:
     return hertz.peak_pressure
 
 
-def _half_width(hertz: HertzContact) -> float:
+def _half_width(hertz: "HertzContact") -> float:
     return hertz.half_width
 
 
-def _one(hertz: HertzContact) -> float:
+def _one(hertz: "HertzContact") -> float:
     return 1.0
 
 
@@ -80,24 +86,6 @@ _SYMBOLS = {
     "tau1_max_depth": "depth of the largest τ₁",
     "txz_max_abs": "largest orthogonal shear stress |τxz|",
 }
-NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
-
-
-def relative_l2(
-    values: np.ndarray, reference: np.ndarray, weights: np.ndarray | float = 1.0
-) -> float:
-    """||values - reference|| / ||reference||; points where either is not finite are left out."""
-    known = np.isfinite(values) & np.isfinite(reference)
-    weights = np.broadcast_to(weights, values.shape)[known]
-    size = np.sum(weights * reference[known] ** 2)
-    if size == 0.0:
-        return 0.0 if not np.any(values[known]) else np.inf
-    return float(np.sqrt(np.sum(weights * (values[known] - reference[known]) ** 2) / size))
-
-
-def layer_thickness(depths: np.ndarray) -> np.ndarray:
-    """Thickness (m,) [m] that each of the ascending depths (m,) [m] stands for in an integral."""
-    return np.gradient(depths) if len(depths) > 1 else np.ones(1)
 
 
 def label(quantity: str) -> str:
@@ -105,3 +93,22 @@ def label(quantity: str) -> str:
     if quantity not in QUANTITIES:
         return quantity.replace("_", " ")
     return _SYMBOLS.get(quantity, QUANTITIES[quantity].label.replace("tau1", "τ₁"))
+
+
+def models_named(given: str | Sequence[str], option: str) -> tuple[str, ...]:
+    """The models that a text names, or several texts; names are separated by commas, "-" is "_".
+
+    Raises InputError, with the name of the option, for an unknown one and for none.
+    """
+    named = given.split(",") if isinstance(given, str) else given
+    found = [name.strip().replace("-", "_") for name in named if name.strip()]
+    allowed = ", ".join(HYPHENATED.values())
+    for name in found:
+        if name not in MODELS:
+            near = HYPHENATED[nearest(name, MODELS)]
+            raise InputError(
+                f"{option}: there is no model {name}; the nearest is {near}; allowed are {allowed}"
+            )
+    if not found:
+        raise InputError(f"{option}: is empty; allowed are {allowed}")
+    return tuple(name for name in MODELS if name in found)

@@ -6,7 +6,7 @@ leaves nothing out, for the test of that.
 
 from dataclasses import dataclass, replace
 
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_check import no_check
 from comparisons.models.problem import Problem

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import plain
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.fields import COMPONENTS, Component
 from comparisons.results.outcome import Outcome
 

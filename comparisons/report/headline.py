@@ -7,7 +7,6 @@ from typing import Literal
 
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
-from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import (
     given_percent,
     percent,
@@ -15,7 +14,7 @@ from comparisons.common.numbers import (
     significant,
     with_unit,
 )
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.results.outcome import Outcome
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]

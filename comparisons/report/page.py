@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from comparisons.common.model_names import HYPHENATED
+from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.report.headline import headline

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import given_percent, percent, scale_of, significant
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.common.quantities import LABELS, QUANTITIES, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.problem import GROUPS

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows

@@ -23,23 +23,23 @@ LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rub
 FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
 
 
-def doubts_about(scene: ResolvedScene) -> list[str]:
+def warnings_about(scene: ResolvedScene) -> list[str]:
     """One sentence each, before anything is solved."""
     return [
         *_of_radius(scene.roller_radius),
         *_of_material("body", scene.body),
         *_of_material("roller", scene.roller),
         *_of_load(scene),
-        *doubts_about_surface(scene.profile_info),
+        *warnings_about_surface(scene.profile_info),
     ]
 
 
-def doubts_about_surface(info: ProfileInfo | None) -> list[str]:
+def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
     """The same of a measured trace alone."""
     return [] if info is None or info.trace is None or info.path is None else [*_of_trace(info)]
 
 
-def doubts_about_result(outcome: Outcome) -> list[str]:
+def warnings_about_result(outcome: Outcome) -> list[str]:
     """What only the solution shows."""
     run = next(iter(outcome.runs.values()))
     scene, solution = outcome.problem.scene, run.finest.solution

@@ -14,8 +14,8 @@ import numpy as np
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
 from comparisons.common.errors import InputError
-from comparisons.common.model_names import MODELS
 from comparisons.common.provenance import digest
+from comparisons.common.quantities import MODELS
 from comparisons.results.changes import check_figures
 from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA

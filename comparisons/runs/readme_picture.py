@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, percent, plain, significant, with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
 from comparisons.report.figures.style import DIFFERENCE, LINES, REFERENCE, drawing, figure
 from comparisons.report.figures.surfaces import draw_surfaces
@@ -66,7 +66,7 @@ def save(outcome: Outcome, path: Path) -> None:
 
 def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
     """Run a scene and write its picture."""
-    from comparisons.common.model_names import MODELS
+    from comparisons.common.quantities import MODELS
     from comparisons.runs.run import run
     from comparisons.scenes.resolve import load_scene
 

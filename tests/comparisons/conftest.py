@@ -25,9 +25,9 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.stress_state import Extremum, StressState
 from comparisons.assessment.comparison import compared, pair_histories
 from comparisons.assessment.effects.error_budget import error_budget
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
 from comparisons.common.provenance import digest
+from comparisons.common.quantities import MODELS
 from comparisons.models.level import Level, MeshField, ModelRun, StressResult
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan

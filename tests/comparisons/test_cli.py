@@ -11,7 +11,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.scenes.files import scene_titles
 
 ROOT = Path(__file__).parents[2]
@@ -54,7 +54,9 @@ def solver(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "comparisons.runs.run", run)
     table = types.SimpleNamespace(summary=lambda outcome: "peak pressure agree")
     monkeypatch.setitem(sys.modules, "comparisons.report.terminal", table)
-    monkeypatch.setattr("comparisons.results.plausibility.doubts_about_result", lambda outcome: [])
+    monkeypatch.setattr(
+        "comparisons.results.plausibility.warnings_about_result", lambda outcome: []
+    )
     monkeypatch.chdir(tmp_path)
     return run
 
@@ -156,7 +158,7 @@ def test_traceback_on_request(solver, capsys, monkeypatch):
         (["run", "smooth", "smooth"], "unexpected extra argument"),
         (["run", "smooth", "--models", "fem"], "no model fem; the nearest is finite-element; all"),
         (["run", "smooth", "--models", ","], "--models: is empty; allowed are half-plane, finite-"),
-        (["run", "smooth", "--models", "half_plane"], "the nearest is half-plane"),
+        (["run", "smooth", "--models", "half"], "the nearest is half-plane"),
         (["run", "smooth", "--out", "/dev/null/there"], "/dev/null is not a folder"),
     ],
 )

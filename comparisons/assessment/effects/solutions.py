@@ -18,10 +18,10 @@ from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfIn
 from comparisons.assessment.effects.variants import Body, problem_with
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, one_line
-from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory
+from comparisons.common.quantities import MODELS
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.style import COLUMN, LINES, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import Extremum, StressState
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, plain, significant
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, percent, scale_of, significant, with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.report.figures.style import (

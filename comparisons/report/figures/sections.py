@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, plain, significant
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.pressures import reference_level
 from comparisons.report.figures.style import (
     COLUMN,

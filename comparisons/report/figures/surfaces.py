@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import Scale, scale_of, with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem
 from comparisons.report.figures.style import (

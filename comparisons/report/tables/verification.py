@@ -8,9 +8,8 @@ from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.uncertainty import Uncertainty
-from comparisons.common.model_names import HYPHENATED, LABELS
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem

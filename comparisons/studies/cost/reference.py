@@ -13,8 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.exact.hertz import hertz_extremes, hertz_stress
-from comparisons.assessment.comparison import uncertainties
-from comparisons.common.quantities import DEEP, NEAR, QUANTITIES, layer_thickness, relative_l2
+from comparisons.assessment.comparison import (
+    DEEP,
+    NEAR,
+    layer_thickness,
+    relative_l2,
+    uncertainties,
+)
+from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from comparisons.common.numbers import significant, with_unit
 from comparisons.report.tables.problem import in_mm
 from comparisons.report.terminal import PLAIN
-from comparisons.results.plausibility import doubts_about_surface
+from comparisons.results.plausibility import warnings_about_surface
 from comparisons.scenes.scene import ProfileInfo
 from comparisons.studies.init.begin import Begun
 from comparisons.studies.init.dots import drawn
@@ -41,7 +41,10 @@ def init_table(begun: Begun, columns: int | None, unicode: bool) -> "RenderableT
     parts += [table, ""]
     if info.standard is None:
         parts += [Text(f"none by ISO 21920-2: {info.standard_why}"), ""]
-    parts += [Text(f"doubtful: {doubt}".translate(PLAIN)) for doubt in doubts_about_surface(info)]
+    parts += [
+        Text(f"plausibility warning: {each}".translate(PLAIN))
+        for each in warnings_about_surface(info)
+    ]
     for name, because in begun.look.guesses.items():
         parts.append(Text(f"{name} = {begun.look.fields[name]}: {because}"))
     parts += ["", Text(f"scene   {begun.path}"), Text(f"next    crosscheck run {begun.path}")]

@@ -9,8 +9,8 @@ from dataclasses import asdict
 from time import perf_counter
 
 from comparisons.common.errors import one_line
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
+from comparisons.common.quantities import MODELS
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import MINUS, UNKNOWN, significant
+from comparisons.common.quantities import LABELS
 from comparisons.report.terminal import PLAIN, STYLES
 from comparisons.studies.paper.claims.judgement import (
     CONFIRMED,

@@ -10,10 +10,10 @@ from comparisons.assessment.comparison import compared
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import ExitStatus, InputError, SolverError
 from comparisons.common.files import check_writable, published
-from comparisons.common.model_names import MODELS
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
+from comparisons.common.quantities import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -151,7 +151,7 @@ def solve_surfaces(
 def _prefixed(callback: ProgressCallback, prefix: str) -> ProgressCallback:
     def prefixed(stage: str) -> None:
         words = f"{prefix}: {stage}"
-        callback(Step(words, stage.behind) if isinstance(stage, Step) else words)
+        callback(Step(words, stage.done) if isinstance(stage, Step) else words)
 
     return prefixed
 

@@ -7,10 +7,10 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from comparisons.assessment.comparison import figures, uncertainties
+from comparisons.assessment.comparison import figures, relative_l2, uncertainties
 from comparisons.assessment.refinement import refined
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.quantities import QUANTITIES, relative_l2
+from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of

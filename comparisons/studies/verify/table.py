@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
+from comparisons.common.quantities import LABELS
 from comparisons.studies.verify.pairs import Coverage, Pair
 from comparisons.studies.verify.result import Verification
 

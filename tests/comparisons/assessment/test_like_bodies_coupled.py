@@ -7,8 +7,8 @@ import pytest
 
 from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
 from comparisons.assessment.effects.selection import choose
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
+from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from comparisons.assessment.refinement import refined
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
+from comparisons.common.quantities import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of

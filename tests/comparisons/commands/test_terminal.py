@@ -10,14 +10,13 @@ import types
 from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
 from comparisons.cli import app, main
-from comparisons.commands import completion
+from comparisons.commands import arguments
 from comparisons.common.progress import Step, within
-from comparisons.common.progress_bar import Outlook, times
 from comparisons.scenes.files import scene_names, scene_titles
 
-ROOT = Path(__file__).parents[3]
 ESCAPE = "\x1b["
 SCENE = """
 title = "Seen"
@@ -36,7 +35,7 @@ sys.exit(main(["run", "scene.toml", "--models", "half-plane"]))
 
 def environment(**more: str) -> dict[str, str]:
     plain = {k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR")}
-    return plain | {"PYTHONPATH": str(ROOT), "TERM": "xterm-256color", "COLUMNS": "90"} | more
+    return plain | {"PYTHONPATH": str(PROJECT), "TERM": "xterm-256color", "COLUMNS": "90"} | more
 
 
 def in_terminal(folder: Path, **more: str) -> str:
@@ -99,43 +98,15 @@ def test_a_pipe_gets_neither(folder, more):
     assert "\x1b" not in done.stdout and "peak pressure" in done.stdout
 
 
-class Clock:
-    now = 100.0
-
-    def __call__(self) -> float:
-        return self.now
-
-
-def test_time_left_follows_from_what_lies_behind():
-    clock = Clock()
-    outlook = Outlook(clock)
-    outlook.told("a stage")
-    assert (outlook.share, outlook.left) == (None, None)
-    clock.now += 10.0
-    outlook.told(Step("a quarter", 0.25))
-    assert (outlook.share, outlook.left) == (0.25, 30.0)
-    clock.now += 10.0
-    outlook.told("another one")
-    outlook.told(Step("another quarter at the same time", 0.25))  # tells nothing new
-    assert (outlook.share, outlook.left) == (0.5, 20.0)
-    clock.now += 30.0
-    assert (outlook.share, outlook.left) == (0.99, None)
-
-
 def test_parts_of_a_task_have_their_part_of_its_time():
     told = []
     callback = within(within(told.append, 0.5, 1.0), 0.0, 0.5)
     callback(Step("half of it", 0.5))
     callback("whatever")
-    assert [(str(stage), getattr(stage, "behind", None)) for stage in told] == [
+    assert [(str(stage), getattr(stage, "done", None)) for stage in told] == [
         ("half of it", 0.625),
         ("whatever", None),
     ]
-
-
-def test_times_in_minutes():
-    assert times(59.6, None) == "1:00"
-    assert times(5.0, 3725.0) == "0:05, 1:02:05 left"
 
 
 def answer(line: str, shell: str = "bash") -> list[str]:
@@ -144,7 +115,7 @@ def answer(line: str, shell: str = "bash") -> list[str]:
     done = subprocess.run(
         [sys.executable, "-m", "comparisons.cli"],
         env=environment(_CROSSCHECK_COMPLETE=f"complete_{shell}", **asked),
-        cwd=ROOT,
+        cwd=PROJECT,
         capture_output=True,
         text=True,
         check=True,
@@ -155,14 +126,14 @@ def answer(line: str, shell: str = "bash") -> list[str]:
 
 def test_scenes_are_completed(tmp_path, monkeypatch):
     assert answer("crosscheck run ") == [*scene_names(), *_folders_of_the_checkout()]
-    assert completion.scenes("smooth") == ["smooth", "smooth-sliding"]
+    assert arguments.complete_scenes("smooth") == ["smooth", "smooth-sliding"]
     (tmp_path / "mine.toml").touch()
     (tmp_path / "mine.csv").touch()
     assert answer(f"crosscheck run {tmp_path}/m") == [f"{tmp_path}/mine.toml"]
 
 
 def _folders_of_the_checkout() -> list[str]:
-    shown = [path for path in sorted(ROOT.glob("*")) if not path.name.startswith(".")]
+    shown = [path for path in sorted(PROJECT.glob("*")) if not path.name.startswith(".")]
     return [f"{p.name}/" if p.is_dir() else p.name for p in shown
             if p.is_dir() or p.suffix == ".toml"]  # fmt: skip
 
@@ -170,9 +141,9 @@ def _folders_of_the_checkout() -> list[str]:
 def test_commands_groups_and_models_are_completed():
     assert answer("crosscheck sta") == ["stability"]
     assert answer("crosscheck map smooth --x friction") == ["friction_dundurs"]
-    assert completion.maps("curv") == ["curvature-thickness"]
-    assert completion.models("half") == ["half-plane", "half-plane,finite-element"]
-    assert completion.quantities("tau1_f") == ["tau1_field_near", "tau1_field_deep"]
+    assert arguments.complete_maps("curv") == ["curvature-thickness"]
+    assert arguments.complete_models("half") == ["half-plane", "half-plane,finite-element"]
+    assert arguments.complete_quantities("tau1_f") == ["tau1_field_near", "tau1_field_deep"]
 
 
 def test_completion_is_installed_for_a_shell(tmp_path):
@@ -180,7 +151,7 @@ def test_completion_is_installed_for_a_shell(tmp_path):
         [sys.executable, "-m", "comparisons.cli", "--install-completion", "bash"],
         # by the name of the shell, not by that of the process that the tests happen to run in
         env=environment(HOME=str(tmp_path), _TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION="1"),
-        cwd=ROOT,
+        cwd=PROJECT,
         capture_output=True,
         text=True,
     )

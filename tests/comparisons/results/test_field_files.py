@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import pyvista
 
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.results import field_files as fields
 from comparisons.results.field_files import CELL_TYPES, FORMATS, STRESSES, field_of, write_field
 from comparisons.runs.write import write_contact, write_mesh

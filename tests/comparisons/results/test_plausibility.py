@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from comparisons.cli import main
-from comparisons.results.plausibility import doubts_about
+from comparisons.results.plausibility import warnings_about
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene, resolve_tables
 
@@ -32,12 +32,12 @@ def doubts(folder: Path, radius="8 mm", modulus="207 GPa", load="0.5 N/um", **pr
     if profile:
         tables["profile"] = {"file": "trace.csv", "x_unit": "um", "z_unit": "um", **profile}
     scene = resolve_tables(tables, name="made", folder=folder, source="made.toml")
-    return "; ".join(doubts_about(scene))
+    return "; ".join(warnings_about(scene))
 
 
 @pytest.mark.parametrize("name", scene_names())
 def test_scenes_that_come_along_are_not_doubted(name):
-    assert doubts_about(load_scene(name)) == []
+    assert warnings_about(load_scene(name)) == []
 
 
 @pytest.mark.parametrize(
@@ -84,9 +84,9 @@ def run(folder: Path, unit: str, load: str) -> int:
 def test_a_run_says_its_doubts_beside_its_figures(folder, capsys, undrawn, load, told):
     assert run(folder, "mm", f'"{load} N/um"') == 0
     out, err = capsys.readouterr()
-    assert "peak pressure" in out and "doubtful" not in out
+    assert "peak pressure" in out and "plausibility warning" not in out
     lines = err.splitlines()
-    assert all(line.startswith("crosscheck: doubtful: ") for line in lines)
+    assert all(line.startswith("crosscheck: plausibility warning: ") for line in lines)
     assert ["rms slope" in line for line in lines] == [True, False]
     assert told in lines[1] and err.isascii()
 
@@ -100,4 +100,4 @@ def test_an_error_names_the_doubt_in_its_one_line(folder, capsys):
 
 def test_init_doubts_a_surface_in_the_wrong_unit(folder, capsys):
     assert main(["init", "trace.csv", "--x-unit", "um", "--z-unit", "mm"]) == 0
-    assert "doubtful: profile: the rms slope is" in capsys.readouterr().out
+    assert "plausibility warning: profile: the rms slope is" in capsys.readouterr().out

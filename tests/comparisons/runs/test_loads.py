@@ -7,7 +7,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables
 

@@ -123,19 +123,21 @@ def test_wrong_input_ends_all_with_one_line(tmp_path, launch):
 ALONE = """
 import sys
 from mpi4py import MPI
-from comparisons import cli, rank
-from comparisons.commands import run as command
+from comparisons import cli
+from comparisons.common import mpi
 from comparisons.common.errors import InputError
 
-def run(name):
-    if rank.from_first(lambda: rank.from_first(lambda: MPI.COMM_WORLD.rank)) != 0:
+from comparisons.results import plausibility
+
+def run(scene):
+    if mpi.from_first(lambda: mpi.from_first(lambda: MPI.COMM_WORLD.rank)) != 0:
         raise AssertionError("each has found its own")
     if MPI.COMM_WORLD.rank == int(sys.argv[1]):
         raise InputError("one line")
     MPI.COMM_WORLD.barrier()
 
-rank.PATIENCE = 0.1
-command._run = lambda *arguments: run("scene")
+mpi.PATIENCE = 0.1
+plausibility.warnings_about = run
 sys.exit(cli.main(["run", "smooth"]))
 """
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from comparisons.common.errors import SceneError
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables
 

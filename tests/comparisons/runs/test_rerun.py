@@ -12,8 +12,8 @@ from rich.console import Console
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.common.model_names import MODELS
 from comparisons.common.provenance import versions
+from comparisons.common.quantities import MODELS
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import load_scene, resolve_tables

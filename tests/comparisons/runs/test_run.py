@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from comparisons.common.errors import ExitStatus
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element import level as finite_element
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan, unpruned

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from comparisons.common.errors import ExitStatus, SolverError
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run

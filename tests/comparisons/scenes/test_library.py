@@ -10,8 +10,8 @@ from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures
 from comparisons.assessment.uncertainty import grid_convergence
 from comparisons.common.errors import ExitStatus
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
+from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement

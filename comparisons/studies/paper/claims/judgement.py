@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite
 
 from comparisons.assessment.uncertainty import far_boundary, grid_convergence, largest_iteration
-from comparisons.common.model_names import LABELS, MODELS
 from comparisons.common.numbers import plain
+from comparisons.common.quantities import LABELS, MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.claims.readings import LevelView, Reading
 

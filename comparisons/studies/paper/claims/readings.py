@@ -14,7 +14,7 @@ from analytic.exact.hertz import hertz_stress
 from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
-from comparisons.common.quantities import layer_thickness
+from comparisons.assessment.comparison import layer_thickness
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window

@@ -6,8 +6,8 @@ import numpy as np
 
 from analytic.exact.hertz import hertz_stress
 from analytic.stress.points import depth_profile
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import decimal, significant
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.claims.claim_list import POLISHED, SMOOTH, UNRUN

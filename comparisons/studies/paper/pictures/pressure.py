@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.model_names import LABELS
 from comparisons.common.numbers import significant, with_unit
+from comparisons.common.quantities import LABELS
 from comparisons.report.figures.style import (
     BODY,
     COLUMN,

@@ -12,8 +12,8 @@ import pytest
 from comparisons.assessment.comparison import figures, norms
 from comparisons.assessment.effects.catalogue import contained
 from comparisons.assessment.effects.model_error import ModelError
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import Stages
+from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level

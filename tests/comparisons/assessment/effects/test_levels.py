@@ -15,9 +15,9 @@ from comparisons.assessment.effects.selection import Choice
 from comparisons.assessment.effects.solutions import Bodies, NotComputedError, processes_beside
 from comparisons.assessment.effects.variants import Body
 from comparisons.assessment.refinement import refined
-from comparisons.common.model_names import MODELS
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import no_progress
+from comparisons.common.quantities import MODELS
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 

@@ -12,7 +12,7 @@ from analytic.exact.layers import TABLE
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.verdict import validity_verdict
 from comparisons.common.errors import ExitStatus
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
 from comparisons.scenes.resolve import resolve_tables

@@ -10,7 +10,7 @@ import pytest
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import SceneError
-from comparisons.common.model_names import MODELS
+from comparisons.common.quantities import MODELS
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import measure as cost_measure

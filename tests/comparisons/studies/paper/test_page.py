@@ -12,7 +12,7 @@ import pytest
 from analytic.exact.hertz import hertz_stress
 from comparisons import cli
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.model_names import LABELS
+from comparisons.common.quantities import LABELS
 from comparisons.studies.paper import reproduce
 from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, claims
 from comparisons.studies.paper.claims.judgement import OUTCOMES
