@@ -15,6 +15,21 @@ def check_positive(**named: float) -> None:
             raise ValueError(f"{name} must be positive and finite, not {value:g}")
 
 
+def points_below(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+    """x, z broadcast together as floats; ValueError for a z above the surface, below 0."""
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
+    if np.any(z < 0.0):
+        raise ValueError("z must not be negative: it points into the body")
+    return x, z
+
+
+def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First places of the runs of marks (n,), and the places that follow each run."""
+    padded = np.concatenate(([False], marks, [False]))
+    changes = np.flatnonzero(padded[1:] != padded[:-1])
+    return changes[0::2], changes[1::2]
+
+
 def thread_count() -> int:
     """OMP_NUM_THREADS where it is a number, else the machine's cores."""
     asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()

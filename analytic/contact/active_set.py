@@ -23,6 +23,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analytic.numerics import runs_of
+
 if TYPE_CHECKING:
     from analytic.contact.equilibrium import EquilibriumProblem
 
@@ -87,7 +89,7 @@ def extrapolated(violated: Violations, active: ActiveSet) -> Violations:
 
 def _retreat(tensile: np.ndarray, free: np.ndarray) -> np.ndarray:
     """Runs of tension that begin at an edge of their patch, nearly twice as long."""
-    starts, stops = _runs(tensile)
+    starts, stops = runs_of(tensile)
     more = stops - starts - 1
     if not more.any():
         return tensile
@@ -99,7 +101,7 @@ def _retreat(tensile: np.ndarray, free: np.ndarray) -> np.ndarray:
 
 def _advance(joining: np.ndarray, free: np.ndarray) -> np.ndarray:
     """Runs of overlap beside a patch, two thirds as long."""
-    starts, stops = _runs(joining)
+    starts, stops = runs_of(joining)
     fewer = (stops - starts) // 3
     if not fewer.any():
         return joining
@@ -107,13 +109,6 @@ def _advance(joining: np.ndarray, free: np.ndarray) -> np.ndarray:
     starts = starts + np.where(after & ~before, fewer, 0)
     stops = stops - np.where(before & ~after, fewer, 0)
     return _marked(starts, stops, len(joining))
-
-
-def _runs(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """First nodes of the runs of marks, and the nodes that follow each."""
-    padded = np.concatenate(([False], marks, [False]))
-    changes = np.flatnonzero(padded[1:] != padded[:-1])
-    return changes[0::2], changes[1::2]
 
 
 def _marked(starts: np.ndarray, stops: np.ndarray, count: int) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from analytic.numerics import runs_of
+
 CLEAR = 6  # open nodes beyond an edge that let the gap there follow its own law
 
 
@@ -14,9 +16,8 @@ def contact_patches(x: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> np.
     vanishes within a tenth of the pitch of e. Where the next patch is nearer than CLEAR nodes
     the edge is taken half a pitch beyond the last touching node.
     """
-    touching = np.concatenate(([False], pressure > 0.0, [False]))
-    first = np.flatnonzero(~touching[:-1] & touching[1:])
-    last = np.flatnonzero(touching[:-1] & ~touching[1:]) - 1
+    first, after = runs_of(pressure > 0.0)
+    last = after - 1
     pitch = x[1] - x[0]
     patches = np.empty((len(first), 2))
     for k, (i, j) in enumerate(zip(first, last, strict=True)):

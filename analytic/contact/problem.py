@@ -15,7 +15,6 @@ the next coarser one (`analytic.contact.nested_start`); on a fixed set conjugate
 (`analytic.contact.equilibrium`).
 """
 
-from collections.abc import Sequence
 from dataclasses import astuple, dataclass, replace
 from functools import partial
 
@@ -185,20 +184,6 @@ def check_load(constraints: Constraints, weights: np.ndarray) -> None:
             f"the load {constraints.load:g} N/m exceeds what the surface can carry at the "
             f"hardness: {most:g} N/m"
         )
-
-
-def solve_contacts(
-    operator: ModelOperator,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Sequence[Constraints],
-) -> tuple[ContactSolution, ...]:
-    """One surface under several loads, approaches or hardnesses, in the order given.
-
-    Operators and their coarser versions are made once for all. Each load starts from its own
-    coarse grids: that costs less than the way from another load a tenth away.
-    """
-    return tuple(solve_contact(operator, gap, weights, each) for each in constraints)
 
 
 def common_gap(

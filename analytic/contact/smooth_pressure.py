@@ -22,6 +22,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
+from analytic.numerics import runs_of
+
 # Nodes at each end of a patch whose values the end disturbs, and open nodes beyond an end likewise.
 DISTURBED = 2
 DISTURBED_OPEN = 1
@@ -64,16 +66,15 @@ class Patch:
 
 def smooth_pressure(hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> tuple[Patch, ...]:
     """The patches of contact from left to right, with the curve of pressure on each."""
-    touching = np.concatenate(([False], pressure > 0.0, [False]))
-    first = np.flatnonzero(~touching[:-1] & touching[1:])
-    last = np.flatnonzero(touching[:-1] & ~touching[1:]) - 1
+    first, after = runs_of(pressure > 0.0)
+    last = after - 1
     nodal = nodal_values(hats, pressure)
     whole = np.concatenate([[0.0], pressure, [0.0]])
     bound = np.concatenate([[-1], last, first[1:], [len(pressure)]])
     patches = []
     for k, (i, j) in enumerate(zip(first, last, strict=True)):
-        before, after = bound[k], bound[len(first) + 1 + k]
-        ends = _end(hats, gap, i, -1, i - before - 1), _end(hats, gap, j, 1, after - j - 1)
+        before, beyond = bound[k], bound[len(first) + 1 + k]
+        ends = _end(hats, gap, i, -1, i - before - 1), _end(hats, gap, j, 1, beyond - j - 1)
         patches.append(_patch(hats, whole, nodal, int(i), int(j), ends))
     return tuple(patches)
 

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import root
 
-from analytic.numerics import check_positive
+from analytic.numerics import check_positive, points_below
 from analytic.stress_state import Extremum, StressState
 
 _OfShear = Callable[[np.ndarray], np.ndarray]
@@ -107,9 +107,7 @@ def hertz_stress(
     On the surface sz = -p and txz = -friction p; at the very edge x = -a, a the limit from the
     surface is taken, where all but the sx of the traction vanish. Raises ValueError for z < 0.
     """
-    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-    if np.any(z < 0.0):
-        raise ValueError("z must not be negative: it points into the body")
+    x, z = points_below(x, z)
     a, side = hertz.half_width, np.copysign(1.0, x)
     x, depth = np.abs(x), z / a
     # x - a before the division: next to the edge only the difference of the given numbers is exact.

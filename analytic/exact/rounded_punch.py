@@ -36,8 +36,6 @@ from scipy.optimize import brentq
 
 from analytic.numerics import angle_minus_sine, artanh_minus_argument, check_positive
 
-_NEWTON_STEPS = 60  # convex and started below the root: three to eight suffice
-
 
 @dataclass(frozen=True)
 class RoundedPunch:
@@ -101,28 +99,6 @@ class RoundedPunch:
         )
         shape = np.where(s > 0.0, np.where(beyond < 0.0, on_flat, beyond_flat), 0.0)
         return self.combined_modulus * a / (np.pi * self.corner_radius) * shape
-
-
-def rounded_punch_from_load(
-    load_per_length: float, half_flat: float, corner_radius: float, combined_modulus: float
-) -> RoundedPunch:
-    """Contact under P [N/m] of a punch with b >= 0 [m], R [m] and E* [Pa].
-
-    Raises ValueError unless P, R and E* are positive and b is not negative.
-    """
-    check_positive(load_per_length=load_per_length)
-    _check(half_flat, corner_radius, combined_modulus)
-    b, wanted = half_flat, 2.0 * load_per_length * corner_radius / combined_modulus
-    # Twice the integral of e chi: below pi/2 e^2 and below 2/3 e^3/b, so the root lies above both.
-    e = max(np.sqrt(2.0 * wanted / np.pi), np.cbrt(1.5 * b * wanted))
-    for _ in range(_NEWTON_STEPS):
-        step = (_load_shape(e, b) - wanted) / (2.0 * e * np.arctan2(e, b))
-        e -= step
-        if abs(step) <= 2e-16 * e:
-            break
-    return RoundedPunch(
-        half_flat, corner_radius, combined_modulus, load_per_length, float(np.hypot(b, e)), float(e)
-    )
 
 
 def rounded_punch_from_half_width(

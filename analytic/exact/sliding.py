@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import roots_jacobi
 
-from analytic.numerics import check_positive
+from analytic.numerics import check_positive, points_below
 from analytic.stress_state import StressState
 
 # Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
@@ -127,9 +127,7 @@ def sliding_stress(contact: SlidingContact, x: ArrayLike, z: ArrayLike) -> Stres
     Right to rounding of the pressure's potential near the contact, of each component far away.
     At the very edges all but the sx of the traction vanish. Raises ValueError for z < 0.
     """
-    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-    if np.any(z < 0.0):
-        raise ValueError("z must not be negative: it points into the body")
+    x, z = points_below(x, z)
     h, (left, right) = contact.half_width, contact.edges
     parts = np.empty((4, *x.shape))
     far = np.hypot(x - 0.5 * (left + right), z) > _FAR * h

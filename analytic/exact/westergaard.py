@@ -32,7 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from analytic.numerics import check_positive, sinh_minus_argument
+from analytic.numerics import check_positive, points_below, sinh_minus_argument
 from analytic.stress_state import StressState
 
 # Depth pi z/lambda from which nothing of the wave is left and its hyperbolic functions overflow.
@@ -188,9 +188,7 @@ def westergaard_stress(
     gradient times z at the point. At the very edge, as in `hertz_stress`, the limit from the
     surface is taken. Raises ValueError for z < 0.
     """
-    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-    if np.any(z < 0.0):
-        raise ValueError("z must not be negative: it points into the body")
+    x, z = points_below(x, z)
     wave = np.fmod(np.abs(x), contact.wavelength)
     side = np.copysign(1.0, x) * np.where(wave > 0.5 * contact.wavelength, -1.0, 1.0)
     place = np.minimum(wave, contact.wavelength - wave)

@@ -37,16 +37,7 @@ class LayerField:
 
     def at(self, friction: float) -> StressField:
         """The field under p and q = friction * p in +x."""
-        normal, traction = self.normal, self.traction
-        return StressField(
-            self.x,
-            self.z,
-            StressState(
-                sx=normal.sx + friction * traction.sx,
-                sz=normal.sz + friction * traction.sz,
-                txz=normal.txz + friction * traction.txz,
-            ),
-        )
+        return StressField(self.x, self.z, self.normal.plus(friction, self.traction))
 
 
 def layer_field(
@@ -97,8 +88,8 @@ def layer_field(
     return LayerField(
         field.x,
         field.z,
-        StressState(normal.sx + added[0], normal.sz + added[1], normal.txz + added[2]),
-        StressState(traction.sx + added[3], traction.sz + added[4], traction.txz + added[5]),
+        normal.plus(1.0, StressState(*added[:3])),
+        traction.plus(1.0, StressState(*added[3:])),
     )
 
 

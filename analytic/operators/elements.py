@@ -24,8 +24,8 @@ integrals are summed from the element's even moments mu instead,
 so every value is accurate to a few units of the last place of the largest term near the
 element (relative 3e-15 at whole offsets) and to rounding from there out to any offset.
 
-The operators take strips at their middles and hats weighed with hats. L_h and the slopes dL/dx are
-here as the published coefficients that such methods are tabulated by; no operator takes them.
+The operators take strips at their middles and hats weighed with hats; L_h is the published
+coefficient of a hat at a node.
 """
 
 from collections.abc import Callable
@@ -53,9 +53,9 @@ class _Far:
     moments: np.ndarray
     join: float
 
-    def series(self, x: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
-        """sum_m c_m / x^2m for x >= join."""
-        total = np.empty_like(x)
+    def log_mean(self, x: np.ndarray) -> np.ndarray:
+        """ln x - sum_m mu_2m / (2m x^2m) for x >= join."""
+        coefficients, total = self.moments / _EVEN, np.empty_like(x)
         far = x >= _FAR * self.join
         for part, terms in ((far, _SERIES_TERMS_FAR), (~far, _SERIES_TERMS)):
             if not part.any():
@@ -65,11 +65,7 @@ class _Far:
             for coefficient in coefficients[terms - 1 :: -1]:
                 value = (value + coefficient) * step
             total[part] = value
-        return total
-
-    def log_mean(self, x: np.ndarray) -> np.ndarray:
-        """ln x - sum_m mu_2m / (2m x^2m) for x >= join."""
-        return np.log(x) - self.series(x, self.moments / _EVEN)
+        return np.log(x) - total
 
 
 _STRIP = _Far(0.5**_EVEN / (_EVEN + 1.0), join=1.0)
@@ -90,7 +86,7 @@ def strip_displacement(offset: ArrayLike) -> np.ndarray:
     def closed(x: np.ndarray) -> np.ndarray:
         return xlogy(x + 0.5, x + 0.5) - xlogy(x - 0.5, abs(x - 0.5)) - 1.0
 
-    return _joined(offset, closed, _STRIP.log_mean, _STRIP.join)
+    return _joined(offset, closed, _STRIP)
 
 
 def hat_displacement(offset: ArrayLike) -> np.ndarray:
@@ -103,7 +99,7 @@ def hat_displacement(offset: ArrayLike) -> np.ndarray:
     def closed(x: np.ndarray) -> np.ndarray:
         return _scaled_difference(x, (1.0, -2.0, 1.0)) - 1.5
 
-    return _joined(offset, closed, _HAT.log_mean, _HAT.join)
+    return _joined(offset, closed, _HAT)
 
 
 def hat_galerkin(offset: ArrayLike) -> np.ndarray:
@@ -117,7 +113,7 @@ def hat_galerkin(offset: ArrayLike) -> np.ndarray:
     def closed(x: np.ndarray) -> np.ndarray:
         return _scaled_difference(x, (1.0, -4.0, 6.0, -4.0, 1.0)) - 25.0 / 12.0
 
-    return _joined(offset, closed, _SPLINE.log_mean, _SPLINE.join)
+    return _joined(offset, closed, _SPLINE)
 
 
 def at_whole_offsets(kernel: _Curve, count: int) -> np.ndarray:
@@ -131,46 +127,14 @@ def _near(kernel: _Curve) -> np.ndarray:
     return kernel(np.arange(_FAR * _SPLINE.join))
 
 
-def strip_slope(offset: ArrayLike) -> np.ndarray:
-    """dL_u/dx at `offset` [pitches], any shape; infinite at the strip's ends x = -1/2, 1/2."""
-
-    def closed(x: np.ndarray) -> np.ndarray:
-        with np.errstate(divide="ignore"):
-            edge = np.log((x + 0.5) / abs(x - 0.5))
-        return np.where(x < 0.25, 2.0 * np.arctanh(np.minimum(2.0 * x, 0.5)), edge)
-
-    return _joined(offset, closed, lambda x: 2.0 * np.arctanh(0.5 / x), _STRIP.join, odd=True)
-
-
-def hat_slope(offset: ArrayLike) -> np.ndarray:
-    """dL_h/dx at `offset` [pitches], any shape; finite everywhere."""
-
-    def closed(x: np.ndarray) -> np.ndarray:
-        inner = np.where(x < 0.5, x, 0.0)
-        ends = np.where(
-            x < 0.5,
-            (1.0 + inner) * np.log1p(inner) - (1.0 - inner) * np.log1p(-inner),
-            xlogy(x + 1.0, x + 1.0) + xlogy(x - 1.0, abs(x - 1.0)),
-        )
-        return ends - 2.0 * xlogy(x, x)
-
-    def far(x: np.ndarray) -> np.ndarray:
-        return (1.0 + _HAT.series(x, _HAT.moments)) / x
-
-    return _joined(offset, closed, far, _HAT.join, odd=True)
-
-
-def _joined(
-    offset: ArrayLike, closed: _Curve, far: _Curve, join: float, odd: bool = False
-) -> np.ndarray:
-    """`closed` below |offset| = `join` and `far` from there on, extended evenly or oddly."""
-    offset = np.asarray(offset, dtype=float)
-    x = np.abs(offset)
+def _joined(offset: ArrayLike, closed: _Curve, element: _Far) -> np.ndarray:
+    """`closed` below |offset| = `join` and the element's moments from there on."""
+    x = np.abs(np.asarray(offset, dtype=float))
     value = np.empty_like(x)
-    near = x < join
+    near = x < element.join
     value[near] = closed(x[near])
-    value[~near] = far(x[~near])
-    return np.copysign(1.0, offset) * value if odd else value
+    value[~near] = element.log_mean(x[~near])
+    return value
 
 
 def _scaled_difference(x: np.ndarray, weights: tuple[float, ...]) -> np.ndarray:

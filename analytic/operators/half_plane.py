@@ -173,22 +173,35 @@ class SumOfConvolutions(Convolution):
         return None if None in coarser else SumOfConvolutions(*coarser)
 
 
-class DenseCompliance:
-    """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+class DenseMatrix:
+    """A compliance given as its matrix (n, n) [m^2/Pa]."""
 
     periodic = False
     ring = None
 
     def __init__(self, matrix: np.ndarray) -> None:
-        self.matrix = 0.5 * (matrix + matrix.T)
-        self.count = len(matrix)
-        # hats finer than a body's elements leave it rank-deficient where nothing touches
-        ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
-        self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
+        self.matrix, self.count = matrix, len(matrix)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
         return self.matrix @ pressure
+
+    def block(self, nodes: np.ndarray) -> np.ndarray:
+        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
+        return self.matrix[np.ix_(nodes, nodes)]
+
+    def cropped(self, span: int) -> None:
+        """No part of a body has a compliance that depends on distances alone."""
+
+
+class DenseCompliance(DenseMatrix):
+    """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
+
+    def __init__(self, matrix: np.ndarray) -> None:
+        super().__init__(0.5 * (matrix + matrix.T))
+        # hats finer than a body's elements leave it rank-deficient where nothing touches
+        ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
+        self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray:
         """The inverse but for a small ridge, close while every element is in contact."""
@@ -200,13 +213,6 @@ class DenseCompliance:
         None where hats finer than a body's elements leave nothing to factor.
         """
         return cholesky_solve(self.block(nodes), right)
-
-    def block(self, nodes: np.ndarray) -> np.ndarray:
-        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
-        return self.matrix[np.ix_(nodes, nodes)]
-
-    def cropped(self, span: int) -> None:
-        """No part of a body has a compliance that depends on distances alone."""
 
     @made_once
     def coarsened(self) -> "DenseCompliance":

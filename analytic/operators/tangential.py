@@ -32,7 +32,7 @@ from scipy.linalg import LinAlgError, LinAlgWarning
 
 from analytic.grid import restricted
 from analytic.operators.convolution import DIRECT, Convolution, made_once
-from analytic.operators.half_plane import DenseCompliance, HalfPlane, ModelOperator
+from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane, ModelOperator
 
 
 class SkewOperator(Protocol):
@@ -205,7 +205,7 @@ def _nothing(cycles: np.ndarray) -> np.ndarray:
     return np.full(len(cycles), np.inf)
 
 
-class DenseCoupledCompliance:
+class DenseCoupledCompliance(DenseMatrix):
     """A compliance as a matrix (n, n) [m^2/Pa] whose symmetric part is positive definite.
 
     For a body that no model comes close to. Every set of nodes is solved by elimination: 0.1 s
@@ -214,22 +214,14 @@ class DenseCoupledCompliance:
     skew    whether there is anything beside the symmetric part
     """
 
-    periodic = False
-    ring = None
-
     def __init__(self, matrix: np.ndarray) -> None:
-        self.matrix = matrix
-        self.count = len(matrix)
+        super().__init__(matrix)
         self.skew = not np.array_equal(matrix, matrix.T)
 
     @cached_property
     def normal(self) -> DenseCompliance:
         """The symmetric part; where every set of nodes can be eliminated nothing asks for it."""
         return DenseCompliance(self.matrix)
-
-    def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
-        return self.matrix @ pressure
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray:
         """Approximate inverse, positive definite."""
@@ -246,13 +238,6 @@ class DenseCoupledCompliance:
                 return eliminated(self.block(nodes), right)
             except (LinAlgError, LinAlgWarning):
                 return None
-
-    def block(self, nodes: np.ndarray) -> np.ndarray:
-        """The matrix's rows and columns of these nodes (m,), as an array (m, m) [m^2/Pa]."""
-        return self.matrix[np.ix_(nodes, nodes)]
-
-    def cropped(self, span: int) -> None:
-        """No part of a body has a compliance that depends on distances alone."""
 
     @made_once
     def coarsened(self) -> "DenseCoupledCompliance":

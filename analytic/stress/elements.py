@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
-from analytic.numerics import angle_minus_sine
+from analytic.numerics import angle_minus_sine, points_below
 from analytic.stress.potential import NEAREST, Element, hat_multipoles
 from analytic.stress_state import StressState
 
@@ -45,16 +45,8 @@ class FrictionStress:
         """Under p and q = friction * p + t together, `besides` being those of t as a pressure."""
         stress = self.normal
         if friction != 0.0:
-            stress = _sum(stress, friction, self.traction)
-        return stress if besides is None else _sum(stress, 1.0, besides.traction)
-
-
-def _sum(stress: StressState, factor: float, other: StressState) -> StressState:
-    return StressState(
-        sx=stress.sx + factor * other.sx,
-        sz=stress.sz + factor * other.sz,
-        txz=stress.txz + factor * other.txz,
-    )
+            stress = stress.plus(friction, self.traction)
+        return stress if besides is None else stress.plus(1.0, besides.traction)
 
 
 def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
@@ -63,7 +55,7 @@ def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStres
     Bailey and Sayles 1991, eq. (1) and (2), with t1 = atan2(z, x - a), t2 = atan2(z, x + a).
     On the surface the ends x = -a, a belong half to the strip, and sx under q is infinite there.
     """
-    x, z = _points(x, z)
+    x, z = points_below(x, z)
     return strip_between(x + half_width, x, x - half_width, z)
 
 
@@ -105,7 +97,7 @@ def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
 
     At x, z [m] (broadcast together), z >= 0. Finite everywhere, the surface included.
     """
-    x, z = _points(x, z)
+    x, z = points_below(x, z)
     return hat_at(x / pitch, z / pitch)
 
 
@@ -188,13 +180,6 @@ def _strip_stretch(
     fall = (left * right) ** 2 + z**2 * (left**2 + right**2)
     deep = v * (series + fall / (product * (product + z**2)))
     return 2.0 / np.pi * np.where(v < 0.1, deep, np.arcsinh(v) - v * fraction)
-
-
-def _points(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-    if np.any(z < 0.0):
-        raise ValueError("z must not be negative: it points into the body")
-    return x, z
 
 
 _PITCH_TOLERANCE = 1e-6  # of the pitch: how far a node may stand from its place on the grid

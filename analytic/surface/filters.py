@@ -85,11 +85,6 @@ def filtered(
     return profile
 
 
-def transmission(wavelength: np.ndarray, cutoff: float) -> np.ndarray:
-    """Part of a wave's amplitude that the mean line holds (ISO 16610-21:2011, eq. 2)."""
-    return 2.0 ** -((cutoff / np.asarray(wavelength)) ** 2)
-
-
 def check_cutoff(profile: Profile, cutoff: float) -> None:
     """Raises ValueError where the profile cannot be filtered at `cutoff` [m]."""
     shortest, longest = SHORTEST_CUTOFF * profile.spacing, LONGEST_CUTOFF * profile.length

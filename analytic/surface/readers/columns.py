@@ -32,8 +32,6 @@ def bridge(
     return x[inside], height[inside], inside
 
 
-__all__ = ["ProfileError", "ReadProfile", "read_profile"]
-
 MIN_SAMPLES = 4
 BYTES_PER_SAMPLE = 100  # no export uses more
 BYTES_OF_HEADER = 2**20
@@ -73,7 +71,7 @@ def read_profile(
     dropouts: str = "refuse",
     max_samples: int = MAX_SAMPLES,
 ) -> ReadProfile:
-    """The profile in a text file; `profile_table` says how the file is understood.
+    """The profile in a text file; `analytic.surface.readers.text` says how the file is understood.
 
     x_scale, height_scale  m per unit of the file
     spacing    [m] sample distance, which a file of heights alone needs and no other may have

@@ -1,8 +1,8 @@
 """Measured profiles from any file: text, SDF, or what an instrument wrote.
 
-Two columns or one of text are a profile (`profile_readers`). Everything else is a topography:
-surface data files (`sdf`), and what SurfaceTopography knows (`instrument_files`), among it text
-with more than two columns whose header gives the map's size and unit.
+Text of one or two columns is a profile (`columns`). Everything else is a topography: surface data
+files (`topography`), and what SurfaceTopography knows (`instruments`), among it text with more than
+two columns whose header gives the map's size and unit.
 """
 
 from collections.abc import Callable

@@ -13,7 +13,6 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import (
     ContactError,
     solve_contact,
-    solve_contacts,
 )
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
@@ -294,16 +293,3 @@ class TestProperties:
             for depth in np.linspace(0.05e-6, 6e-6, 12)
         ]
         assert np.all(np.diff(loads) > 0.0)
-
-
-def test_several_loads_in_one_call_share_the_operators(roller):
-    operator = HalfPlane(ROUGH_GRID.count, ROUGH_GRID.pitch, MODULUS)
-    weighted_gap = ROUGH_GRID.hat_integrals(roller.rough(4))
-    loads = [Constraints(load=share * LOAD) for share in (0.1, 0.7, 0.4)]
-    together = solve_contacts(operator, weighted_gap, ROUGH_GRID.weights, loads)
-    coarser = operator.coarsened()
-    for each, solution in zip(loads, together, strict=True):
-        alone = roller.pressed(ROUGH_GRID, roller.rough(4), each)
-        assert solution.converged
-        assert solution.pressure == pytest.approx(alone.pressure, abs=1e-10 * alone.pressure.max())
-    assert operator.coarsened() is coarser

@@ -1,9 +1,12 @@
 """Direct sums of element stresses: what superposition, scaling and equilibrium demand."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
+from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
 from analytic.stress.elements import hat_stress, strip_stress
 from analytic.stress.points import friction_stress_at, stress_at
 
@@ -120,3 +123,55 @@ def test_unknown_element_and_points_above_the_surface_are_refused():
         stress_at(NODES, PRESSURE, 0.0, 0.0, 1.0, "spline")
     with pytest.raises(ValueError, match="z must not be negative"):
         stress_at(NODES, PRESSURE, 0.0, 0.0, -1.0)
+
+
+UNIT = hertz_from_peak_pressure(1.0, 1.0, 2.0)
+UNIT_NODES = np.linspace(-1.0, 1.0, 401)
+UNIT_PRESSURE = UNIT.pressure(UNIT_NODES)
+
+
+def test_axis_of_the_smooth_contact():
+    """Bailey and Sayles 1991, figure 5a: values of equations (6a) to (6c) in p0."""
+    depths = [0.0, 0.02, 0.06, 0.1, 0.5, 1.0, 2.0]
+    found = stress_at(UNIT_NODES, UNIT_PRESSURE, 0.0, 0.0, depths)
+    sx = [-1.0, -0.96060, -0.88539, -0.81494, -0.34164, -0.12132, -0.02492]
+    sz = [-1.0, -0.99980, -0.99820, -0.99504, -0.89443, -0.70711, -0.44721]
+    np.testing.assert_allclose(found.sx, sx, atol=2e-4)
+    np.testing.assert_allclose(found.sz, sz, atol=2e-4)
+    np.testing.assert_allclose(found.tau1[-3:], [0.27639, 0.29289, 0.21115], atol=2e-4)
+
+
+@pytest.mark.parametrize(
+    ("friction", "tau1"),
+    [
+        (0.0, [0.16247, 0.20027, 0.23085, 0.23768]),
+        (0.1, [0.21567, 0.24437, 0.26446, 0.25968]),
+    ],
+)
+def test_shear_through_the_edge_of_the_contact(friction, tau1):
+    """Figure 11b: x = +a."""
+    found = stress_at(UNIT_NODES, UNIT_PRESSURE, friction, 1.0, [0.1, 0.2, 0.4, 0.8])
+    np.testing.assert_allclose(found.tau1, tau1, atol=2e-4)
+
+
+def test_two_slanted_sections_carry_the_load_between_them():
+    """A wedge under the contact is in equilibrium: tractions on its sides against p and q."""
+    share, force = np.linspace(0.0, 1.0, 4001), np.zeros(2)
+    corners = np.array([[-2.0, 0.0], [0.3, 1.5], [2.5, 0.0]])
+    for start, stop in pairwise(corners):
+        x, z = (start + share[:, None] * (stop - start)).T
+        stress = stress_at(UNIT_NODES, UNIT_PRESSURE, 0.25, x, z)
+        run, fall = stop - start
+        # the normal of the wedge's side is (-fall, run) over its length
+        along = trapezoid(run * stress.txz - fall * stress.sx, share)
+        down = trapezoid(run * stress.sz - fall * stress.txz, share)
+        force += along, down
+    load = UNIT_PRESSURE.sum() * (UNIT_NODES[1] - UNIT_NODES[0])
+    np.testing.assert_allclose(force, [-0.25 * load, -load], rtol=1e-5)
+
+
+def test_slanted_line_through_the_exact_contact():
+    x, z = np.linspace(-0.3, 1.4, 60), np.linspace(0.05, 1.0, 60)
+    found, exact = stress_at(UNIT_NODES, UNIT_PRESSURE, 0.1, x, z), hertz_stress(UNIT, x, z, 0.1)
+    for name in NAMES:
+        assert np.abs(getattr(found, name) - getattr(exact, name)).max() < 3e-4

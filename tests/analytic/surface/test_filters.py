@@ -8,12 +8,17 @@ from scipy.ndimage import gaussian_filter1d
 
 import analytic.surface.filters as module
 from analytic.profile import Profile
-from analytic.surface.filters import ALPHA, check_cutoff, filtered, mean_line, transmission
+from analytic.surface.filters import ALPHA, check_cutoff, filtered, mean_line
 from analytic.surface.synthetic import self_affine
 
 LENGTH, CUTOFF = 40.0, 1.0
 X = np.linspace(0.0, LENGTH, 40 * 64 + 1)
 ROUGH = self_affine(hurst=0.8, samples=1001, length=1e-2, seed=8, rms_height=1e-6)
+
+
+def transmission(wavelength: float, cutoff: float) -> float:
+    """Part of a wave's amplitude that the mean line holds (ISO 16610-21:2011, eq. 2)."""
+    return 2.0 ** -((cutoff / wavelength) ** 2)
 
 
 def wave(x: np.ndarray, wavelength: float) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from analytic.profile import Profile
-from analytic.surface.filters import filtered, transmission
+from analytic.surface.filters import filtered
 from analytic.surface.roughness import figures_of, roughness, stretch_of, turning_points
 from analytic.surface.roughness_standard import (
     standard_cutoff,
@@ -18,6 +18,11 @@ from analytic.surface.synthetic import self_affine, sinusoid, smooth
 CUTOFF = 0.8e-3
 AMPLITUDE = 1e-6
 FINE = sinusoid(wavelength=50e-6, amplitude=AMPLITUDE, length=6e-3)
+
+
+def transmission(wavelength: float, cutoff: float) -> float:
+    """Part of a wave's amplitude that the mean line holds (ISO 16610-21:2011, eq. 2)."""
+    return 2.0 ** -((cutoff / wavelength) ** 2)
 
 
 def waves(*given: tuple[float, float], length: float = 8e-3, samples: int = 16001) -> Profile:

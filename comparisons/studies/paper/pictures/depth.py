@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.exact.hertz import hertz_stress
-from analytic.stress.points import depth_profile
+from analytic.stress.points import stress_at
 from comparisons.common.numbers import decimal, significant
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
@@ -125,13 +125,13 @@ def edge_section_picture(outcomes: dict[str, Outcome]) -> Picture:
         for axes in (whole, near):
             _section(axes, outcomes[scene], 1.0, friction, colour, words)
         hertz, level = outcomes[scene].problem.hertz, outcomes[scene].runs["half_plane"].finest
-        stress = depth_profile(
+        stress = stress_at(
             level.grid.x,
             level.solution.pressure,
             friction,
             hertz.half_width,
             [NEAR * hertz.half_width],
-        ).stress
+        )
         value = significant(float(stress.tau1[0] / hertz.peak_pressure), 3)
         found.append(f"{words}: {value} p₀")
     _finish(whole, near)
@@ -167,7 +167,7 @@ def _section(
     x = float(view.x[place])
     z = np.union1d(np.geomspace(1e-4, DEEPEST, 160), np.linspace(0.0, DEEPEST, 80))
     a, p0 = hertz.half_width, hertz.peak_pressure
-    stress = depth_profile(level.grid.x, level.solution.pressure, friction, x * a, z * a).stress
+    stress = stress_at(level.grid.x, level.solution.pressure, friction, x * a, z * a)
     axes.plot(z, stress.tau1 / p0, color=colour, linewidth=1.4, label=words)
     column = view.stress(friction).tau1[:, place]
     is_near = axes.get_position().width < 0.5

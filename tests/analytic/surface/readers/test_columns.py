@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic.surface.readers.columns import ProfileError, read_profile
+from analytic.surface.readers.columns import read_profile
+from analytic.surface.readers.text import ProfileError
 
 SHIPPED = Path(__file__).parents[4] / "comparisons/scenes/library/profiles"
 X = [0.0, 0.5, 1.5, 2.0, 4.25]

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from analytic.surface.readers.columns import ProfileError, read_profile
+from analytic.surface.readers.columns import read_profile
+from analytic.surface.readers.text import ProfileError
 
 
 def bridged(directory, content, **options):
