@@ -1,1 +1,1 @@
-"""How fast the project is: against other codes, against itself at other sizes. Run by hand."""
+"""Run by hand: time and error beside other codes and other sizes, and measurements of models."""

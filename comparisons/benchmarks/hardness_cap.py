@@ -1,14 +1,14 @@
-"""Which hardness stands for a yield stress, and what a cap on the pressure leaves out.
+"""Which hardness represents a yield stress, and what a cap on the pressure does not model.
 
     python -m comparisons.benchmarks.hardness_cap
 
-A rigid roller is pressed on an elastic half-plane whose pressure is capped, and on a body of finite
-elements that flows (von Mises, no hardening) at the yield stress Y: on the same hats, gap and
-loads. A load is named by the peak pressure that a smooth elastic body would have under it; only
-that by Y counts, since the two models are linear in shape and in modulus.
+A rigid roller is pressed on an elastic half-plane whose pressure is capped at the hardness, and on
+a finite-element body that flows plastically (von Mises, no hardening) at the yield stress Y: on the
+same hats, gap and loads. A load is named by the elastic peak pressure of a smooth body under it;
+only its ratio to Y matters, since both models are linear in shape and in modulus.
 
-Measured (90 s on one processor), lengths and pressures of the flow, and for each cap the length by
-the flow's and how far its pressure is from the flow's (L2):
+Measured (90 s on one processor): mean pressures with plastic flow, lengths relative to those with
+plastic flow, and relative L2 distance of the capped pressure from the one with plastic flow:
 
     smooth, elastic peak / Y    2     2.5     3      4      6      8     12     16
     flow: mean / Y             1.50   1.82   2.02   2.13   2.57   2.65   2.76   2.91
@@ -20,25 +20,22 @@ the flow's and how far its pressure is from the flow's (L2):
     cap 3 Y:   length          0.90   0.93   0.83   0.73   1.00   0.89   0.95   1.00
                pressure         3 %   21 %   39 %   49 %   45 %   36 %   14 %    6 %
 
-The mean pressure tends towards the limit of a flat punch, (2 + pi) Y / sqrt 3 = 2.97 Y, but slowly:
-there is no one hardness. Soon after first flow (at 1.79 Y) the pressure falls below the elastic
-one everywhere, at the axis 15 % at 2.5 Y, where no cap acts yet. At 3 to 4 Y a cap of 2.4 Y errs
-least; 2.8 Y is right where the elastic peak is 6 to 12 times the yield stress, 3 Y beyond.
+The mean pressure approaches the limit of a flat punch, (2 + pi) Y / sqrt 3 = 2.97 Y, but slowly:
+no single hardness fits. Soon after first yield (at 1.79 Y) the pressure falls below the elastic
+one everywhere, at the axis 15 % at 2.5 Y, where no cap acts yet. At 3 to 4 Y the error of a cap of
+2.4 Y is least; 2.8 Y fits where the elastic peak is 6 to 12 times the yield stress, 3 Y beyond.
 
-On waves whose crests would bear 5 Y elastically a cap of 2.6 Y errs least, 10 %, at 6.2 Y one of
-2.8 Y, 10 %; contact lengths are then right to 3 %. Capped pressures have no peak but plateaus, so
-its place means nothing; the flow's are nearly level, too, with single hats up to 3.3 Y at edges.
+On waves whose elastic pressure at the crests is 5 Y a cap of 2.6 Y has the least error, 10 %, at
+6.2 Y one of 2.8 Y, 10 %; contact lengths are then right to 3 %. Capped pressures have plateaus and
+no peak, so that its place means nothing; those with plastic flow are nearly level, too, with single
+hats up to 3.3 Y at edges.
 """
 
 import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from time import process_time
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactError, solve_contact
@@ -46,6 +43,7 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
+from comparisons.benchmarks.harness import print_table, run_on_one_thread
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.nonlinear.plasticity import ElasticPlastic
@@ -53,18 +51,27 @@ from fem.nonlinear.press_plastic import press_plastically
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
-STEEL = Material(200.0, 0.3)  # by the yield stress, which is 1
-CAPS = (2.4, 2.6, 2.8, 3.0)  # hardness by yield stress
+STEEL = Material(200.0, 0.3)  # in units of the yield stress, which is 1
+CAPS = {f"cap {cap:g} Y": cap for cap in (2.4, 2.6, 2.8, 3.0)}  # hardness over yield stress
 BLOCK = 60.0  # half-width and depth of the body, in reaches of the hats
 INCREMENTS = 6  # from one load to the next
+COLUMNS = (
+    "smooth elastic peak",
+    "model",
+    "length",
+    "mean / Y",
+    "peak / Y",
+    "at x",
+    "from flow, L2",
+)
 
 
 @dataclass(frozen=True)
-class Case:
+class CappedCase:
     """A rigid roller on a surface, pressed to rising loads.
 
-    peaks     elastic peak pressures of a smooth body by yield stress, ascending; at the last of
-              them its half-width is 1
+    peaks     elastic peak pressures of a smooth body over the yield stress, ascending; at the last
+              of them its half-width is 1
     heights   of the surface at x, or None for a smooth one
     reach     to either side that hats cover
     pitch     of the hats
@@ -81,50 +88,47 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Figures:
-    """Of one pressure: contact length, mean and peak pressure by yield stress, the peak's place."""
+class PressureFigures:
+    """Of one pressure: contact length, mean and peak over the yield stress, the peak's place, and
+    `apart`, the relative L2 distance from the pressure with plastic flow."""
 
     length: float
     mean: float
     peak: float
     place: float
+    apart: float
 
 
-@dataclass(frozen=True)
-class Compared:
-    """One load: figures without flow, with it, and under each cap, where it can bear the load.
-
-    apart   relative L2 norm of the capped pressure less the plastic one, by cap
-    """
-
-    peak: float
-    elastic: Figures
-    plastic: Figures
-    capped: dict[float, Figures]
-    apart: dict[float, float]
-
-
-def waves(wavelength: float, amplitude: float, crest: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Heights of a sinusoid with a crest at x = `crest`."""
-    return lambda x: amplitude * np.cos(2.0 * np.pi * (x - crest) / wavelength)
+def waves(x: np.ndarray) -> np.ndarray:
+    """Heights of a sinusoid with a crest at x = 0.1."""
+    return 0.004 * np.cos(2.0 * np.pi * (x - 0.1) / 0.4)
 
 
 CASES = (
-    Case("smooth, from first flow on", (1.5, 2.0, 2.5, 3.0, 4.0), None, 1.8, 0.05, 2.0, 0.1),
-    Case("smooth, far beyond", (6.0, 8.0, 12.0, 16.0), None, 5.0, 0.125, 7.0, 0.5),
-    Case("waves", (1.0, 1.5), waves(0.4, 0.004, 0.1), 1.8, 0.0125, 0.5, 0.05),
+    CappedCase("smooth, from first yield on", (1.5, 2.0, 2.5, 3.0, 4.0), None, 1.8, 0.05, 2.0, 0.1),
+    CappedCase("smooth, far beyond", (6.0, 8.0, 12.0, 16.0), None, 5.0, 0.125, 7.0, 0.5),
+    CappedCase("waves", (1.0, 1.5), waves, 1.8, 0.0125, 0.5, 0.05),
 )
 
 
-def figures(x: np.ndarray, pressure: np.ndarray, weights: np.ndarray) -> Figures:
-    """Figures of hat pressures (n,); a hat that touches counts with its weight."""
+def figures(
+    x: np.ndarray, pressure: np.ndarray, weights: np.ndarray, flow: np.ndarray
+) -> PressureFigures:
+    """Of hat pressures (n,), beside those with plastic flow; a touching hat counts with its
+    weight."""
     length = float(weights[pressure > 0.0].sum())
     at = int(np.argmax(pressure))
-    return Figures(length, float(weights @ pressure) / length, float(pressure[at]), float(x[at]))
+    return PressureFigures(
+        length,
+        float(weights @ pressure) / length,
+        float(pressure[at]),
+        float(x[at]),
+        float(np.linalg.norm(pressure - flow) / np.linalg.norm(flow)),
+    )
 
 
-def compare(case: Case) -> list[Compared]:
-    """Both models under each load of a case."""
+def compare(case: CappedCase) -> list[dict[str, PressureFigures]]:
+    """For each load the models "elastic", "flow", and CAPS where they can bear the load."""
     grid = HatGrid.within(-case.reach - case.pitch, case.reach + case.pitch, case.pitch)
     modulus, last = STEEL.plane_strain_modulus, case.peaks[-1]
     radius = 0.5 * modulus / last
@@ -132,12 +136,9 @@ def compare(case: Case) -> list[Compared]:
     gap = grid.hat_integrals(roller_gap(radius, case.heights))
     half_plane = HalfPlane(grid.count, grid.pitch, modulus)
 
-    def pressure(load: float, hardness: float = np.inf) -> np.ndarray | None:
-        try:
-            limits = Constraints(load=load, hardness=hardness)
-            return solve_contact(half_plane, gap, grid.weights, limits).pressure
-        except ContactError:
-            return None
+    def pressure(load: float, hardness: float = np.inf) -> np.ndarray:
+        limits = Constraints(load=load, hardness=hardness)
+        return solve_contact(half_plane, gap, grid.weights, limits).pressure
 
     hats = np.arange(grid.first - 1, grid.last + 2) * grid.pitch
     window = (hats[0], hats[-1], case.fine, case.size)
@@ -154,60 +155,44 @@ def compare(case: Case) -> list[Compared]:
         increments=INCREMENTS,
     )
     rows = []
-    for peak, load, contact in zip(case.peaks, loads, history, strict=True):
-        capped = {cap: found for cap in CAPS if (found := pressure(load, cap)) is not None}
-        size = np.linalg.norm(contact.pressure)
+    for load, contact in zip(loads, history, strict=True):
+        models = {"elastic": pressure(load), "flow": contact.pressure}
+        for name, cap in CAPS.items():
+            try:
+                models[name] = pressure(load, cap)
+            except ContactError:  # the cap cannot bear the load
+                continue
         rows.append(
-            Compared(
-                peak,
-                figures(grid.x, pressure(load), grid.weights),
-                figures(grid.x, contact.pressure, grid.weights),
-                {cap: figures(grid.x, p, grid.weights) for cap, p in capped.items()},
-                {
-                    cap: float(np.linalg.norm(p - contact.pressure) / size)
-                    for cap, p in capped.items()
-                },
-            )
+            {
+                name: figures(grid.x, found, grid.weights, contact.pressure)
+                for name, found in models.items()
+            }
         )
     return rows
 
 
-def table(case: Case, rows: list[Compared]) -> Table:
-    """Lengths in half-widths of the elastic contact of a smooth body under the last load."""
-    shown = Table(title=case.title)
-    for heading in ("smooth elastic peak", "model", "length", "mean / Y", "peak / Y", "at x"):
-        shown.add_column(heading, justify="right")
-    shown.add_column("from flow, L2", justify="right")
-    for row in rows:
-        models = {"elastic": row.elastic, "flow": row.plastic}
-        models |= {f"cap {cap:g} Y": found for cap, found in row.capped.items()}
-        apart = {f"cap {cap:g} Y": f"{100.0 * d:.1f} %" for cap, d in row.apart.items()}
-        for number, (name, found) in enumerate(models.items()):
-            shown.add_row(
-                f"{row.peak:g} Y" if number == 0 else "",
-                name,
-                f"{found.length:.3f}",
-                f"{found.mean:.2f}",
-                f"{found.peak:.2f}",
-                f"{found.place:.2f}",
-                apart.get(name, ""),
-                end_section=number == len(models) - 1,
-            )
-    return shown
-
-
 def main(arguments: list[str] | None = None) -> int:
-    """Print a table for each case; the exit status."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    """Print a table for each case; the exit status.
+
+    Lengths in half-widths of the elastic contact of a smooth body under the last load.
+    """
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--coarser", type=int, default=1, help="pitch and elements so much larger")
     options = parser.parse_args(arguments)
     for case in CASES:
         pitch, size = case.pitch * options.coarser, case.size * options.coarser
-        start = process_time()
-        Console(width=100).print(table(case, compare(replace(case, pitch=pitch, size=size))))
-        print(f"{process_time() - start:.0f} s\n")
+        rows = zip(case.peaks, compare(replace(case, pitch=pitch, size=size)), strict=True)
+        print_table(
+            case.title,
+            COLUMNS,
+            [
+                (f"{peak:g} Y", name, *(f"{v:.2f}" for v in vars(found).values()))
+                for peak, models in rows
+                for name, found in models.items()
+            ],
+        )
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_on_one_thread(main)

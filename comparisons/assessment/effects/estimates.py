@@ -165,7 +165,7 @@ def _disc(problem: Problem) -> Sizes:
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
-# at 0.035 (`comparisons.benchmarks.finite_deformation.__main__`); 2 % in tau1 at 0.038. Beside a
+# at 0.035 (`comparisons.benchmarks.finite_deformation`); 2 % in tau1 at 0.038. Beside a
 # linear body that has the displaced gap or the real boundary by halves it takes back what these
 # overdo.
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75

@@ -1,1 +1,1 @@
-"""Contact on finite elements beside general finite-element codes."""
+"""Contact on finite elements beside CalculiX and scikit-fem."""

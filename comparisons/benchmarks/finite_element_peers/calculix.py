@@ -7,17 +7,30 @@ meshes, none that converge. Node-to-face contact is off by 2 % with these elemen
 refuses elements in a plane. The deck's modulus is 1e9, since residuals of tiny forces count as
 zero.
 
-ccx tells no times of its own: the solution's is that of the whole run less that of the same deck
+ccx reports no times of its own: the solution's is that of the whole run less that of the same deck
 with *NO ANALYSIS, which reads and checks it.
 """
 
+import resource
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers.process import FailedError, Run, spent
-from comparisons.benchmarks.finite_element_peers.task import Answer, Task
+from comparisons.benchmarks.finite_element_peers.cases import (
+    MATERIAL,
+    BlockAnswer,
+    BlockCode,
+    BlockTask,
+    FailedError,
+)
+from comparisons.benchmarks.harness import AbsentError
 
+COMMAND = "ccx"
+MOST_SECONDS = 60.0  # of one run
 STIFFNESS = 1e3  # K over E [1/m], at a half-width of 1 m
 MODULUS = 1e9  # in the deck [Pa]
 CORNERS = ((0, 1), (1, 2), (2, 0))  # of a face S1, S2, S3
@@ -37,32 +50,58 @@ U
 NO_STEP = "*STEP\n*NO ANALYSIS\n*STATIC\n*END STEP\n"
 
 
-def solve(command: str, task: Task, folder: Path, limit: float) -> Run:
-    """The task by ccx, started as `command`; raises FailedError."""
+def calculix() -> list[BlockCode]:
+    """Raises AbsentError."""
+    if shutil.which(COMMAND) is None:
+        get = "apt-get install --no-install-recommends calculix-ccx"
+        raise AbsentError(f"CalculiX is not installed: {get}")
+    return [BlockCode("CalculiX", "CPE6, face-to-face penalty", solve)]
+
+
+def solve(task: BlockTask) -> BlockAnswer:
+    """Raises FailedError."""
     model = deck(task)
-    (folder / "contact.inp").write_text(model + STEP.format(lower=-task.approach))
-    (folder / "read.inp").write_text(model + NO_STEP)
-    reading = spent([command, "read"], folder, limit)
-    total = spent([command, "contact"], folder, limit)
-    nodes, pressure = last_contact((folder / "contact.frd").read_text())
-    x, z = task.points.T
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "contact.inp").write_text(model + STEP.format(lower=-task.approach))
+        (folder / "read.inp").write_text(model + NO_STEP)
+        reading = seconds_of([COMMAND, "read"], folder, MOST_SECONDS)
+        total = seconds_of([COMMAND, "contact"], folder, MOST_SECONDS)
+        nodes, pressure = last_contact((folder / "contact.frd").read_text())
+        steps = iterations((folder / "contact.cvg").read_text())
+    x, z = task.mesh.points.T
     value = np.zeros(len(x))
     known = nodes <= len(x)  # the others are the punch's
-    value[nodes[known] - 1] = pressure[known] * task.youngs_modulus / MODULUS
-    ground = np.flatnonzero(task.touchable(x, z))
-    ground = ground[np.argsort(x[ground])]
-    steps = iterations((folder / "contact.cvg").read_text())
-    seconds = np.array([total - reading])
-    return Run(Answer(x[ground], value[ground], seconds, 2 * len(x), steps), total)
+    value[nodes[known] - 1] = pressure[known] * MATERIAL.youngs_modulus / MODULUS
+    top = np.flatnonzero(task.touchable(x, z))
+    top = top[np.argsort(x[top])]
+    return BlockAnswer(x[top], value[top], 2 * len(x), steps, total - reading)
 
 
-def deck(task: Task) -> str:
+def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
+    """Processor time [s] of a command in a folder.
+
+    Raises FailedError, with its last line, if it fails, or if it takes more than `limit` [s].
+    """
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    try:
+        subprocess.run(command, cwd=folder, capture_output=True, check=True, timeout=limit)
+    except subprocess.TimeoutExpired as late:
+        raise FailedError(f"not done after {limit:g} s") from late
+    except subprocess.CalledProcessError as failure:
+        lines = (failure.stdout + failure.stderr).decode(errors="replace").strip().splitlines()
+        raise FailedError(lines[-1] if lines else str(failure)) from failure
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def deck(task: BlockTask) -> str:
     """The model of one task, without its step; y points out of the body."""
-    x, z = task.points.T
+    x, z = task.mesh.points.T
     y = np.where(task.touchable(x, z), -z - task.gap(x), -z)
-    triangles = task.triangles[:, REVERSED]
-    ground = task.touchable(x, z)
-    start, stop = task.ground
+    triangles = task.mesh.triangles[:, REVERSED]
+    top = task.touchable(x, z)
+    start, stop = task.ends
     wide, first, last = 0.5 * (stop - start), len(x) + 1, len(triangles) + 1
     lines = ["*NODE"]
     lines += [f"{i},{a:.14g},{b:.14g}" for i, (a, b) in enumerate(zip(x, y, strict=True), 1)]
@@ -72,20 +111,20 @@ def deck(task: Task) -> str:
     lines += [",".join(map(str, (e, *row))) for e, row in enumerate(triangles + 1, 1)]
     corners = ",".join(str(first + i) for i in range(4))
     lines += ["*ELEMENT,TYPE=CPE4,ELSET=PUNCH", f"{last},{corners}"]
-    lines += ["*NSET,NSET=PUNCH_NODES", corners, "*NSET,NSET=HELD"]
-    lines += [str(i + 1) for i in np.flatnonzero(task.held(x, z))]
-    lines += ["*SURFACE,NAME=GROUND"]
+    lines += ["*NSET,NSET=PUNCH_NODES", corners, "*NSET,NSET=FIXED"]
+    lines += [str(i + 1) for i in np.flatnonzero(task.fixed(x, z))]
+    lines += ["*SURFACE,NAME=TOP"]
     for face, ends in enumerate(CORNERS, 1):
-        elements = np.flatnonzero(ground[triangles[:, ends]].all(axis=1))
+        elements = np.flatnonzero(top[triangles[:, ends]].all(axis=1))
         lines += [f"{e + 1},S{face}" for e in elements]
     lines += ["*SURFACE,NAME=FLAT", f"{last},S1", "*MATERIAL,NAME=ELASTIC", "*ELASTIC"]
-    lines += [f"{MODULUS:g},{task.poissons_ratio:.14g}"]
+    lines += [f"{MODULUS:g},{MATERIAL.poissons_ratio:.14g}"]
     for part in ("BLOCK", "PUNCH"):
         lines += [f"*SOLID SECTION,ELSET={part},MATERIAL=ELASTIC", "1."]
     lines += ["*SURFACE INTERACTION,NAME=PENALTY"]
     lines += ["*SURFACE BEHAVIOR,PRESSURE-OVERCLOSURE=LINEAR", f"{STIFFNESS * MODULUS:g}"]
-    lines += ["*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "GROUND,FLAT"]
-    lines += ["*BOUNDARY", "HELD,1,2"]
+    lines += ["*CONTACT PAIR,INTERACTION=PENALTY,TYPE=SURFACE TO SURFACE", "TOP,FLAT"]
+    lines += ["*BOUNDARY", "FIXED,1,2"]
     return "\n".join(lines) + "\n"
 
 

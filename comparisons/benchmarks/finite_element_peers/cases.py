@@ -1,61 +1,149 @@
-"""The contact problems on which finite-element codes are compared, and their meshes.
+"""The contact problems on which finite-element codes are compared, and this project's solution.
 
-A rigid parabola, smooth or with waves on it, on a block of plane strain that is held at its bottom
-and sides. It is so flat that to first order in its slope there is but one problem, however a code
-measures gaps and turns its tractions. Without waves the load gives Hertz's a and p0.
+A rigid parabola, smooth or with waves on it, on a block in plane strain whose bottom and sides are
+fixed. It is so flat that all linear formulations of gap and traction agree to first order in its
+slope. Without waves the load gives Hertz's half-width a and peak pressure p0.
 
-The approach is prescribed, which every code offers as it comes. It goes with the load in the
-reference, this project's solution by cubic elements on a mesh finer than all that race. That
-the peers' errors fall with their meshes as far as this project's says that it is theirs, too.
+    g0(x) = x^2 / (2 R) + sum_k A_k (1 - cos(2 pi x / lambda_k + phi_k))    initial gap [m]
+    u_z >= d - g0,   p >= 0,   p (u_z + g0 - d) = 0                 where contact is possible
+
+u_z is the displacement of the flat top into the body. The approach d is prescribed, which every
+code offers. It belongs to the load in the reference, this project's solution by cubic elements on
+a mesh finer than all others. That the peers' errors fall with their meshes as far as this
+project's shows that the reference is valid for them, too.
 
     a   half-width, 1 m     R   radius [m]     E, nu   1 Pa and 0.3
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import solve_contact
+from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.smooth_pressure import smooth_pressure
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.benchmarks.finite_element_peers.task import Answer, Task, gap
+from fem.body.elasticity import elastic_body
+from fem.body.support import Support
+from fem.compliance.operator import FiniteElementCompliance
+from meshes.block import BlockMesh, BlockSpec
+from meshes.build import build_block
 
 MATERIAL = Material(1.0, 0.3)
 SLOPE = 1e-5  # a / R
+RADIUS = 1.0 / SLOPE
 BLOCK = 40.0  # half-width and depth, in a
-MARGIN = 1.25  # of the predicted contact: ground that may be touched
-LARGEST = 3.0  # reach of the waves' contact, in a
+GROWTH = 0.4  # of the elements; with 0.2 all codes need more time for the same error
+MARGIN = 1.25  # of the predicted contact: where contact is possible
+LARGEST = 3.0  # half-width of the region in which the half-plane predicts contact, in a
+SLACK = 1e-9  # of the block: points closer to a side than this are on it
 # The reference: edges to a, growth of the elements, degree, hats to an edge.
 FINEST, FINEST_GROWTH, FINEST_DEGREE, FINEST_HATS = 640, 0.15, 3, 2
 SAMPLES = 40_001  # places at which pressures are compared
+CURVE_SAMPLES = 200  # of the smooth curve of a contact patch
+# This project's: degree of the displacements, hats on an element edge, the smooth curves behind the
+# hats (`analytic.contact.smooth_pressure`) in place of the hats.
+CONFIGURATIONS = tuple(
+    (degree, hats, smooth) for degree, hats in ((2, 1), (2, 2), (3, 2)) for smooth in (False, True)
+)
+
+
+class FailedError(Exception):
+    """A code found no pressures; the message is its own."""
 
 
 @dataclass(frozen=True)
-class Case:
-    """One contact problem.
+class BlockTask:
+    """One problem on one mesh.
 
-    waves      (k, 3) as in `fe_peers_task`
-    ladder     element edges to a, coarse to fine
-    reach      half of the ground that may be touched [m]
-    approach   [m]                  reference   pressures, and the load's approach
+    waves     (k, 3) rows of A_k [m], lambda_k [m], phi_k [rad]
+    approach  d [m]
+    """
+
+    mesh: BlockMesh
+    waves: np.ndarray
+    approach: float
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """x [m] between which contact is possible; the mesh has equal edges there."""
+        start, stop = self.mesh.spec.intervals[0]
+        return float(start), float(stop)
+
+    def gap(self, x: np.ndarray) -> np.ndarray:
+        """g0 [m] at x [m], of any shape."""
+        return gap(x, self.waves)
+
+    def fixed(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Whether points are on the bottom or on one of the sides."""
+        side = BLOCK * (1.0 - SLACK)
+        return (np.abs(x) >= side) | (z >= side)
+
+    def touchable(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Whether points are on the top where contact is possible."""
+        slack = SLACK * BLOCK
+        start, stop = self.ends
+        return (z <= slack) & (x >= start - slack) & (x <= stop + slack)
+
+
+@dataclass(frozen=True)
+class BlockAnswer:
+    """Contact pressures of one solution.
+
+    x, pressure  (k,) ascending [m], and [Pa] there, linear between; zero elsewhere
+    unknowns     displacement components
+    steps        of the contact iteration
+    seconds      processor time, where the caller cannot measure it
+    """
+
+    x: np.ndarray
+    pressure: np.ndarray
+    unknowns: int
+    steps: int
+    seconds: float | None = None
+
+    def at(self, x: np.ndarray) -> np.ndarray:
+        """Pressure [Pa] at x [m]."""
+        return np.interp(x, self.x, self.pressure, left=0.0, right=0.0)
+
+
+@dataclass(frozen=True)
+class BlockCode:
+    """One configuration of one code; `solve` raises FailedError."""
+
+    name: str
+    configuration: str
+    solve: Callable[[BlockTask], BlockAnswer]
+
+
+@dataclass(frozen=True)
+class BlockCase:
+    """One contact problem on a series of meshes.
+
+    edges      element edges to a of each mesh, coarse to fine
+    reach      half of the width on which contact is possible [m]
+    approach   d [m]
+    reference  pressures
     """
 
     title: str
     waves: np.ndarray
-    ladder: tuple[int, ...]
+    edges: tuple[int, ...]
     reach: float
     approach: float
-    reference: Answer
+    reference: BlockAnswer
 
-    def task(self, edges: int, growth: float, repeats: int) -> Task:
-        """The problem on a mesh of so many edges to a."""
-        return _task(self.waves, self.reach, self.approach, edges, growth, repeats)
+    def task(self, edges: int, growth: float = GROWTH) -> BlockTask:
+        """The problem on a mesh with so many edges to a."""
+        return BlockTask(_mesh(self.reach, edges, growth), self.waves, self.approach)
 
-    def errors(self, answer: Answer) -> dict[str, float]:
+    def errors(self, answer: BlockAnswer) -> dict[str, float]:
         """Relative errors: `peak`, of the largest pressure, and `pressure`, in the L2 norm."""
         x = np.linspace(-self.reach, self.reach, SAMPLES)
         wanted, found = self.reference.at(x), answer.at(x)
@@ -65,89 +153,112 @@ class Case:
         }
 
 
+def gap(x: np.ndarray, waves: np.ndarray) -> np.ndarray:
+    """g0 [m] at x [m], of any shape, with (k, 3) rows A_k [m], lambda_k [m], phi_k of waves."""
+    x = np.asarray(x, dtype=float)
+    angle = 2.0 * np.pi * x[..., None] / waves[:, 1] + waves[:, 2]
+    return x**2 / (2.0 * RADIUS) + (1.0 - np.cos(angle)) @ waves[:, 0]
+
+
 def hertz() -> HertzContact:
     """Of the smooth parabola on a half-plane."""
     modulus = MATERIAL.plane_strain_modulus
-    return hertz_from_peak_pressure(0.5 * SLOPE * modulus, 1.0 / SLOPE, modulus)
+    return hertz_from_peak_pressure(0.5 * SLOPE * modulus, RADIUS, modulus)
 
 
-def cylinder() -> Case:
+def cylinder() -> BlockCase:
     """Hertz's contact."""
-    return made("cylinder", np.zeros((0, 3)), (5, 10, 20, 40, 80, 160))
+    return case_of("cylinder", np.zeros((0, 3)), (5, 10, 20, 40, 80, 160))
 
 
-def waves() -> Case:
+def waves() -> BlockCase:
     """A sinusoid on the parabola: five asperities touch, each over a part of it."""
     length = 0.5
     amplitude = 2.0 * SLOPE * length / (2.0 * np.pi)
-    return made("waves", np.array([[amplitude, length, 0.0]]), (10, 20, 40, 80, 160))
+    return case_of("waves", np.array([[amplitude, length, 0.0]]), (10, 20, 40, 80, 160))
 
 
-def rough(seed: int = 1, shortest: float = 0.1, hurst: float = 0.8) -> Case:
-    """Self-affine roughness on the parabola, with waves from 4 a down to `shortest` a."""
-    random = np.random.default_rng(seed)
-    number = np.arange(1, round(4.0 / shortest) + 1)
+def rough() -> BlockCase:
+    """Self-affine roughness on the parabola, Hurst exponent 0.8, waves from 4 a down to a / 10."""
+    number = np.arange(1, 41)
     length = 4.0 / number
-    amplitude = number ** (-0.5 - hurst)
+    amplitude = number ** (-0.5 - 0.8)
     slope = np.sqrt(0.5 * np.sum((2.0 * np.pi * amplitude / length) ** 2))
-    phase = random.uniform(0.0, 2.0 * np.pi, len(number))
+    phase = np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, len(number))
     rows = np.column_stack([2.0 * SLOPE / slope * amplitude, length, phase])
-    return made("rough", rows, (10, 20, 40, 80, 160))
+    return case_of("rough", rows, (10, 20, 40, 80, 160))
 
 
-def made(title: str, waves: np.ndarray, ladder: tuple[int, ...], finest: int = FINEST) -> Case:
+def case_of(
+    title: str, waves: np.ndarray, edges: tuple[int, ...], finest: int = FINEST
+) -> BlockCase:
     """The case of these waves, its reference solved on `finest` edges to a."""
-    smooth = hertz()
+    load = Constraints(load=hertz().load_per_length)
     grid = HatGrid.within(-LARGEST, LARGEST, 1.0 / finest)
-    modulus = MATERIAL.plane_strain_modulus
     predicted = solve_contact(
-        HalfPlane(grid.count, grid.pitch, modulus),
-        grid.hat_integrals(_gap(waves)),
+        HalfPlane(grid.count, grid.pitch, MATERIAL.plane_strain_modulus),
+        grid.hat_integrals(lambda x: gap(x, waves)),
         grid.weights,
-        Constraints(load=smooth.load_per_length),
+        load,
     )
     reach = MARGIN * float(np.abs(grid.x[predicted.pressure > 0.0]).max())
-    task = _task(waves, reach, 0.0, finest, FINEST_GROWTH, 0)
-    answer, approach = _solved(task, smooth.load_per_length)
-    return Case(title, waves, ladder, float(task.ground[1]), approach, answer)
+    task = BlockTask(_mesh(reach, finest, FINEST_GROWTH), waves, 0.0)
+    feet, solution, unknowns = _contact(task, FINEST_DEGREE, FINEST_HATS, load)
+    answer = BlockAnswer(feet, np.pad(solution.pressure, 1), unknowns, 0)
+    return BlockCase(title, waves, edges, task.ends[1], solution.approach, answer)
 
 
-def _gap(waves: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    return lambda x: gap(x, 1.0 / SLOPE, waves)
-
-
-def _task(
-    waves: np.ndarray, reach: float, approach: float, edges: int, growth: float, repeats: int
-) -> Task:
-    from meshes.block import BlockSpec
-    from meshes.build import build_block
-
+def _mesh(reach: float, edges: int, growth: float) -> BlockMesh:
     size = 1.0 / edges
     end = size * np.ceil(reach / size - 1e-9)
-    ground = np.array([-end, end])
-    mesh = build_block(BlockSpec(BLOCK, BLOCK, ground[None], size, growth))
-    return Task(
-        points=mesh.points,
-        triangles=mesh.triangles,
-        half_width=BLOCK,
-        depth=BLOCK,
-        ground=ground,
-        surface_size=size,
-        growth=growth,
-        radius=1.0 / SLOPE,
-        waves=waves,
-        approach=approach,
-        youngs_modulus=MATERIAL.youngs_modulus,
-        poissons_ratio=MATERIAL.poissons_ratio,
-        repeats=repeats,
+    return build_block(BlockSpec(BLOCK, BLOCK, np.array([[-end, end]]), size, growth))
+
+
+def crosscheck() -> list[BlockCode]:
+    """This project's finite elements, with the half-plane as the model of the outer iteration."""
+    return [
+        BlockCode("crosscheck", _words(*each), partial(_solved, each)) for each in CONFIGURATIONS
+    ]
+
+
+def _words(degree: int, hats: int, smooth: bool) -> str:
+    return f"P{degree}, {('a hat', 'two hats')[hats - 1]} an edge" + (", smooth" if smooth else "")
+
+
+def _solved(configuration: tuple[int, int, bool], task: BlockTask) -> BlockAnswer:
+    degree, hats, smooth = configuration
+    given = Constraints(approach=task.approach)
+    feet, solution, unknowns = _contact(task, degree, hats, given)
+    pressures = _smooth(feet, solution) if smooth else (feet, np.pad(solution.pressure, 1))
+    return BlockAnswer(*pressures, unknowns, solution.iterations["steps"])
+
+
+def _contact(
+    task: BlockTask, degree: int, hats: int, constraints: Constraints
+) -> tuple[np.ndarray, ContactSolution, int]:
+    """Nodes (n + 2,) [m] of the hats with the outer feet, pressures on them, and unknowns."""
+    body = elastic_body(task.mesh, MATERIAL, Support("bonded", "fixed"), degree=degree)
+    grid = HatGrid.within(*task.ends, task.mesh.spec.surface_size / hats)
+    feet = np.arange(grid.first - 1, grid.last + 2) * grid.pitch
+    solution = solve_with_model(
+        FiniteElementCompliance(body, feet),
+        HalfPlane(grid.count, grid.pitch, MATERIAL.plane_strain_modulus),
+        grid.hat_integrals(task.gap),
+        grid.weights,
+        constraints,
     )
+    if not solution.converged:
+        raise FailedError(f"not converged: {solution.residuals}")
+    return feet, solution, body.unknowns
 
 
-def _solved(task: Task, load: float) -> tuple[Answer, float]:
-    """The reference and its approach [m] under a load [N/m]."""
-    from comparisons.benchmarks.finite_element_peers.crosscheck import contact_of
-
-    feet, solution, unknowns = contact_of(task, FINEST_DEGREE, FINEST_HATS, Constraints(load=load))
-    pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
-    steps = solution.iterations["steps"]
-    return Answer(feet, pressure, np.zeros(1), unknowns, steps), solution.approach
+def _smooth(feet: np.ndarray, solution: ContactSolution) -> tuple[np.ndarray, np.ndarray]:
+    """Places [m], dense towards the ends of each patch, and the smooth pressure [Pa] there."""
+    share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, CURVE_SAMPLES)))
+    places, pressure = [], []
+    for patch in smooth_pressure(feet, solution.pressure, solution.gap):
+        start, stop = patch.ends
+        x = start + (stop - start) * share
+        places.append(x)
+        pressure.append(np.pad(patch.curve(x[1:-1]), 1))
+    return np.concatenate(places), np.concatenate(pressure)

@@ -1,93 +1,194 @@
-"""Several finite-element codes on one case, over a ladder of meshes.
+"""Contact on finite elements beside other codes, on one thread, at equal error.
 
-On each mesh all codes run one after the other, again and again, so that what else the machine does
-meets them alike. Times are the processor's. A code that fails on a mesh, or exceeds the limit
-there, is not asked for finer ones of that kind.
+    python -m comparisons.benchmarks.finite_element_peers
+
+A cylinder, waves and roughness on it, pressed on the same blocks with the same meshes by CalculiX
+and scikit-fem, each in the way of its users, and by this project. Processor time of a solution,
+from the mesh in memory to the pressures, in a process that has solved the same before (CalculiX:
+without start and reading). On each mesh all codes run in turn, several times, so that disturbances
+by other processes are shared. A code that fails on a mesh, or exceeds the limit there, is not run
+on finer ones.
+
+The meshes give each configuration a curve of time over error. An error counts as reached from the
+first mesh after which no finer one exceeds it, so that an error that changes sign counts for
+nothing. Times between meshes are interpolated in logarithms of both. A code's time is that of its
+best configuration.
+
+Exit status 0 only if a peer is installed and this project is no later than those installed at every
+error that they reach. Absent peers are named.
 """
 
+import argparse
+import math
 import statistics
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-from comparisons.benchmarks.finite_element_peers.cases import Case
-from comparisons.benchmarks.finite_element_peers.process import Code, FailedError, Run
+from comparisons.benchmarks.finite_element_peers import cases
+from comparisons.benchmarks.finite_element_peers.calculix import calculix
+from comparisons.benchmarks.finite_element_peers.cases import (
+    BlockAnswer,
+    BlockCase,
+    BlockCode,
+    BlockTask,
+    FailedError,
+    crosscheck,
+)
+from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
+from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table, timed
 
-REPEATS = 2  # timed solutions in one process, after a first one that warms it up
-SLOW = 5.0  # seconds of a solution from which one round has to do
+CASES = ("cylinder", "waves", "rough")
+TARGETS = {"pressure": (1e-1, 3e-2, 1e-2, 3e-3), "peak": (1e-2, 3e-3, 1e-3)}
+SLOW = 5.0  # seconds of a solution from which it is not repeated
+COLUMNS = ("case", "code", "configuration", "edges", "unknowns", "steps", "ms", *TARGETS)
 
 
 @dataclass(frozen=True)
-class Point:
-    """One code on one mesh.
+class BlockResult:
+    """One code on one mesh: element edges to a, median processor time [s], `BlockCase.errors`."""
 
-    edges, growth  of the mesh: element edges to a, growth of the elements with the distance
-    solve          median processor time from the mesh in memory to the pressures, warm [s]
-    whole          median processor time of a process that solves once [s]
-    errors         as `Case.errors`
-    """
-
-    code: str
-    how: str
+    code: BlockCode
     edges: int
-    growth: float
-    unknowns: int
-    steps: int
-    solve: float
-    whole: float
+    seconds: float
+    answer: BlockAnswer
     errors: dict[str, float]
 
 
-def race(
-    case: Case,
-    codes: Sequence[Code],
-    growths: Sequence[float],
-    rounds: int,
-    limit: float,
-    tell: Callable[[str], None],
-) -> list[Point]:
-    """One point a code and mesh; `tell` hears of codes that give up.
+@dataclass(frozen=True)
+class TimesAtError:
+    """Times [s] of this project and of one peer at one error, None where it is not reached."""
 
-    growths  of the meshes at each rung of the case's ladder
-    rounds   processes of each code on each mesh
-    limit    seconds for one process
+    case: str
+    error: str
+    target: float
+    peer: str
+    ours: float | None
+    theirs: float | None
+
+    @property
+    def ratio(self) -> float | None:
+        """The peer's time over ours, where both reach the error."""
+        return None if None in (self.ours, self.theirs) else self.theirs / self.ours
+
+    @property
+    def demand(self) -> Demand:
+        """That ours reaches the error where the peer does, and no later."""
+        ours, theirs = (
+            "not reached" if t is None else f"{t:.3g} s" for t in (self.ours, self.theirs)
+        )
+        text = f"{self.case}, {self.error} to {self.target:g}: ours {ours}, {self.peer} {theirs}"
+        return Demand(self.theirs is None or (self.ratio or 0.0) >= 1.0, text)
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Print every mesh and the times at equal error; the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--cases", nargs="+", default=CASES, choices=CASES)
+    parser.add_argument("--rounds", type=int, default=3, help="timed solutions on a mesh")
+    parser.add_argument("--limit", type=float, default=60.0, help="processor seconds for one")
+    options = parser.parse_args(arguments)
+    ours, peers = crosscheck(), installed(calculix, scikit_fem)
+    found, rows = [], []
+    for name in options.cases:
+        case = getattr(cases, name)()
+        results = race(case, ours + peers, options.rounds, options.limit)
+        rows += [(case.title, *_cells(result)) for result in results]
+        found += times_at_errors(case.title, results, ours[0].name)
+    print_table("Every mesh, relative errors", COLUMNS, rows)
+    status = print_demands([times.demand for times in found])
+    for peer in dict.fromkeys(times.peer for times in found):
+        ratios = [times.ratio for times in found if times.peer == peer and times.ratio is not None]
+        if ratios:
+            print(f"{peer}: {statistics.median(ratios):.3g} times our time, in the median")
+    if not peers:
+        print("no peer is installed: nothing is shown")
+    return status if peers else 1
+
+
+def _cells(result: BlockResult) -> list[str]:
+    return [
+        result.code.name,
+        result.code.configuration,
+        str(result.edges),
+        str(result.answer.unknowns),
+        str(result.answer.steps),
+        f"{1e3 * result.seconds:.3g}",
+        *(f"{result.errors[name]:.1e}" for name in TARGETS),
+    ]
+
+
+def race(
+    case: BlockCase, codes: Sequence[BlockCode], rounds: int, limit: float
+) -> list[BlockResult]:
+    """One result a code and mesh; prints which codes are not run any further.
+
+    rounds  timed solutions of each code on each mesh, after a first one
+    limit   seconds of one solution after which a code gets no finer mesh
     """
     found = []
-    for growth in growths:
-        running = list(codes)
-        for edges in case.ladder:
-            task = case.task(edges, growth, REPEATS)
-            runs: dict[Code, list[Run]] = {code: [] for code in running}
-            for turn in range(rounds):
-                for code in list(running):
-                    if turn > 0 and runs[code][0].whole > SLOW:
-                        continue
-                    try:
-                        with tempfile.TemporaryDirectory() as folder:
-                            runs[code].append(code.solve(task, Path(folder), limit))
-                    except FailedError as failure:
-                        where = f"{case.title}, {edges} edges, growth {growth:g}"
-                        tell(f"{code.name}, {code.how}: given up at {where}: {failure}")
-                        running.remove(code)
-            found += [
-                _point(case, code, edges, growth, runs[code]) for code in running if runs[code]
-            ]
+    running = list(codes)
+    for edges in case.edges:
+        task = case.task(edges)
+        trials: dict[BlockCode, tuple[float, BlockAnswer]] = {}
+        for code in list(running):
+            try:
+                seconds, answer = trials[code] = _solved(code, task)
+                stopped = f"{seconds:.0f} s" if seconds > limit else None
+            except FailedError as failure:
+                stopped = str(failure)
+            if stopped:
+                running.remove(code)
+                print(f"{code.name}, {code.configuration}: {case.title}, {edges} edges: {stopped}")
+        times: dict[BlockCode, list[float]] = {code: [] for code in trials}
+        for _ in range(rounds):
+            for code, (seconds, _) in trials.items():
+                if seconds <= SLOW:
+                    times[code].append(_solved(code, task)[0])
+        for code, (seconds, answer) in trials.items():
+            median = statistics.median(times[code] or [seconds])
+            found.append(BlockResult(code, edges, median, answer, case.errors(answer)))
     return found
 
 
-def _point(case: Case, code: Code, edges: int, growth: float, runs: list[Run]) -> Point:
-    answer = runs[-1].answer
-    # the first solution of a process counts where there is no other
-    warm = [time for run in runs for time in run.answer.seconds[-REPEATS:]]
-    return Point(
-        code=code.name,
-        how=code.how,
-        edges=edges,
-        growth=growth,
-        unknowns=answer.unknowns,
-        steps=answer.steps,
-        solve=float(statistics.median(warm)),
-        whole=statistics.median(run.whole for run in runs),
-        errors=case.errors(answer),
-    )
+def _solved(code: BlockCode, task: BlockTask) -> tuple[float, BlockAnswer]:
+    """Processor time [s] and answer."""
+    seconds, answer = timed(lambda: code.solve(task), 1)
+    return seconds if answer.seconds is None else answer.seconds, answer
+
+
+def time_at(curve: Sequence[tuple[float, float]], target: float) -> float | None:
+    """Time at an error from (error, time) of each mesh, coarse to fine; None if not reached."""
+    before = None
+    for mesh, (_, time) in enumerate(curve):
+        error = max(error for error, _ in curve[mesh:])
+        if error <= target:
+            if before is None or before[0] <= error:
+                return time
+            share = math.log(before[0] / target) / math.log(before[0] / error)
+            return before[1] * (time / before[1]) ** share
+        before = error, time
+    return None
+
+
+def times_at_errors(case: str, results: Sequence[BlockResult], ours: str) -> list[TimesAtError]:
+    """Ours beside each peer on one case, at every error of TARGETS that one of them reaches."""
+    found = []
+    for peer in dict.fromkeys(result.code.name for result in results):
+        for error, targets in TARGETS.items() if peer != ours else ():
+            for target in targets:
+                times = (_best_time(results, name, error, target) for name in (ours, peer))
+                found.append(TimesAtError(case, error, target, peer, *times))
+    return [times for times in found if (times.ours, times.theirs) != (None, None)]
+
+
+def _best_time(
+    results: Sequence[BlockResult], name: str, error: str, target: float
+) -> float | None:
+    """Least time of all configurations of one code at an error."""
+    curves: dict[str, list[tuple[float, float]]] = {}
+    for result in results:
+        if result.code.name == name:
+            curve = curves.setdefault(result.code.configuration, [])
+            curve.append((result.errors[error], result.seconds))
+    times = [time_at(curve, target) for curve in curves.values()]
+    return min((time for time in times if time is not None), default=None)

@@ -1,41 +1,57 @@
 """scikit-fem under comparison: quadratic triangles and a primal-dual active set on their nodes.
 
-The program runs in whatever interpreter has scikit-fem. On the active nodes u_z = d - g0 is
-condensed out, the residual force there is the contact's, and nodes change sides by
-force + E (overlap) > 0 (Hintermueller, Ito and Kunisch 2002, SIAM J. Optim. 13, 865-888), the
-semismooth Newton method of scikit-fem's own contact examples, until none does.
+On the active nodes u_z = d - g0 is condensed out, the residual force there is the contact's, and
+nodes change sides by force + E (overlap) > 0 (Hintermueller, Ito and Kunisch 2002, SIAM J. Optim.
+13, 865-888), the semismooth Newton method of scikit-fem's own contact examples, until none does.
 
 Linear systems by scipy's SuperLU, ordered for a symmetric pattern and without pivoting: what
 scikit-fem takes by itself, `scipy.sparse.linalg.spsolve`, orders for unsymmetric ones and is
 slower. Pressures are nodal forces over the nodes' shares of the surface.
 """
 
-import sys
-
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers.task import Task, run_program
+from comparisons.benchmarks.finite_element_peers.cases import (
+    MATERIAL,
+    BlockAnswer,
+    BlockCode,
+    BlockTask,
+    FailedError,
+)
+from comparisons.benchmarks.harness import AbsentError
 
 MOST_STEPS = 100
 
 
-def solve(task: Task) -> tuple[np.ndarray, np.ndarray, int, int]:
-    """x, pressure, unknowns and steps."""
+def scikit_fem() -> list[BlockCode]:
+    """Raises AbsentError."""
+    try:
+        import skfem  # noqa: F401
+    except ImportError as missing:
+        raise AbsentError("scikit-fem is not installed: pip install scikit-fem") from missing
+    return [BlockCode("scikit-fem", "P2, active set", solve)]
+
+
+def solve(task: BlockTask) -> BlockAnswer:
+    """Raises FailedError if the active set does not settle."""
     from scipy.sparse.linalg import splu
     from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
-    from skfem.models.elasticity import linear_elasticity
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
 
     element = ElementVector(ElementTriP2())
-    mesh = MeshTri(np.ascontiguousarray(task.vertices.T), task.triangles[:, :3].T.copy())
+    corners = task.mesh.triangles[:, :3]
+    vertices = task.mesh.points[: 1 + corners.max()]
+    mesh = MeshTri(np.ascontiguousarray(vertices.T), corners.T.copy())
     basis = Basis(mesh, element, intorder=2)
-    stiffness = linear_elasticity(*task.lame).assemble(basis)
+    lame = lame_parameters(MATERIAL.youngs_modulus, MATERIAL.poissons_ratio)
+    stiffness = linear_elasticity(*lame).assemble(basis)
     place = basis.doflocs
     vertical = np.zeros(basis.N, dtype=bool)
     vertical[basis.nodal_dofs[1]] = vertical[basis.facet_dofs[1]] = True
-    free = ~task.held(*place)
+    free = ~task.fixed(*place)
     contact = np.flatnonzero(vertical & task.touchable(*place))
-    ground = mesh.facets_satisfying(lambda x: task.touchable(*x))
-    top = FacetBasis(mesh, element, facets=ground, intorder=2)
+    facets = mesh.facets_satisfying(lambda x: task.touchable(*x))
+    top = FacetBasis(mesh, element, facets=facets, intorder=2)
     share = LinearForm(lambda v, _: v[1]).assemble(top)[contact]
     least = task.approach - task.gap(place[0, contact])
 
@@ -55,12 +71,10 @@ def solve(task: Task) -> tuple[np.ndarray, np.ndarray, int, int]:
         )
         u[inner] = factor.solve(-(rows @ u))
         force = np.where(active, stiffness[contact] @ u, 0.0)
-        touching = force + task.youngs_modulus * (least - u[contact]) > 0.0
+        touching = force + MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
         if np.array_equal(touching, active):
-            return place[0, contact], force / share, basis.N, step
+            order = np.argsort(place[0, contact])
+            pressure = (force / share)[order]
+            return BlockAnswer(place[0, contact][order], pressure, basis.N, step)
         active = touching
-    raise RuntimeError(f"the active set has not settled after {MOST_STEPS} steps")
-
-
-if __name__ == "__main__":
-    run_program(solve, *sys.argv[1:])
+    raise FailedError(f"the active set has not settled after {MOST_STEPS} steps")

@@ -1,1 +1,1 @@
-"""The half-plane solver beside other codes."""
+"""The half-plane solver beside Tamaas and ContactMechanics."""

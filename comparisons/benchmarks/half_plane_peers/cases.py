@@ -1,12 +1,12 @@
-"""The contact problems on which codes are compared: one surface, seen by each discretisation.
+"""The contact problems on which half-plane codes are compared: one surface for all discretisations.
 
 Nodes stand at x_i = i h, 0 <= i < n, and L = n h = 1, E* = 1. Hats take the gap averaged over
-each hat, strips and points take it at the nodes. All peers close the line on itself. For the
-cylinder, whose line has no end, they are given a gap that makes up for it: from
+each hat, strips and points take it at the nodes. All peers solve a periodic line. For the cylinder,
+whose line is unbounded, they are given a gap that makes up for the neighbouring periods:
 
-    g0_closed = g0 + (K_free - K_closed) * p_Hertz
+    g0_periodic = g0 + (K_free - K_periodic) * p_Hertz
 
-Hertz's own pressure follows, on the same nodes, and without the padded transform of a free line.
+has Hertz's pressure as its exact solution, on the same nodes and without a padded transform.
 
     n   nodes              E*  combined modulus [Pa]     a   half-width [m]
     h   pitch [m]          L   length or period [m]      P   load per length [N/m]
@@ -25,7 +25,7 @@ from analytic.exact.westergaard import westergaard_from_half_width
 from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.surface.synthetic import self_affine
 
-CONTACT_SHARE = 0.1  # of the rough line in contact
+CONTACT_SHARE = 0.1  # share of the nodes of a rough line
 HALF_WIDTH = 0.25  # a/L of the smooth cases
 HEIGHT = 0.01  # peak pressure of the cylinder over E*, amplitude of the sinusoid over L
 HURST, RMS_SLOPE = 0.8, 0.05
@@ -35,21 +35,22 @@ _CHEBYSHEV = 64  # points that integrate Hertz's pressure against a kernel smoot
 
 
 @dataclass(frozen=True)
-class Case:
+class LineCase:
     """One problem at one size.
 
-    periodic  whether our line closes on itself
-    load      P [N/m]                    pitch     h [m]
-    gaps      (n,) g0 at the nodes [m]   averages  (n,) g0 averaged over hats [m]
-    heights   (n,) -g0 at the nodes of the closed line that the peers solve [m]
-    expected  (REFINED n,) pressures [Pa], exact or of that many hats
+    periodic      whether this project solves a periodic line, as the peers always do
+    load, pitch   P [N/m] and h [m]
+    gaps          (n,) g0 at the nodes [m]
+    hat_averages  (n,) g0 averaged over each hat [m]
+    heights       (n,) -g0 at the nodes of the periodic line that the peers solve [m]
+    expected      (REFINED n,) reference pressures [Pa], exact or of that many hats
     """
 
     periodic: bool
     load: float
     pitch: float
     gaps: np.ndarray
-    averages: np.ndarray
+    hat_averages: np.ndarray
     heights: np.ndarray
     expected: np.ndarray
 
@@ -58,26 +59,26 @@ class Case:
         return len(self.gaps)
 
 
-def cylinder(count: int) -> Case:
-    """Hertz: half of the nodes in contact, on a line without end."""
+def cylinder(count: int) -> LineCase:
+    """Hertz: half of the nodes in contact, on an unbounded line."""
     pitch = 1.0 / count
     x = np.arange(count) * pitch - 0.5
     hertz = hertz_from_peak_pressure(HEIGHT, 0.5 * HALF_WIDTH / HEIGHT, 1.0)
     gaps = x**2 / (2.0 * hertz.radius)
     fine = np.arange(REFINED * count) * (pitch / REFINED) - 0.5
-    return Case(
+    return LineCase(
         periodic=False,
         load=hertz.load_per_length,
         pitch=pitch,
         gaps=gaps,
-        averages=gaps + pitch**2 / (12.0 * hertz.radius),
-        heights=-(gaps + _of_closing(hertz, x)),
+        hat_averages=gaps + pitch**2 / (12.0 * hertz.radius),
+        heights=-(gaps + _periodic_correction(hertz, x)),
         expected=hertz.pressure(fine),
     )
 
 
-def _of_closing(hertz: HertzContact, x: np.ndarray) -> np.ndarray:
-    """(K_free - K_closed) * p_Hertz [m] at x; K = -2/(pi E*) times ln|x| and ln|sin(pi x)/pi|."""
+def _periodic_correction(hertz: HertzContact, x: np.ndarray) -> np.ndarray:
+    """(K_free - K_periodic) * p_Hertz [m] at x; K = -2/(pi E*) times ln|x| and ln|sin(pi x)/pi|."""
     angle = np.arange(1, _CHEBYSHEV + 1) * np.pi / (_CHEBYSHEV + 1)
     total = hertz.half_width * hertz.peak_pressure * np.pi / (_CHEBYSHEV + 1)
     moved = np.zeros_like(x)
@@ -86,33 +87,33 @@ def _of_closing(hertz: HertzContact, x: np.ndarray) -> np.ndarray:
     return 2.0 / (np.pi * hertz.combined_modulus) * moved
 
 
-def sinusoid(count: int) -> Case:
+def sinusoid(count: int) -> LineCase:
     """Westergaard: one wave, half of it in contact."""
     pitch = 1.0 / count
     exact = westergaard_from_half_width(HALF_WIDTH, 1.0, HEIGHT, 1.0)
     wave = HEIGHT * np.cos(2.0 * np.pi * np.arange(count) * pitch)
-    return Case(
+    return LineCase(
         periodic=True,
         load=exact.load_per_wavelength,
         pitch=pitch,
         gaps=-wave,
-        averages=-wave * np.sinc(pitch) ** 2,
+        hat_averages=-wave * np.sinc(pitch) ** 2,
         heights=wave,
         expected=exact.pressure(np.arange(REFINED * count) * (pitch / REFINED)),
     )
 
 
-def rough(count: int, seed: int) -> Case:
-    """Self-affine line with a tenth of it in contact and waves down to SHORTEST pitches."""
+def rough(count: int, seed: int) -> LineCase:
+    """Self-affine line with a tenth of it in contact; the shortest wave has SHORTEST pitches."""
     waves = rough_waves(count, seed, SHORTEST / count)
     load = load_for_share(count, waves)
     heights = sampled(waves, count)
-    return Case(
+    return LineCase(
         periodic=True,
         load=load,
         pitch=1.0 / count,
         gaps=-heights,
-        averages=averages(waves, count),
+        hat_averages=hat_averages(waves, count),
         heights=heights,
         expected=_solved(waves, REFINED * count, load).pressure,
     )
@@ -133,12 +134,12 @@ def rough_waves(count: int, seed: int, shortest: float) -> np.ndarray:
 
 
 def sampled(waves: np.ndarray, count: int) -> np.ndarray:
-    """The line of these waves at `count` nodes, as many as it takes or more: (count,) [m]."""
+    """Heights (count,) [m] of these waves; `count` resolves the shortest one."""
     return np.fft.irfft(waves * count, count)
 
 
-def averages(waves: np.ndarray, count: int) -> np.ndarray:
-    """Gaps -z averaged over `count` hats [m]: a hat's transform is sinc^2."""
+def hat_averages(waves: np.ndarray, count: int) -> np.ndarray:
+    """Gaps -z averaged over `count` hats, (count,) [m]: a hat's transform is sinc^2."""
     return -sampled(waves * np.sinc(np.arange(len(waves)) / count) ** 2, count)
 
 
@@ -155,7 +156,9 @@ def _solved(waves: np.ndarray, count: int, load: float) -> ContactSolution:
     pitch = 1.0 / count
     operator = PeriodicHalfPlane(count, pitch, 1.0)
     weights = np.full(count, pitch)
-    return solve_contact(operator, pitch * averages(waves, count), weights, Constraints(load=load))
+    return solve_contact(
+        operator, pitch * hat_averages(waves, count), weights, Constraints(load=load)
+    )
 
 
 def _bisected(rising: Callable[[float], float], low: float, high: float) -> float:

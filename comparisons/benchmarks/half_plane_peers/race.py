@@ -1,36 +1,55 @@
-"""Several codes on one case: each as loose as the yardstick lets it be, timed in turn.
+"""The half-plane solver beside other codes, on one thread.
 
-A code stops by a criterion of its own. Of its tolerances the loosest is searched with which the
-yardstick is met, so that none is charged for digits that nobody asked for. Then all codes run one
-after the other, again and again, so that what else the machine does meets them alike. Time is the
-processor's, which other processes do not lengthen and a second thread does.
+    python -m comparisons.benchmarks.half_plane_peers
+
+A smooth cylinder, a sinusoid and self-affine lines, at several sizes, each solved to the same
+contact conditions by one measure (`comparisons.benchmarks.half_plane_peers.yardstick`).
+
+A code stops by a criterion of its own: the loosest of its tolerances that meets the yardstick is
+searched, so that none pays for digits that are not required. Then all codes run in turn, several
+times, so that disturbances by other processes are shared. Times are processor times.
+
+Exit status 0 only if a peer is installed and this project is, beside those installed, nowhere
+slower, as many times faster as WANTED says, and its error no larger. Absent peers are named.
 """
 
+import argparse
 import statistics
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
-from comparisons.benchmarks.half_plane_peers.cases import Case
-from comparisons.benchmarks.half_plane_peers.code import Answer, Code
-from comparisons.benchmarks.half_plane_peers.yardstick import TOLERANCE, Measure, measure
-
-SLOW = 20.0  # seconds from which one run has to do
-BUDGET = 5.0  # seconds of repeats for one code on one case
-BURST = (
-    5e-3  # seconds: shorter calls are timed in a row, not each with the others' data in the cache
+from comparisons.benchmarks.half_plane_peers.cases import LineCase, cylinder, rough, sinusoid
+from comparisons.benchmarks.half_plane_peers.codes import (
+    LineAnswer,
+    LineCode,
+    contact_mechanics,
+    crosscheck,
+    tamaas,
 )
+from comparisons.benchmarks.half_plane_peers.yardstick import TOLERANCE, ContactResiduals, measure
+from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table
+
+SIZES = (256, 1024, 4096, 16384, 65536)
+SEEDS = (1, 2, 3)
+WANTED = {4096: 3.0, 65536: 20.0}  # times faster than the fastest peer; elsewhere never slower
+SAME = 1e-3  # relative difference up to which two errors count as equal
+SLOW = 20.0  # seconds of one run from which it is not repeated
+BUDGET = 5.0  # seconds of repeats for one code on one case
+BURST = 5e-3  # seconds: shorter calls are timed several in a row, with a warm cache
 FEWEST = 3  # repeats of a code that is not slow
+COLUMNS = ("case", "n", "code", "time [ms]", "ratio", "conditions", "error", "steps")
 
 
 @dataclass(frozen=True)
-class Entry:
+class LineResult:
     """One code on one case.
 
     seconds    median processor time; where `over`, the limit that it exceeded
-    over       ended by the limit, short of the yardstick
+    over       stopped by the limit before it met the yardstick
     tolerance  index of the code's own tolerance
-    steps      taken, where known
+    steps      taken, where the code reports them
     """
 
     code: str
@@ -38,76 +57,112 @@ class Entry:
     over: bool
     tolerance: int
     steps: int | None
-    measure: Measure
+    residuals: ContactResiduals
 
     @property
     def meets(self) -> bool:
-        return not self.over and self.measure.worst <= TOLERANCE
+        return not self.over and self.residuals.worst <= TOLERANCE
 
 
 @dataclass(frozen=True)
-class _Run:
-    answer: Answer
+class _Trial:
+    answer: LineAnswer
     seconds: float
-    measure: Measure
+    residuals: ContactResiduals
 
     @property
     def meets(self) -> bool:
-        return self.measure.worst <= TOLERANCE
+        return self.residuals.worst <= TOLERANCE
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Print every code on every case, and the demands; the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, help="numbers of nodes")
+    parser.add_argument("--seeds", type=int, nargs="*", default=SEEDS, help="of the rough lines")
+    parser.add_argument("--repeats", type=int, default=21, help="most timed runs of one code")
+    parser.add_argument("--limit", type=float, default=120.0, help="seconds for one run")
+    options = parser.parse_args(arguments)
+    ours, peers = crosscheck(), installed(tamaas, contact_mechanics)
+    cases = {"cylinder": cylinder, "sinusoid": sinusoid}
+    cases |= {f"self-affine, seed {seed}": partial(rough, seed=seed) for seed in options.seeds}
+    found, rows = [], []
+    for title, case_of in cases.items():
+        first: dict[str, int] = {}
+        for count in options.sizes:
+            results = race(case_of(count), ours + peers, options.limit, options.repeats, first)
+            first = {result.code: result.tolerance for result in results}
+            rows += [(title, str(count), *_cells(result, results[0])) for result in results]
+            found += demands(f"{title}, n = {count}", count, results[0], results[len(ours) :])
+    print_table("Processor time; ratio: time over that of the first row", COLUMNS, rows)
+    status = print_demands(found)
+    if not peers:
+        print("no peer is installed: nothing is shown")
+    return status if peers else 1
+
+
+def _cells(result: LineResult, ours: LineResult) -> list[str]:
+    return [
+        result.code,
+        f"over {result.seconds:.0f} s" if result.over else f"{1e3 * result.seconds:.3g}",
+        f"{'> ' if result.over else ''}{result.seconds / ours.seconds:.3g}",
+        f"{result.residuals.worst:.1e}" + ("" if result.meets else " missed"),
+        f"{result.residuals.error:.3e}",
+        "-" if result.steps is None else str(result.steps),
+    ]
 
 
 def race(
-    case: Case, codes: list[Code], limit: float, repeats: int, first: dict[str, int]
-) -> list[Entry]:
-    """One entry a code, in their order.
+    case: LineCase, codes: list[LineCode], limit: float, repeats: int, first: dict[str, int]
+) -> list[LineResult]:
+    """One result a code, in their order.
 
     limit    seconds after which a code is stopped
     repeats  most timed runs
     first    by code, the index of the tolerance to try first; others start with the loosest
     """
     most = {code.name: _most_steps(code, case, limit) for code in codes}
-    settled = {
-        code.name: _settle(code, case, most[code.name], first.get(code.name, 0)) for code in codes
-    }
-    times = {
-        name: [run.seconds] if run.seconds > SLOW else [] for name, (_, run) in settled.items()
-    }
+    chosen = {}
+    for code in codes:
+
+        def trial(index: int, code: LineCode = code) -> _Trial:
+            answer, seconds = _timed(code, case, code.tolerances[index], most[code.name])
+            return _Trial(answer, seconds, measure(case, answer.pressure, code.element))
+
+        chosen[code.name] = _loosest(trial, first.get(code.name, 0), len(code.tolerances))
+    times: dict[str, list[float]] = {code.name: [] for code in codes}
     for turn in range(repeats):
         for code in codes:
-            index, run = settled[code.name]
-            wanted = max(FEWEST, int(BUDGET / max(run.seconds, 1e-6)))
-            if run.meets and run.seconds <= SLOW and turn < wanted:
-                tolerance = code.tolerances[index]
-                calls = 1 + int(BURST / max(run.seconds, 1e-6))
-                spent = _timed(code, case, tolerance, most[code.name], calls)[1]
+            index, trial = chosen[code.name]
+            wanted = max(FEWEST, int(BUDGET / max(trial.seconds, 1e-6)))
+            if trial.meets and trial.seconds <= SLOW and turn < wanted:
+                calls = 1 + int(BURST / max(trial.seconds, 1e-6))
+                spent = _timed(code, case, code.tolerances[index], most[code.name], calls)[1]
                 times[code.name].append(spent)
-    entries = []
+    results = []
     for code in codes:
-        index, run = settled[code.name]
-        over = not run.meets and run.seconds > 0.8 * limit
-        seconds = limit if over else statistics.median(times[code.name] or [run.seconds])
-        steps = run.answer.steps
-        if steps is None and code.count is not None and run.seconds <= SLOW:
-            steps = code.count(case, code.tolerances[index], most[code.name])
-        entries.append(Entry(code.name, seconds, over, index, steps, run.measure))
-    return entries
+        index, trial = chosen[code.name]
+        over = not trial.meets and trial.seconds > 0.8 * limit
+        seconds = limit if over else statistics.median(times[code.name] or [trial.seconds])
+        results.append(
+            LineResult(code.name, seconds, over, index, trial.answer.steps, trial.residuals)
+        )
+    return results
 
 
 def _timed(
-    code: Code, case: Case, tolerance: float, most: int, calls: int = 1
-) -> tuple[Answer, float]:
-    """The last answer of so many calls in a row, and the time of one."""
+    code: LineCode, case: LineCase, tolerance: float, most: int, calls: int = 1
+) -> tuple[LineAnswer, float]:
+    """The last answer of `calls` calls in a row, and the mean time [s] of one."""
     start = time.process_time()
     for _ in range(calls):
         answer = code.solve(case, tolerance, most)
     return answer, (time.process_time() - start) / calls
 
 
-def _most_steps(code: Code, case: Case, limit: float) -> int:
-    """Steps that fill the limit; a code without tolerances of its own has no use for them."""
+def _most_steps(code: LineCode, case: LineCase, limit: float) -> int:
+    """Steps that take about `limit` seconds."""
     few, more = 5, 45
-    if len(code.tolerances) == 1:
-        return 0
     tight = code.tolerances[-1]
     code.solve(case, tight, few)
     spent = [_timed(code, case, tight, steps)[1] for steps in (few, more)]
@@ -115,28 +170,37 @@ def _most_steps(code: Code, case: Case, limit: float) -> int:
     return max(more, int(limit / each))
 
 
-def _settle(code: Code, case: Case, most: int, first: int) -> tuple[int, _Run]:
-    """The loosest tolerance that meets the yardstick, by its index, and the run with it.
-
-    Where none does, the last one tried.
-    """
-
-    def run(index: int) -> _Run:
-        answer, seconds = _timed(code, case, code.tolerances[index], most)
-        return _Run(answer, seconds, measure(case, answer.pressure, code.element))
-
-    return _loosest(run, first, len(code.tolerances))
-
-
-def _loosest(run: Callable[[int], _Run], first: int, count: int) -> tuple[int, _Run]:
-    index, found = first, run(first)
+def _loosest(trial: Callable[[int], _Trial], first: int, count: int) -> tuple[int, _Trial]:
+    """Index of the loosest of `count` tolerances that meets the yardstick, and the trial with it;
+    where none does, the last one tried."""
+    index, found = first, trial(first)
     if found.meets:
-        while index > 0 and (looser := run(index - 1)).meets:
+        while index > 0 and (looser := trial(index - 1)).meets:
             index, found = index - 1, looser
         return index, found
     while not found.meets and index + 1 < count:
-        tighter = run(index + 1)
+        tighter = trial(index + 1)
         if not tighter.meets and tighter.seconds >= 0.999 * found.seconds > 1.0:
-            return index + 1, tighter  # stopped by the limit: a tighter one will be, too
+            return index + 1, tighter  # stopped by the limit, as all tighter ones would be
         index, found = index + 1, tighter
     return index, found
+
+
+def demands(title: str, count: int, ours: LineResult, peers: list[LineResult]) -> list[Demand]:
+    """Demands on `ours` beside the `peers` on one case of `count` nodes."""
+    found = [Demand(ours.meets, f"{title}: ours meets the yardstick")]
+    for peer in peers:
+        if not (peer.meets or peer.over):
+            found.append(Demand(True, f"{title}: {peer.code} never meets the yardstick"))
+    rivals = [peer for peer in peers if peer.meets or peer.over]
+    if rivals:
+        wanted = WANTED.get(count, 1.0)
+        ratio = min(peer.seconds for peer in rivals) / ours.seconds
+        text = f"{title}: {ratio:.3g} times faster, wanted {wanted:g}"
+        found.append(Demand(ratio >= wanted, text))
+    errors = [peer.residuals.error for peer in rivals if peer.meets]
+    if errors:
+        error, least = ours.residuals.error, min(errors)
+        text = f"{title}: error {error:.3g}, of the best peer {least:.3g}"
+        found.append(Demand(error <= (1.0 + SAME) * least, text))
+    return found

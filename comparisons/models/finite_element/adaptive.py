@@ -18,7 +18,7 @@ iteration.
 
 Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
 quarter and a thirteenth of what equal edges take
-(`comparisons.benchmarks.hertz_convergence.__main__`).
+(`comparisons.benchmarks.hertz_convergence`).
 """
 
 from collections.abc import Callable

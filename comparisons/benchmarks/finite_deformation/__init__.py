@@ -1,1 +1,0 @@
-"""What linear kinematics leaves out."""

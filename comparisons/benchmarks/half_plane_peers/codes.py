@@ -1,0 +1,160 @@
+"""The half-plane codes under comparison: this project's, Tamaas and ContactMechanics.
+
+Operators, kernels and plans are made once for a size and reused where a code allows it. Tamaas,
+whose models start from their last solution, makes a model each time, at a hundredth of its time.
+"""
+
+import contextlib
+import io
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Literal
+
+import numpy as np
+
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import solve_contact
+from analytic.operators.half_plane import HalfPlane, ModelOperator
+from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.benchmarks.half_plane_peers.cases import LineCase
+from comparisons.benchmarks.harness import AbsentError
+
+SETTLED = 1e-6  # relative change of load and height at the end, ContactMechanics' own default
+
+
+@dataclass(frozen=True)
+class LineAnswer:
+    """Pressures (n,) [Pa] at the nodes, and the steps taken, where the code reports them."""
+
+    pressure: np.ndarray
+    steps: int | None
+
+
+@dataclass(frozen=True)
+class LineCode:
+    """One configuration of one code.
+
+    element     "hat", "strip" or "point": its discretisation
+    solve       from case, tolerance and largest number of steps
+    tolerances  of the code's own stopping criterion, loosest first
+    """
+
+    name: str
+    element: str
+    solve: Callable[[LineCase, float, int], LineAnswer]
+    tolerances: tuple[float, ...]
+
+
+def decades(first: int, last: int) -> tuple[float, ...]:
+    """10^first, 10^(first - 1), …, 10^last."""
+    return tuple(10.0**power for power in range(first, last - 1, -1))
+
+
+def crosscheck() -> list[LineCode]:
+    """This project's solver: strips, to which the peers' points are nearest, then hats."""
+    return [
+        LineCode(f"crosscheck, {element}s", element, partial(_solved, element), decades(-7, -12))
+        for element in ("strip", "hat")
+    ]
+
+
+@cache
+def _operator(
+    periodic: bool, count: int, pitch: float, element: Literal["strip", "hat"]
+) -> ModelOperator:
+    kind = PeriodicHalfPlane if periodic else HalfPlane
+    return kind(count, pitch, 1.0, element=element)
+
+
+def _solved(
+    element: Literal["strip", "hat"], case: LineCase, tolerance: float, _most: int
+) -> LineAnswer:
+    operator = _operator(case.periodic, case.count, case.pitch, element)
+    gap = case.hat_averages if element == "hat" else case.gaps
+    weights = np.full(case.count, case.pitch)
+    constraints = Constraints(load=case.load)
+    solution = solve_contact(operator, case.pitch * gap, weights, constraints, tolerance=tolerance)
+    return LineAnswer(solution.pressure, solution.iterations["applications"])
+
+
+def tamaas() -> list[LineCode]:
+    """Tamaas' line model and its Polonsky-Keer solver (Rey et al. 2017).
+
+    Of what Tamaas 2.9 offers on a line this is the fastest: with gaps for pressures as unknowns it
+    takes hundreds of times as long, by its saturated solver tens of times. Its solvers for friction
+    and its operator for an unbounded surface refuse a line. Raises AbsentError.
+    """
+    try:
+        import tamaas
+    except ImportError as missing:
+        raise AbsentError("Tamaas is not installed: pip install tamaas") from missing
+    tamaas.set_log_level(tamaas.LogLevel.error)
+
+    def solve(case: LineCase, tolerance: float, most: int) -> LineAnswer:
+        length = case.pitch * case.count
+        kind = tamaas.model_type.basic_1d
+        model = tamaas.ModelFactory.createModel(kind, [length], [case.count])
+        model.E, model.nu = 1.0, 0.0
+        solver = tamaas.PolonskyKeerRey(model, case.heights, tolerance)
+        solver.max_iter = most
+        solver.solve(case.load / length)
+        return LineAnswer(model.traction.copy(), None)
+
+    return [LineCode(f"Tamaas {tamaas.__version__}", "point", solve, decades(-7, -15))]
+
+
+def contact_mechanics() -> list[LineCode]:
+    """ContactMechanics' periodic line, by its own solver and by NuMPI's.
+
+    Both are Polonsky and Keer's conjugate gradients under a given load. NuMPI comes with
+    ContactMechanics and is often the faster one; that without restarts is slower and may not end.
+    Raises AbsentError.
+    """
+    try:
+        import ContactMechanics
+        from ContactMechanics.Optimization import constrained_conjugate_gradients
+        from NuMPI.Optimization import constrained_conjugate_gradients_with_restart
+        from SurfaceTopography import UniformLineScan
+    except ImportError as missing:
+        raise AbsentError(
+            "ContactMechanics is not installed: pip install ContactMechanics"
+        ) from missing
+
+    @cache
+    def body(count: int, length: float):
+        return ContactMechanics.PeriodicFFTElasticHalfSpace((count,), 1.0, (length,))
+
+    def own(case: LineCase, tolerance: float, most: int) -> LineAnswer:
+        length = case.pitch * case.count
+        found = constrained_conjugate_gradients(
+            body(case.count, length),
+            UniformLineScan(case.heights, length),
+            external_force=case.load,
+            pentol=tolerance * np.ptp(case.heights),
+            forcetol=tolerance * case.load,
+            thermotol=SETTLED,
+            maxiter=most,
+        )
+        return LineAnswer(found.jac / case.pitch, found.nit)
+
+    def by_numpi(case: LineCase, tolerance: float, most: int) -> LineAnswer:
+        substrate = body(case.count, case.pitch * case.count)
+        mean = case.load / case.count
+        with contextlib.redirect_stdout(io.StringIO()):  # it prints warnings
+            found = constrained_conjugate_gradients_with_restart(
+                lambda force: substrate.evaluate_disp(-force) - case.heights,
+                lambda force: substrate.evaluate_disp(-force),
+                np.full(case.count, mean),
+                jac=False,
+                mean_val=mean,
+                gtol=tolerance * np.ptp(case.heights),
+                maxiter=most,
+            )
+        return LineAnswer(found.x / case.pitch, found.nit)
+
+    name = f"ContactMechanics {ContactMechanics.__version__}"
+    return [
+        LineCode(name, "point", own, decades(-6, -13)),
+        LineCode(f"{name}, NuMPI", "point", by_numpi, decades(-6, -13)),
+    ]

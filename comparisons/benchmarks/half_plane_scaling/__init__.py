@@ -1,1 +1,0 @@
-"""How the half-plane solver's time and memory grow."""

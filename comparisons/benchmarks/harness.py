@@ -1,0 +1,79 @@
+"""What the benchmarks share: a process on one thread, processor time, tables and demands."""
+
+import math
+import os
+import statistics
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, TypeVar
+
+from rich.console import Console
+from rich.table import Table
+
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+Result = TypeVar("Result")
+
+
+class Demand(NamedTuple):
+    """What a benchmark requires, in words, and whether it holds."""
+
+    holds: bool
+    text: str
+
+
+class AbsentError(Exception):
+    """A peer is not installed; the message says how to get it."""
+
+
+def installed(*peers: Callable[[], list[Result]]) -> list[Result]:
+    """The codes of all peers that are installed; the others are named on the screen."""
+    found: list[Result] = []
+    for peer in peers:
+        try:
+            found += peer()
+        except AbsentError as absent:
+            print(f"skipped: {absent}")
+    return found
+
+
+def run_on_one_thread(main: Callable[[], int]) -> None:
+    """Exit with the status of `main`, called where numerical libraries use one thread.
+
+    They read their number of threads when they are loaded: the process starts again if needed.
+    """
+    if not ONE_THREAD.items() <= os.environ.items():
+        os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], os.environ | ONE_THREAD)
+    sys.exit(main())
+
+
+def timed(
+    work: Callable[[], Result], repeats: int, budget: float = math.inf
+) -> tuple[float, Result]:
+    """Median processor time [s] of `repeats` calls, or of those that `budget` [s] allows, and the
+    last result."""
+    spent: list[float] = []
+    while len(spent) < repeats and sum(spent) < budget:
+        start = time.process_time()
+        found = work()
+        spent.append(time.process_time() - start)
+    return statistics.median(spent), found
+
+
+def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """The first column is a name, the others are numbers."""
+    table = Table(title=title, title_justify="left")
+    for number, name in enumerate(columns):
+        table.add_column(name, justify="right" if number else "left")
+    for row in rows:
+        table.add_row(*row)
+    Console(width=140).print(table)
+
+
+def print_demands(demands: Sequence[Demand]) -> int:
+    """The exit status: 0 only if all hold."""
+    for demand in demands:
+        print("holds " if demand.holds else "FAILS ", demand.text)
+    failed = sum(not demand.holds for demand in demands)
+    print(f"{failed} demands fail" if failed else "all demands hold")
+    return 1 if failed else 0

@@ -1,1 +1,0 @@
-"""How the finite elements' error of Hertz's contact falls."""

@@ -1,1 +1,0 @@
-"""Time of subsurface stresses against direct summation."""

@@ -1,0 +1,89 @@
+"""The measure of contact conditions: its operators are exact, and it rejects wrong pressures."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+
+from analytic.operators.half_plane import HalfPlane
+from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.benchmarks.half_plane_peers.cases import (
+    CONTACT_SHARE,
+    REFINED,
+    cylinder,
+    rough,
+    sinusoid,
+)
+from comparisons.benchmarks.half_plane_peers.codes import crosscheck
+from comparisons.benchmarks.half_plane_peers.yardstick import TOLERANCE, displacements, measure
+
+COUNT = 128
+CASES = {"cylinder": cylinder, "sinusoid": sinusoid, "rough": partial(rough, seed=1)}
+
+
+@pytest.mark.parametrize("periodic", [True, False])
+@pytest.mark.parametrize("element", ["hat", "strip"])
+@pytest.mark.parametrize("count", [50, 64])
+def test_operators_are_those_of_the_elements(element, periodic, count):
+    pressure = np.random.default_rng(1).random(count)
+    kind = PeriodicHalfPlane if periodic else HalfPlane
+    known = count * kind(count, 1.0 / count, 1.0, element=element).apply(pressure)
+    difference = displacements(pressure, element, periodic) - known
+    assert np.ptp(difference) < 1e-13 * np.ptp(known)  # datums differ by a constant
+
+
+def test_points_sink_under_a_wave_as_the_half_plane_does():
+    wave = np.cos(2.0 * np.pi * 3.0 * np.arange(COUNT) / COUNT)
+    assert displacements(wave, "point", True) == pytest.approx(wave / (3.0 * np.pi), abs=1e-15)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_ours_meets_the_yardstick_and_the_reference(name):
+    case = CASES[name](256)
+    for code in crosscheck():
+        found = measure(case, code.solve(case, 0.0, 0).pressure, code.element)
+        assert found.worst < TOLERANCE
+        assert found.error < (0.06 if name == "rough" else 0.005)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_wrong_pressures_are_rejected(name):
+    case = CASES[name](COUNT)
+    right = crosscheck()[0].solve(case, 0.0, 0).pressure
+    heavier, tension = 1.000001 * right, right.copy()
+    tension[np.argmin(right)] -= 1e-6 * right.max()
+    wrong = (np.roll(right, 1), heavier, tension, np.zeros(COUNT), np.full(COUNT, np.nan))
+    assert all(measure(case, pressure, "strip").worst > TOLERANCE for pressure in wrong)
+    assert measure(case, heavier, "strip").load_balance == pytest.approx(1e-6, rel=1e-3)
+    assert measure(case, tension, "strip").negative_pressure == pytest.approx(1e-6, rel=1e-3)
+    assert measure(case, right, "hat").worst > TOLERANCE
+
+
+def test_one_node_that_overlaps_is_seen():
+    case = sinusoid(COUNT)
+    pressure = crosscheck()[0].solve(case, 0.0, 0).pressure
+    moved = displacements(pressure, "strip", True)
+    open_gap = case.gaps + moved
+    open_gap -= pressure @ open_gap / np.sum(pressure)
+    node = np.argmax(open_gap)
+    raised = case.gaps.copy()
+    raised[node] -= open_gap[node] + 1e-6 * np.ptp(moved)
+    found = measure(replace(case, gaps=raised), pressure, "strip")
+    assert found.penetration == pytest.approx(1e-6, rel=1e-6)
+    assert found.complementarity < TOLERANCE
+
+
+def test_hertz_solves_the_periodic_line_that_the_peers_are_given():
+    """Up to the error of points under a pressure that ends as a square root."""
+    cases = [cylinder(count) for count in (256, 4096)]
+    left = [measure(case, case.expected[::REFINED], "point").complementarity for case in cases]
+    assert left[1] < 2e-6
+    assert np.log(left[0] / left[1]) / np.log(16.0) == pytest.approx(1.5, abs=0.1)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_tenth_of_a_rough_line_touches(seed):
+    case = rough(1024, seed)
+    pressure = crosscheck()[1].solve(case, 0.0, 0).pressure
+    assert np.mean(pressure > 0.0) == pytest.approx(CONTACT_SHARE, abs=3.0 / 1024)
