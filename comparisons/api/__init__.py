@@ -47,7 +47,7 @@ from comparisons.scenes.resolve import load_scene, resolve_tables, with_toleranc
 from comparisons.scenes.scene import ResolvedScene
 
 if TYPE_CHECKING:
-    from comparisons.studies.maps.executors import Workers
+    from comparisons.studies.maps.sweep import Workers
 
 __all__ = ["compare", "cost", "load", "map", "read", "report", "run"]
 

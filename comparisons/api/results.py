@@ -161,7 +161,7 @@ class Map(Printed):
     def _table(self) -> "RenderableType":
         from rich.console import Group
 
-        from comparisons.studies.maps.table import map_table
+        from comparisons.studies.maps.content import map_table
 
         if self.folder is not None:
             return map_table(self.content, self.folder)

@@ -50,16 +50,16 @@ def map_of(
 
     request = from_first(lambda: request_of(scene, points, x, y, quantity))
     directory = out or RESULTS / request.name
-    from comparisons.studies.maps.command import exit_status, mapped
+    from comparisons.studies.maps.make import exit_status, make_map_by
 
     with progress() as callback:
-        content = mapped(request, directory, workers, callback)
+        content = make_map_by(workers, request, directory, callback)
     if content is None:  # it worked for the first process
         return ExitStatus.DONE
     if as_json:
         show_json(content)
     else:
-        from comparisons.studies.maps.table import map_table
+        from comparisons.studies.maps.content import map_table
 
         show(map_table(content, directory))
     return exit_status(content)

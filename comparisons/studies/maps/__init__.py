@@ -1,1 +1,1 @@
-"""Where the half-plane's assumption holds: its own error over two dimensionless groups."""
+"""Where the half-plane holds: its model error over two dimensionless groups."""

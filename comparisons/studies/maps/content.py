@@ -1,31 +1,40 @@
-"""The content of map.json: all that a map shows, and nothing of when or where it was computed."""
+"""map.json: all that a map shows, and nothing of when or where it was computed; and as a table."""
+
+import json
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from comparisons.common.cache import Cache
 from comparisons.common.provenance import versions
-from comparisons.studies.maps.axes import Axis
-from comparisons.studies.maps.groups import GROUPS
-from comparisons.studies.maps.point import SOLVED, TOLERANCES
+from comparisons.common.quantities import QUANTITIES
+from comparisons.studies.maps.groups import GROUPS, Axis
+from comparisons.studies.maps.point import FAILED, SOLVED, TOLERANCES
 from comparisons.studies.maps.request import MapRequest
 from comparisons.studies.maps.rule import rules_of
 
-SCHEMA = 1
-MISSING = "missing"
-# What is known of the half-plane's own error at a point.
-TOLD, BELOW, UNCLEAR = "told", "below", "unclear"
+if TYPE_CHECKING:
+    from rich.console import Group
+
+MAP, PICTURE = "map.json", "map.svg"
+SCHEMA = 2
+# What is known of the model error of the half-plane at a point.
+SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusive"
 
 
-def map_content(request: MapRequest, store: Cache) -> dict:
-    """Every point in the order of the axes, x inside; those that the store lacks as missing."""
+def map_content(request: MapRequest, cache: Cache) -> dict:
+    """The content, with every point in the order of the axes, x inside."""
     points = []
-    for asked in request.points:
-        kept = store.load(asked.key)
-        found = {"status": MISSING} if kept is None else kept["found"]
-        points.append({"x": asked.x, "y": asked.y, **found, **known(found, request.quantity)})
+    for point in request.points:
+        found = cache.load(point.key)["found"]
+        points.append(
+            {"x": point.x, "y": point.y, **found, **significance(found, request.quantity)}
+        )
     content = {
         "schema": SCHEMA,
         "command": request.command,
         "scene": described(request),
-        "finite_element": request.removed,
+        "finite_element": request.finite_element,
         "quantity": request.quantity,
         "x": _axis(request.x),
         "y": _axis(request.y),
@@ -36,8 +45,13 @@ def map_content(request: MapRequest, store: Cache) -> dict:
     return content | {"rules": rules_of(content)}
 
 
+def read_map(path: Path) -> dict:
+    """The content of a map.json."""
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
 def described(request: MapRequest) -> dict:
-    """The scene as the map tells it: without [budget], which says what a run may cost."""
+    """The tables of the scene without [budget], which limits runs alone."""
     return {name: fields for name, fields in request.tables.items() if name != "budget"}
 
 
@@ -52,16 +66,55 @@ def _axis(axis: Axis) -> dict:
     }
 
 
-def known(found: dict, quantity: str) -> dict:
-    """Whether the own error of a solved point can be told from the numerical one.
+def significance(found: dict, quantity: str) -> dict:
+    """How the model error at a solved point compares with its numerical uncertainty.
 
-    told: it is larger than its uncertainty; below: it is not, but that is less than the first
-    tolerance; unclear: it is not.
+    significant: it is larger; below tolerance: it is not, and the uncertainty is less than the
+    first tolerance; inconclusive: neither.
     """
     if found["status"] != SOLVED:
         return {}
-    own = found["quantities"].get(quantity)
-    if own is None or own["uncertainty"] is None:
-        return {"error": UNCLEAR}
-    size, doubt = abs(own["difference"]), own["uncertainty"]
-    return {"error": TOLD if size > doubt else BELOW if doubt <= TOLERANCES[0] else UNCLEAR}
+    error = found["quantities"].get(quantity)
+    if error is None or error["uncertainty"] is None:
+        return {"error": INCONCLUSIVE}
+    if abs(error["difference"]) > error["uncertainty"]:
+        return {"error": SIGNIFICANT}
+    return {"error": BELOW if error["uncertainty"] <= TOLERANCES[0] else INCONCLUSIVE}
+
+
+def map_table(content: dict, out: Path) -> "Group":
+    """For rich to print: the rules, what they rest on, and what failed."""
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    points = content["points"]
+    kinds = Counter(point.get("error", point["status"]) for point in points)
+    label = QUANTITIES[content["quantity"]].label
+    rules = Table(title=f"Where the half-plane's model error in the {label} stays small")
+    for name in ("tolerance", "rule", "its points", "largest error there", "all within"):
+        rules.add_column(name, justify="left" if name == "rule" else "right")
+    for rule in content["rules"]:
+        largest = "" if rule["largest_error"] is None else f"{100.0 * rule['largest_error']:.2g} %"
+        rules.add_row(
+            f"{100.0 * rule['tolerance']:g} %",
+            rule["law"],
+            str(rule["points_inside"]),
+            largest,
+            str(rule["points_within"]),
+        )
+    account = {
+        SIGNIFICANT: "with a larger error than its numerical uncertainty",
+        BELOW: "below the first tolerance",
+        INCONCLUSIVE: "inconclusive",
+        FAILED: "failed",
+    }
+    found = ", ".join(f"{kinds[kind]} {words}" for kind, words in account.items() if kinds[kind])
+    reasons = Counter(point["why"] for point in points if point["status"] == FAILED)
+    return Group(
+        rules,
+        Text(f"{len(points)} points: {found}"),
+        *(Text(f"failed, {count}: {why}") for why, count in reasons.most_common()),
+        Text(f"made by: {content['command']}"),
+        Text(f"map: {out / MAP}, {out / PICTURE}"),
+    )

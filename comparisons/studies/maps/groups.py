@@ -1,21 +1,25 @@
-"""The dimensionless groups of a map: how a scene's tables take a value of each.
+"""The dimensionless groups of a map: how a scene's tables take a value of each; and its axes.
 
     a, p0   half-width [m] and peak pressure [Pa] of the smooth contact under the scene's load
     t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
     mu      coefficient of friction                    H   hardness [Pa]
     beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
 
-Each group also says which of the half-plane's assumptions the finite elements drop for it. What
-is not spoken of stays as in the scene, but for what follows from its lengths: waves that are
-stretched keep their slopes. Groups that change a are set before those that are measured by it.
+Each group also says which of the half-plane's assumptions the finite elements drop for it. All
+else stays as in the scene, but for what follows from its lengths: waves that are stretched keep
+their slopes. Groups that change a are set before those that are measured by it.
 """
 
 import copy
+import difflib
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from comparisons.common.errors import SceneError
+import numpy as np
+
+from comparisons.common.errors import InputError, SceneError
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
 
@@ -42,18 +46,18 @@ class Origin:
 class Group:
     """A dimensionless group.
 
-    symbol, label  for axes: short, and in words
-    span           where it is mapped unless a range is asked for
-    set_to         gives the SI tables of a scene (changed in place) a value of the group
-    removes        of [finite_element], so that it lacks the assumption that the group speaks of
-    early          the group changes a
+    symbol, label   for axes: short, and in words
+    span            its range unless another one is asked for
+    set_to          gives the SI tables of a scene (changed in place) a value of the group
+    finite_element  fields of [finite_element] that drop the assumption that the group is about
+    early           the group changes a
     """
 
     symbol: str
     label: str
     span: tuple[float, float]
     set_to: Callable[[dict, float, Origin], None]
-    removes: Mapping[str, object] = field(default_factory=dict)
+    finite_element: Mapping[str, object] = field(default_factory=dict)
     early: bool = False
 
 
@@ -85,10 +89,10 @@ def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) ->
 
 
 def finite_elements(tables: Mapping, names: Iterable[str]) -> dict:
-    """The scene's [finite_element] without the assumptions that the named groups speak of."""
+    """The scene's [finite_element] without the assumptions that the named groups are about."""
     settings = dict(tables.get("finite_element", {}))
     for name in names:
-        settings |= GROUPS[name].removes
+        settings |= GROUPS[name].finite_element
     if settings.get("deformation") == "finite" and tables.get("profile"):
         settings["geometry"] = "rough"
     return settings
@@ -130,7 +134,7 @@ def _set_friction(tables: dict, value: float, origin: Origin) -> None:
 
 
 def _set_hardness(tables: dict, value: float, origin: Origin) -> None:
-    """By hardness and yield stress in their ratio: the half-plane is capped, the body flows."""
+    """By hardness, which caps the half-plane's pressure, and yield stress; their ratio stays."""
     body = tables["body"]
     if not {"hardness", "yield_stress"} <= body.keys():
         raise SceneError(
@@ -165,7 +169,7 @@ def _made_profile(tables: dict, origin: Origin, group: str) -> dict:
 
 
 def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
-    """By a likeness of the profile: x and heights by one factor."""
+    """By scaling the profile: x and heights by one factor, so that slopes stay."""
     profile = _made_profile(tables, origin, "wavelength_over_a")
     kind = profile["kind"]
     if kind == "sinusoid":
@@ -190,14 +194,14 @@ def _set_slope(tables: dict, value: float, origin: Origin) -> None:
             profile[name] *= factor
 
 
-REAL_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
-OWN_BOUNDARY = {"far_field": "held"}
+ROUGH_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
+HELD_BOUNDARY = {"far_field": "held"}
 
 GROUPS: dict[str, Group] = {
     "a_over_thickness": Group(
-        "a/t", "half-width over thickness", (0.05, 5.0), _set_thickness, OWN_BOUNDARY
+        "a/t", "half-width over thickness", (0.05, 5.0), _set_thickness, HELD_BOUNDARY
     ),
-    "a_over_width": Group("a/w", "half-width over width", (0.02, 0.4), _set_width, OWN_BOUNDARY),
+    "a_over_width": Group("a/w", "half-width over width", (0.02, 0.4), _set_width, HELD_BOUNDARY),
     "a_over_radius": Group(
         "a/R",
         "half-width over radius",
@@ -206,9 +210,9 @@ GROUPS: dict[str, Group] = {
         {"deformation": "finite", "roller_shape": "circle"},
         early=True,
     ),
-    "rms_slope": Group("rms slope", "of the surface", (0.005, 0.2), _set_slope, REAL_BOUNDARY),
+    "rms_slope": Group("rms slope", "of the surface", (0.005, 0.2), _set_slope, ROUGH_BOUNDARY),
     "wavelength_over_a": Group(
-        "λ/a", "shortest wavelength over half-width", (0.2, 4.0), _set_wavelength, REAL_BOUNDARY
+        "λ/a", "shortest wavelength over half-width", (0.2, 4.0), _set_wavelength, ROUGH_BOUNDARY
     ),
     "friction_dundurs": Group(
         "μβ", "friction times Dundurs' beta", (0.01, 0.3), _set_friction, {"coupled": True}
@@ -223,3 +227,88 @@ GROUPS: dict[str, Group] = {
         "E/E'", "roller's modulus over the body's", (0.01, 100.0), _set_modulus_ratio, early=True
     ),
 }
+
+
+FIGURES = 6  # significant, of the values: the same on every machine
+SPANS_DECADES = 3.0  # largest over smallest value from which an axis is logarithmic
+FEWEST, MOST = 2, 200  # values of an axis
+_AXIS = re.compile(r"\s*([\w-]+)\s*(?:=\s*([^:\s]+)\s*:\s*([^:\s]+)\s*)?")
+_POINTS = re.compile(r"\s*(\d+)\s*[x×]\s*(\d+)\s*")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """`count` values of a group from `low` to `high`."""
+
+    group: str
+    low: float
+    high: float
+    count: int
+
+    @property
+    def logarithmic(self) -> bool:
+        return self.low > 0.0 and self.high / self.low >= SPANS_DECADES
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Ascending; of equal ratios on a logarithmic axis, else of equal differences."""
+        spaced = np.geomspace if self.logarithmic else np.linspace
+        found = spaced(self.low, self.high, self.count)
+        return tuple(float(f"{value:.{FIGURES}g}") for value in found)
+
+    def __str__(self) -> str:
+        """As the command line takes it."""
+        return f"{self.group}={self.low:g}:{self.high:g}"
+
+
+def axis_of(given: str, count: int, option: str) -> Axis:
+    """The axis that "GROUP" or "GROUP=FROM:TO" means.
+
+    Raises InputError, which names the `option`, for anything else.
+    """
+    found = _AXIS.fullmatch(given)
+    if not found:
+        raise InputError(f"{option}: is {given!r}; allowed is GROUP or GROUP=FROM:TO")
+    name = found[1].replace("-", "_")
+    if name not in GROUPS:
+        near = difflib.get_close_matches(name, GROUPS, n=1, cutoff=0.0)[0]
+        raise InputError(
+            f"{option}: there is no group {found[1]}; the nearest is {near}; "
+            f"allowed are {', '.join(GROUPS)}"
+        )
+    low, high = GROUPS[name].span
+    if found[2]:
+        try:
+            low, high = float(found[2]), float(found[3])
+        except ValueError:
+            low = high = np.nan
+        if not (0.0 <= low < high < np.inf):
+            raise InputError(
+                f"{option}: the range is {found[2]}:{found[3]}; allowed are two numbers, "
+                "from 0 on, the smaller one first"
+            )
+        if low == 0.0 and name != "poissons_ratio":
+            raise InputError(f"{option}: {name} begins at 0; allowed is above 0")
+    return Axis(name, low, high, count)
+
+
+def counts_of(given: str) -> tuple[int, int]:
+    """The numbers of values that "NxM" means: along x, along y."""
+    found = _POINTS.fullmatch(given)
+    counts = tuple(map(int, found.groups())) if found else ()
+    if not counts or not all(FEWEST <= count <= MOST for count in counts):
+        raise InputError(
+            f"--points: is {given!r}; allowed is NxM, from {FEWEST} to {MOST} values each"
+        )
+    return counts
+
+
+def usual_axes(tables: dict) -> tuple[str, str]:
+    """Groups for a scene where none are asked for."""
+    load, profile = tables["load"], tables.get("profile") or {}
+    if profile.get("kind") in ("sinusoid", "self-affine", "ground"):
+        return "wavelength_over_a", "rms_slope"
+    rigid = tables["roller"].get("rigid", False)
+    if np.max(load.get("friction", 0.0)) > 0.0 and rigid:
+        return "a_over_thickness", "friction_dundurs"
+    return "a_over_thickness", "a_over_radius" if rigid else "a_over_width"

@@ -1,21 +1,22 @@
-"""A map from start to end: its points, map.json, the picture."""
+"""`crosscheck map` from its request to the finished map, whoever solves the points."""
 
-import json
 import os
 from contextlib import nullcontext
 from pathlib import Path
 
+from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import check_writable, write_whole
+from comparisons.common.mpi import is_several
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
-from comparisons.studies.maps.content import map_content
-from comparisons.studies.maps.executors import Workers
+from comparisons.studies.maps.content import MAP, PICTURE, map_content
+from comparisons.studies.maps.point import FAILED, NOT_CONVERGED
 from comparisons.studies.maps.request import MapRequest, point_cache
-from comparisons.studies.maps.sweep import sweep
+from comparisons.studies.maps.sweep import Workers, cluster, ranks, sweep
 
 GOES_ON = "finished points are kept, the same command goes on from there"
-MAP, PICTURE, TIMES = "map.json", "map.svg", "map_times.json"
+TIMES = "map_times.json"
 
 
 def make_map(
@@ -24,32 +25,62 @@ def make_map(
     workers: Workers | int | None = None,
     callback: ProgressCallback = no_progress,
 ) -> dict:
-    """Compute the points that `out` lacks, write the map there, and return its content.
+    """Compute the points that `out` does not have, write the map there, and return its content.
 
-    workers  an executor that has the points solved, or a number of processes; None: one a core
+    workers  an executor that solves the points, or a number of processes; None: one a core
     Raises InputError for what cannot be mapped or written.
     """
     points = request.points
     check_writable(out)
-    store = point_cache(out)
-    store.remove_leftovers()
+    cache = point_cache(out)
+    cache.remove_leftovers()
     open_executor, count = processes, workers or os.cpu_count() or 1
     if isinstance(workers, Workers):
         open_executor, count = lambda count: nullcontext(workers.executor), workers.count
     try:
-        sweep(points, store, open_executor, count, callback)
+        sweep(points, cache, open_executor, count, callback)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
-    content = map_content(request, store)
+    content = map_content(request, cache)
     callback("map: picture")
     from comparisons.studies.maps.picture import map_picture
 
     write_whole(out / PICTURE, map_picture(content))
-    write_whole(out / TIMES, as_json({"seconds": [store.load(p.key)["seconds"] for p in points]}))
+    write_whole(out / TIMES, as_json({"seconds": [cache.load(p.key)["seconds"] for p in points]}))
     write_whole(out / MAP, as_json(content))
     return content
 
 
-def read_map(path: Path) -> dict:
-    """The content of a map.json."""
-    return json.loads(path.read_text(encoding="utf-8"))
+def make_map_by(
+    workers: str | None, request: MapRequest, out: Path, callback: ProgressCallback
+) -> dict | None:
+    """As `make_map`; None in processes that only work for the first one under mpirun.
+
+    workers  as on the command line: a number of processes, or the address of a Dask scheduler;
+             None: one a core, or what mpirun started
+    Raises InputError for wrong ones too.
+    """
+    if is_several():
+        with ranks() as pool:
+            return None if pool is None else make_map(request, out, pool, callback)
+    if workers is None:
+        return make_map(request, out, None, callback)
+    if workers.isdigit():
+        if int(workers) < 1:
+            raise InputError(f"--workers: is {workers}; allowed is from 1 on")
+        return make_map(request, out, int(workers), callback)
+    if "://" not in workers:
+        raise InputError(
+            f"--workers: is {workers!r}; allowed is a number, or a Dask scheduler's address "
+            "such as tcp://host:8786"
+        )
+    with cluster(workers) as pool:
+        return make_map(request, out, pool, callback)
+
+
+def exit_status(content: dict) -> ExitStatus:
+    """3 where a solver did not converge at a point."""
+    whys = [point["why"] for point in content["points"] if point["status"] == FAILED]
+    return (
+        ExitStatus.NOT_CONVERGED if any(NOT_CONVERGED in why for why in whys) else ExitStatus.DONE
+    )

@@ -1,8 +1,8 @@
-"""A map as a picture: colours by the half-plane's own error, lines at the tolerances.
+"""A map as a picture: colours by the model error of the half-plane, lines at the tolerances.
 
-A cell a point. Where the error cannot be told from the numerical one it is hatched, without
-colour: dots where it is below the first tolerance all the same, lines where it may be above. A
-failed point has a cross, one that was not computed is blank.
+A cell a point. Where the error is within its numerical uncertainty the cell is hatched, without
+colour: dots where both are below the first tolerance, lines where the error may be above. A failed
+point has a cross.
 """
 
 from typing import TYPE_CHECKING
@@ -11,7 +11,7 @@ import numpy as np
 
 from comparisons.common.quantities import QUANTITIES
 from comparisons.report.figures.style import drawing, figure, svg
-from comparisons.studies.maps.content import BELOW, MISSING, TOLD
+from comparisons.studies.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT
 from comparisons.studies.maps.point import FAILED
 
 if TYPE_CHECKING:
@@ -24,10 +24,10 @@ BAR = (0.87, 0.2, 0.028, 0.71)
 BANDS = (0.0, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5)
 COLOURS = "cividis_r"  # for every kind of colour vision; darker is worse
 LIGHT = 0.45  # share of the colours from whose darkness on letters are white
-LETTERED = 12  # columns up to which each cell tells its error
+LETTERED = 12  # columns up to which each cell states its error
 SMALLEST = 1e-3  # errors below are drawn as if on a straight scale
 STYLES = ((0, (1, 1.2)), (0, (5, 1.5)), "-", (0, (7, 1.5, 1, 1.5)))
-HATCHES = {True: "....", False: "////"}
+HATCHES = {BELOW: "....", INCONCLUSIVE: "////"}
 
 
 def map_picture(content: dict) -> str:
@@ -51,7 +51,7 @@ def map_figure(content: dict) -> "Figure":
     _ticks(axes.yaxis, content["y"], y)
     _bar(drawn)
     label = QUANTITIES[content["quantity"]].label
-    axes.set_title(f"The half-plane's own error: {label}, per cent\n{content['scene']['title']}")
+    axes.set_title(f"Model error of the half-plane: {label}, per cent\n{content['scene']['title']}")
     _legend(axes, content, kinds, lines)
     return drawn
 
@@ -69,7 +69,7 @@ def _edges(places: np.ndarray) -> np.ndarray:
 
 
 def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) -> set[str]:
-    """Draw every point's cell; which kinds there are beside coloured ones."""
+    """Draw the cell of every point; the kinds that are drawn beside the coloured ones."""
     from matplotlib import colormaps
     from matplotlib.patches import Rectangle
 
@@ -81,14 +81,11 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
         wide, high = edges[0][column + 1] - left, edges[1][row + 1] - low
         middle = (left + 0.5 * wide, low + 0.5 * high)
         look = {"edgecolor": "white", "linewidth": 0.4, "facecolor": "none"}
-        if point["status"] == MISSING:
-            kinds.add(MISSING)
-            continue
         if point["status"] == FAILED:
             kinds.add(FAILED)
             axes.plot(*middle, "x", color="#222222", markersize=7.0, markeredgewidth=1.2)
             continue
-        if point["error"] == TOLD:
+        if point["error"] == SIGNIFICANT:
             error = point["quantities"][content["quantity"]]["difference"]
             share = _share(abs(error))
             look["facecolor"] = colours(share)
@@ -108,7 +105,7 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
                 )
         else:
             kinds.add(point["error"])
-            look |= {"hatch": HATCHES[point["error"] == BELOW], "edgecolor": "#777777"}
+            look |= {"hatch": HATCHES[point["error"]], "edgecolor": "#777777"}
         axes.add_patch(Rectangle((left, low), wide, high, **look))
     return kinds
 
@@ -125,9 +122,9 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
     """
     error = np.full((len(y), len(x)), np.nan)
     for number, point in enumerate(content["points"]):
-        own = point.get("quantities", {}).get(content["quantity"])
-        if own is not None:
-            error.flat[number] = own["difference"]
+        found = point.get("quantities", {}).get(content["quantity"])
+        if found is not None:
+            error.flat[number] = found["difference"]
     drawn = {}
     for tolerance, style in zip(content["tolerances"], STYLES, strict=True):
         for side in (-1.0, 1.0):
@@ -202,18 +199,16 @@ def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, obj
     ]
     first = f"{100.0 * content['tolerances'][0]:g} %"
     words = {
-        BELOW: f"not told from numerical error, below {first}",
-        "unclear": "not told from numerical error",
+        BELOW: f"within its numerical uncertainty, below {first}",
+        INCONCLUSIVE: "within its numerical uncertainty",
     }
     for kind, label in words.items():
         if kind in kinds:
-            look = {"facecolor": "none", "edgecolor": "#777777", "hatch": HATCHES[kind == BELOW]}
+            look = {"facecolor": "none", "edgecolor": "#777777", "hatch": HATCHES[kind]}
             entries.append(Patch(label=label, linewidth=0.4, **look))
     if FAILED in kinds:
         cross = {"marker": "x", "color": "#222222", "linestyle": "none"}
         entries.append(Line2D([], [], label="failed", **cross))
-    if MISSING in kinds:
-        entries.append(Patch(facecolor="none", edgecolor="none", label="blank: not computed"))
     if not entries:
         return
     axes.legend(

@@ -1,64 +1,108 @@
 """One point of a map, solved by both models: what a worker does.
 
-Both models are refined until the half-plane's own error is told from the numerical one, never by
-the clock, so that a point has the same answer wherever and whenever it is computed.
+Both models are refined until the model error of the half-plane is well above its numerical
+uncertainty, never by the clock, so that a point has the same answer wherever it is computed.
+
+Both have the same pressure elements on every level, and share the error of these. So it is the
+models' difference whose convergence under refinement gives the uncertainty, as
+`comparisons.assessment.comparison` does for norms of differences, and not that of each model.
 """
 
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import dataclass
 from time import perf_counter
 
+import numpy as np
+
+from comparisons.assessment.comparison import figures, norms
+from comparisons.assessment.uncertainty import (
+    LENGTHS,
+    far_boundary,
+    grid_convergence,
+    relative_resolution,
+    summed_iteration,
+)
 from comparisons.common.errors import one_line
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import MODELS
+from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.maps.model_error import PointError, model_errors
-from comparisons.studies.maps.request import Asked
+from comparisons.studies.maps.request import PointRequest
 from fem.solver.communicator import each_alone
 from meshes.block import MeshError
 
 SOLVED, FAILED = "solved", "failed"
 NOT_CONVERGED = "the contact did not converge"
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
-SHARE = 1.0 / 3.0  # of an error, or the first tolerance, that may be numerical
-# Levels of a rough surface beyond the scene's own: with three, two points of 64 were told
-# 2.1 +- 0.4 per cent that are 1.3 on five.
+SHARE = 1.0 / 3.0  # of an error, or of the first tolerance, that may be numerical
+# Levels of a rough surface beyond the scene's own: on three, two points of 64 were found to have
+# 2.1 +- 0.4 per cent, which is 1.3 on five.
 ROUGH_MORE = 1
 MOST_UNKNOWNS = 250_000  # of a level
 GROWTH = 2.3  # of unknowns from one level to the next
 DECIMALS = 9  # of relative differences: the digits that rounding does not reach
-FIGURES = 10  # decimal, of the models' own values
+FIGURES = 10  # significant, of the models' own values
 
 
-def solve_point(asked: Asked) -> dict:
-    """The figures of a point, or why there are none; and the `seconds` that it took.
+@dataclass(frozen=True)
+class PointError:
+    """The model error of the half-plane in one quantity at a point of a map.
 
-    Refusals and what solvers and numbers run into are answers; what is wrong with the program or
-    the machine is raised.
+    half_plane, finite_element  values on the finest level [SI]; None of a norm of both
+    difference                  of these over the finite elements' value; or the norm
+    uncertainty                 numerical, of the difference; None: unknown
+    """
+
+    half_plane: float | None
+    finite_element: float | None
+    difference: float
+    uncertainty: float | None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether another level is worth its time: the uncertainty would show in a map."""
+        most = SHARE * max(abs(self.difference), TOLERANCES[0])
+        return self.uncertainty is None or self.uncertainty > most
+
+    def as_dict(self) -> dict[str, float | None]:
+        """In the digits that do not depend on the machine."""
+        known = self.uncertainty is not None
+        return {
+            "half_plane": _significant(self.half_plane),
+            "finite_element": _significant(self.finite_element),
+            "difference": round(self.difference, DECIMALS),
+            "uncertainty": round(self.uncertainty, DECIMALS) if known else None,
+        }
+
+
+def solve_point(point: PointRequest) -> dict:
+    """What was `found` at a point, or why nothing was; and the `seconds` that it took.
+
+    What is refused, and what solvers and numbers run into, is an answer; what is wrong with the
+    program or the machine is raised.
     """
     began = perf_counter()
-    if asked.why is not None:
-        found = failed(asked.why)
+    if point.why is not None:
+        found = failed(point.why)
     else:
         try:
             with each_alone():
-                found = _solved(asked)
+                found = _solved(point)
         except (ValueError, ArithmeticError, RuntimeError) as error:
             found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
 
 
 def failed(why: str) -> dict:
-    """The answer of a point that has none."""
+    """What is found at a point without a solution."""
     return {"status": FAILED, "why": one_line(why)}
 
 
-def _solved(asked: Asked) -> dict:
-    scene = resolve_tables(asked.tables, name="point", folder=asked.folder, source=asked.source)
+def _solved(point: PointRequest) -> dict:
+    scene = resolve_tables(point.tables, name="point", folder=point.folder, source=point.source)
     problem = problem_of(scene)
     plan = make_plan(problem, MODELS)
     window = window_of(problem) if plan.stress else None
@@ -68,16 +112,16 @@ def _solved(asked: Asked) -> dict:
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
         errors = model_errors(*runs, problem, friction, window)
-        if not is_open(errors[asked.quantity]):
+        if not errors[point.quantity].is_open:
             break
     return {
         "status": SOLVED,
-        "half_width": _figures(problem.hertz.half_width),
-        "hertz_peak_pressure": _figures(problem.hertz.peak_pressure),
-        "friction": _figures(friction),
+        "half_width": _significant(problem.hertz.half_width),
+        "hertz_peak_pressure": _significant(problem.hertz.peak_pressure),
+        "friction": _significant(friction),
         "levels": len(runs[1].levels),
         "unknowns": runs[1].finest.unknowns,
-        "quantities": {name: _rounded(error) for name, error in errors.items()},
+        "quantities": {name: error.as_dict() for name, error in errors.items()},
     }
 
 
@@ -89,45 +133,74 @@ def _refined(
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.half_plane import half_plane_level
 
-    def finite_elements(pitch: float, half_block: bool = False) -> Level:
+    def solved(pitch: float, half_block: bool = False) -> Level:
         return finite_element_level(problem, plan, Refinement(pitch, half_block), window, Stages())
 
-    one: list[Level] = []
-    other: list[Level] = []
+    half_plane: list[Level] = []
+    finite_element: list[Level] = []
     pitch = problem.pitches[0]
     least = len(problem.pitches) + (ROUGH_MORE if problem.scene.profile is not None else 0)
-    check = finite_elements(pitch, half_block=True) if plan.domain_check else None
+    check = solved(pitch, half_block=True) if plan.domain_check else None
     for number in range(1, problem.scene.resolution.most + 1):
         try:
-            other.append(finite_elements(pitch))
+            finite_element.append(solved(pitch))
         except MeshError:
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        one.append(half_plane_level(problem, plan, pitch, window, Stages()))
+        half_plane.append(half_plane_level(problem, plan, pitch, window, Stages()))
         if number >= least:
             yield (
-                ModelRun("half_plane", tuple(one)),
-                ModelRun("finite_element", tuple(other), check),
+                ModelRun("half_plane", tuple(half_plane)),
+                ModelRun("finite_element", tuple(finite_element), check),
             )
-            if GROWTH * other[-1].unknowns > MOST_UNKNOWNS:
+            if GROWTH * finite_element[-1].unknowns > MOST_UNKNOWNS:
                 break
         pitch *= 0.5
 
 
-def is_open(error: PointError) -> bool:
-    """Whether the error is not told from the numerical one as well as a map can show it."""
-    told = SHARE * max(abs(error.difference), TOLERANCES[0])
-    return error.uncertainty is None or error.uncertainty > told
+def model_errors(
+    half_plane: ModelRun,
+    finite_element: ModelRun,
+    problem: Problem,
+    friction: float,
+    window: Window | None,
+) -> dict[str, PointError]:
+    """By quantity, in the order of QUANTITIES."""
+
+    def differences(one: Level, other: Level) -> dict[str, float]:
+        """(half-plane - finite elements) / finite elements by quantity, and the norms."""
+        first, second = figures(one, problem, friction), figures(other, problem, friction)
+        relative = {
+            name: (value - second[name])
+            / (abs(second[name]) or QUANTITIES[name].scale(problem.hertz))
+            for name, value in first.items()
+        }
+        return relative | norms(one, other, problem, friction, window)
+
+    pairs = zip(half_plane.levels, finite_element.levels, strict=True)
+    history = [differences(one, other) for one, other in pairs]
+    check = finite_element.far_boundary_check
+    moved = history[0] if check is None else differences(half_plane.levels[0], check)
+    finest = half_plane.finest, finite_element.finest
+    one, other = (figures(level, problem, friction) for level in finest)
+    found = {}
+    for name in (name for name in QUANTITIES if name in history[-1]):
+        convergence = grid_convergence(
+            [level[name] for level in history],
+            QUANTITIES[name].formal_order,
+            relative_resolution(*finest) if name in LENGTHS else 0.0,
+        )
+        domain = far_boundary(moved[name], history[0][name])
+        uncertainty = convergence.uncertainty + domain + summed_iteration(*finest)
+        found[name] = PointError(
+            one.get(name),
+            other.get(name),
+            history[-1][name],
+            float(uncertainty) if np.isfinite(uncertainty) else None,
+        )
+    return found
 
 
-def _rounded(error: PointError) -> dict:
-    plain = asdict(error)
-    for name in ("difference", "uncertainty"):
-        if plain[name] is not None:
-            plain[name] = round(plain[name], DECIMALS)
-    return plain | {name: _figures(plain[name]) for name in ("half_plane", "finite_element")}
-
-
-def _figures(value: float | None) -> float | None:
+def _significant(value: float | None) -> float | None:
     return None if value is None else float(f"{value:.{FIGURES}g}")

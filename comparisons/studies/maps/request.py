@@ -1,4 +1,4 @@
-"""What is asked of a map: a scene, two axes, a quantity; and of each of its points."""
+"""What a map is made of: a scene, two axes, a quantity; and the scene of each of its points."""
 
 import copy
 import hashlib
@@ -13,8 +13,15 @@ from comparisons.common.provenance import LEVEL_CODE, digest, program_code, vers
 from comparisons.common.quantities import QUANTITIES
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.maps.axes import Axis, axis_of, counts_of, usual_axes
-from comparisons.studies.maps.groups import Origin, finite_elements, tables_with
+from comparisons.studies.maps.groups import (
+    Axis,
+    Origin,
+    axis_of,
+    counts_of,
+    finite_elements,
+    tables_with,
+    usual_axes,
+)
 
 FOLDER = "map_points"
 # What shapes the answer at a point, beside versions of libraries.
@@ -30,13 +37,13 @@ SIZE = "8x8"
 
 
 @dataclass(frozen=True)
-class Asked:
+class PointRequest:
     """A point of a map.
 
     x, y      values of the groups
     quantity  that the levels are refined for
-    tables    the scene, SI; None where it cannot be
-    why       it cannot be
+    tables    the scene, SI; None where there is none with these values
+    why       there is none
     key       hash of everything that shapes the answer
     """
 
@@ -54,9 +61,9 @@ class Asked:
 class MapRequest:
     """A map.
 
-    scene     as it was asked for: a name or a path
-    tables    of the scene, SI, with what it leaves open left open
-    quantity  of `comparisons.common.quantities`, that is shown
+    scene     its name or path
+    tables    of the scene, SI, without the fields that follow from others
+    quantity  of `comparisons.common.quantities`, that the map shows
     """
 
     scene: str
@@ -69,30 +76,30 @@ class MapRequest:
 
     @property
     def command(self) -> str:
-        """That makes this map."""
+        """The command that makes this map."""
         return (
             f"crosscheck map {self.scene} --points {self.x.count}x{self.y.count} "
             f"--x {self.x} --y {self.y} --quantity {self.quantity}"
         )
 
     @property
-    def removed(self) -> dict:
-        """[finite_element] of the points: which assumptions are dropped."""
+    def finite_element(self) -> dict:
+        """[finite_element] of the points, with the assumptions of both groups dropped."""
         return finite_elements(self.tables, (self.x.group, self.y.group))
 
     @cached_property
-    def points(self) -> tuple[Asked, ...]:
+    def points(self) -> tuple[PointRequest, ...]:
         """Row by row: y outside, x inside.
 
         Raises SceneError where no point can be asked for, with what is wrong at the first.
         """
         program = [versions(), program_code(*CODE)]
-        points = tuple(self._asked(x, y, program) for y in self.y.values for x in self.x.values)
+        points = tuple(self._point(x, y, program) for y in self.y.values for x in self.x.values)
         if all(point.tables is None for point in points):
             raise SceneError(points[0].why)
         return points
 
-    def _asked(self, x: float, y: float, program: list) -> Asked:
+    def _point(self, x: float, y: float, program: list) -> PointRequest:
         values = {self.x.group: x, self.y.group: y}
         tables = why = None
         profile = ""
@@ -107,7 +114,9 @@ class MapRequest:
             why = str(error)
         parts = json.dumps([tables or [why], profile, self.quantity, program], sort_keys=True)
         key = hashlib.sha256(parts.encode()).hexdigest()[:24]
-        return Asked(x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key)
+        return PointRequest(
+            x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key
+        )
 
 
 def point_cache(out: Path) -> Cache:
@@ -130,12 +139,12 @@ def request_of(
     Raises InputError for anything that is wrong with them.
     """
     counts = counts_of(points)
-    own = FINISHED / f"{scene}.toml"
-    path = own if own.is_file() else find_scene(scene)
+    finished = FINISHED / f"{scene}.toml"
+    path = finished if finished.is_file() else find_scene(scene)
     given = read_toml(path)
     name = path.stem.strip(". ") or "scene"
     origin = Origin(source=scene, folder=path.parent)
-    tables = _open_tables(given, name, origin)
+    tables = _given_tables(given, name, origin)
     usual = usual_axes(tables)
     axes = [
         axis_of(asked or default, count, option)
@@ -150,8 +159,8 @@ def request_of(
     return MapRequest(scene, name, tables, origin, *axes, quantity)
 
 
-def _open_tables(given: dict, name: str, origin: Origin) -> dict:
-    """The scene in SI; what it leaves to follow from the rest is left out, since that changes."""
+def _given_tables(given: dict, name: str, origin: Origin) -> dict:
+    """The scene in SI without the fields that follow from others: these change along the axes."""
     tables = copy.deepcopy(resolve_tables(given, name=name, **vars(origin)).tables)
     tables["finite_element"] = given.get("finite_element", {})
     for section, field in (("load", "position"), ("profile", "length"), ("profile", "cutoff")):

@@ -4,17 +4,16 @@
 
 with u one group of the map and v the other.
 
-On every line of equal v it is found how far, from the good end of u, the error and its numerical
-uncertainty together stay within the tolerance, between points by straight lines in logarithms.
-k is fitted through those ends; C is then the largest, to two figures, with which no line is
-overstepped. V, a value of the map, leaves lines out where that is worth it. Of both groups, their
-ends and all V the rule is taken that holds most points. A point that failed or is unclear ends
-its line.
+Each line of equal v is followed from the good end of u for as long as the error and its numerical
+uncertainty together stay within the tolerance, between points by straight lines in logarithms. k is
+fitted through the ends; C is then the largest, to two figures, with which no line is overstepped.
+V, a value of the map, leaves lines out where more points are inside without them. Of both groups,
+their ends and all V the rule is taken with most points inside. A point that failed or has no known
+uncertainty ends its line.
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -24,26 +23,26 @@ FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
 
 @dataclass(frozen=True)
 class Rule:
-    """`group` `side` (below or above) `coefficient` times `of` to the power of `exponent`.
+    """`group` is `side` (below or above) `coefficient` times `other_group` to the `exponent`.
 
-    coefficient     None: everywhere, or nowhere
-    of_span         values of `of` between which it holds
-    inside          points that the rule holds
-    within          points of the map that meet the tolerance
-    largest         error of a point inside, None without points
-    law, text       in words: the bound alone, and with what it keeps and where
+    coefficient    None: everywhere, or nowhere
+    other_range    values of `other_group` between which it holds
+    points_inside  points of the map that the rule includes
+    points_within  points of the map that meet the tolerance
+    largest_error  of a point inside, None without points
+    law, text      in words: the bound alone, and with what it keeps and where
     """
 
     tolerance: float
     group: str
-    of: str
+    other_group: str
     side: str
     coefficient: float | None
     exponent: float
-    of_span: tuple[float, float]
-    inside: int
-    within: int
-    largest: float | None
+    other_range: tuple[float, float]
+    points_inside: int
+    points_within: int
+    largest_error: float | None
     law: str
     text: str
 
@@ -63,19 +62,19 @@ def rule_of(content: dict, tolerance: float) -> Rule:
         for side in ("below", "above")
     ]
     whole = {axis["group"]: (axis["values"][0], axis["values"][-1]) for axis in (x, y)}
-    # of equals one that leaves out no line: its bound is found between points
-    return max(candidates, key=lambda rule: (rule.inside, rule.of_span == whole[rule.of]))
+    # of equals one with all lines: its bound is found between points
+    return max(candidates, key=lambda r: (r.points_inside, r.other_range == whole[r.other_group]))
 
 
 def errors(content: dict) -> tuple[np.ndarray, np.ndarray]:
-    """(ny, nx) size of the own error, and the same with its uncertainty; infinite where unknown."""
+    """(ny, nx) size of the model error, and with its uncertainty added; infinite where unknown."""
     shape = len(content["y"]["values"]), len(content["x"]["values"])
     error, worst = np.full(shape, np.inf), np.full(shape, np.inf)
     for place, point in zip(np.ndindex(shape), content["points"], strict=True):
-        own = point.get("quantities", {}).get(content["quantity"])
-        if own is not None and own["uncertainty"] is not None:
-            error[place] = abs(own["difference"])
-            worst[place] = error[place] + own["uncertainty"]
+        found = point.get("quantities", {}).get(content["quantity"])
+        if found is not None and found["uncertainty"] is not None:
+            error[place] = abs(found["difference"])
+            worst[place] = error[place] + found["uncertainty"]
     return error, worst
 
 
@@ -91,33 +90,41 @@ def _rule(
     """For a group along the rows of `error` and `worst`."""
     bounds = [_bound(axis, other, side, worst, tolerance, rows) for rows in _runs(len(worst))]
     coefficient, exponent, rows, inside = max(bounds, key=lambda bound: np.count_nonzero(bound[3]))
-    held = int(np.count_nonzero(inside))
-    values = other["values"][rows] if held else other["values"]
-    rule = Rule(
-        tolerance,
-        axis["group"],
-        other["group"],
-        side,
-        coefficient if held else None,
-        exponent if held else 0.0,
-        (values[0], values[-1]),
-        held,
-        int(np.count_nonzero(worst <= tolerance)),
-        float(error[inside].max()) if held else None,
-        "",
-        "",
+    count = int(np.count_nonzero(inside))
+    if not count:
+        coefficient, exponent, rows = None, 0.0, slice(None)
+    span = other["values"][rows]
+    span = (span[0], span[-1])
+    largest = float(error[inside].max()) if count else None
+    within = int(np.count_nonzero(worst <= tolerance))
+    law = _law(axis, other, side, coefficient, exponent, span) if count else "no simple bound"
+    text = f"{law} {_kept(content, tolerance)}"
+    if count:
+        text += (
+            f" ({count} of {worst.size} points, largest {100.0 * largest:.2g} %; "
+            f"{within} points are within it)"
+        )
+    return Rule(
+        tolerance=tolerance,
+        group=axis["group"],
+        other_group=other["group"],
+        side=side,
+        coefficient=coefficient,
+        exponent=exponent,
+        other_range=span,
+        points_inside=count,
+        points_within=within,
+        largest_error=largest,
+        law=law,
+        text=text,
     )
-    rule = replace(rule, law=_law(rule, axis, other))
-    return replace(rule, text=_text(rule, content, worst.size))
 
 
 def _runs(count: int) -> list[slice]:
-    """All lines, then ever fewer that begin with the first or end with the last."""
+    """All lines, then ever fewer of them, which begin with the first or end with the last."""
     fewer = range(count - 1, 0, -1)
-    return [
-        slice(0, count),
-        *(run for n in fewer for run in (slice(0, n), slice(count - n, count))),
-    ]
+    parts = (part for n in fewer for part in (slice(0, n), slice(count - n, count)))
+    return [slice(0, count), *parts]
 
 
 def _bound(
@@ -134,12 +141,12 @@ def _bound(
         slope = float(np.polyfit(v[inner], sign * ends[inner], 1)[0])
         exponent = round(round(slope / STEP) * STEP, 2)
     shift = exponent * v if exponent else np.zeros_like(v)
-    reach = float(np.min(ends - sign * shift))
+    limit = float(np.min(ends - sign * shift))
     inside = np.zeros(worst.shape, dtype=bool)
-    if np.isposinf(reach):
+    if np.isposinf(limit):
         inside[rows] = True
         return None, 0.0, rows, inside
-    coefficient = _round_in(sign * reach, axis["logarithmic"], side)
+    coefficient = _round_in(sign * limit, axis["logarithmic"], side)
     limit = np.log(coefficient) if axis["logarithmic"] else coefficient
     inside[rows] = sign * u[None, :] < sign * (limit + shift)[:, None]
     return coefficient, exponent, rows, inside
@@ -171,35 +178,34 @@ def _round_in(limit: float, logarithmic: bool, side: str) -> float:
     if value == 0.0:
         return value
     unit = 10.0 ** (math.floor(math.log10(abs(value))) - 1)
-    whole: Callable[[float], int] = math.floor if side == "below" else math.ceil
-    return float(f"{whole(value / unit) * unit:.2g}")
+    rounded = math.floor if side == "below" else math.ceil
+    return float(f"{rounded(value / unit) * unit:.2g}")
 
 
-def _law(rule: Rule, axis: dict, other: dict) -> str:
-    if not rule.inside:
-        return "no simple bound"
+def _law(
+    axis: dict,
+    other: dict,
+    side: str,
+    coefficient: float | None,
+    exponent: float,
+    span: tuple[float, float],
+) -> str:
     parts = []
-    if rule.coefficient is not None:
-        law = f"{axis['symbol']} {'<' if rule.side == 'below' else '>'} {rule.coefficient:g}"
-        parts.append(law + (f" ({other['symbol']})^{rule.exponent:g}" if rule.exponent else ""))
-    first, last = rule.of_span
-    if last < other["values"][-1]:
-        parts.append(f"{other['symbol']} <= {last:g}")
-    if first > other["values"][0]:
-        parts.append(f"{other['symbol']} >= {first:g}")
+    if coefficient is not None:
+        law = f"{axis['symbol']} {'<' if side == 'below' else '>'} {coefficient:g}"
+        parts.append(law + (f" ({other['symbol']})^{exponent:g}" if exponent else ""))
+    if span[1] < other["values"][-1]:
+        parts.append(f"{other['symbol']} <= {span[1]:g}")
+    if span[0] > other["values"][0]:
+        parts.append(f"{other['symbol']} >= {span[0]:g}")
     return " and ".join(parts) or "everywhere"
 
 
-def _text(rule: Rule, content: dict, points: int) -> str:
-    label = content["quantity"].replace("_", " ")
+def _kept(content: dict, tolerance: float) -> str:
+    """What a rule keeps within its tolerance, and on which map."""
     where = " and ".join(
         f"{each['symbol']} = {each['values'][0]:g} to {each['values'][-1]:g}"
         for each in (content["x"], content["y"])
     )
-    text = f"{rule.law} keeps the {label} within {100.0 * rule.tolerance:g} % for {where}"
-    if not rule.inside:
-        return text
-    return (
-        f"{text} ({rule.inside} of {points} points, largest {100.0 * rule.largest:.2g} %; "
-        f"{rule.within} points are within it)"
-    )
+    label = content["quantity"].replace("_", " ")
+    return f"keeps the {label} within {100.0 * tolerance:g} % for {where}"

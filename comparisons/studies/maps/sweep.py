@@ -1,86 +1,137 @@
-"""Points of a map through an executor, each on disk as soon as it is done.
+"""Points of a map through an executor, each on disk as soon as it is done; and the executors.
 
-Any executor of `concurrent.futures` will do. Points are handed out a few at a time: if a process
-dies and takes its pool along, the few that were out are asked again one by one, each in a pool of
-its own, so that the one to blame is known, and kept as failed.
+Points are solved by processes here (`comparisons.common.processes`), by the ranks under mpirun, or
+by a Dask cluster: by any executor of `concurrent.futures`. One point is the work of one process, on
+one thread. A few points are submitted at a time. If a process dies and takes its pool along, the
+points that were submitted are tried again one by one, each in a pool of its own: the one that
+kills its process again is saved as failed.
 """
 
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
 
 from comparisons.common.cache import Cache
+from comparisons.common.errors import InputError
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.studies.maps.point import failed, solve_point
-from comparisons.studies.maps.request import Asked
+from comparisons.studies.maps.request import PointRequest
+from fem.solver.compilation import load_dolfinx
 
-Open = Callable[[int], AbstractContextManager[Executor]]
+OpenExecutor = Callable[[int], AbstractContextManager[Executor]]
 DIED = "the process that solved it died"
 
 
 def sweep(
-    points: Iterable[Asked],
-    store: Cache,
-    open_executor: Open,
+    points: Iterable[PointRequest],
+    cache: Cache,
+    open_executor: OpenExecutor,
     workers: int,
     callback: ProgressCallback = no_progress,
 ) -> None:
-    """Have every point in the store that is not there yet.
+    """Solve every point that the cache does not have, and save it there.
 
-    open_executor  opens an executor of so many workers; the next one only after the last is closed
+    open_executor  opens an executor of so many workers; each is closed before the next one
     """
     wanted = {point.key: point for point in points}
-    left = deque(point for point in wanted.values() if store.load(point.key) is None)
-    done = len(wanted) - len(left)
+    left = deque(point for point in wanted.values() if cache.load(point.key) is None)
 
-    def keep(point: Asked, answer: dict) -> None:
+    def announce() -> None:
+        callback(Step(f"map: {done} of {len(wanted)} points", done / len(wanted)))
+
+    def save(point: PointRequest, answer: dict) -> None:
         nonlocal done
-        store.save(point.key, answer)
+        cache.save(point.key, answer)
         done += 1
-        callback(_step(done, len(wanted)))
+        announce()
 
-    callback(_step(done, len(wanted)))
+    done = len(wanted) - len(left)
+    announce()
     while left:
-        for suspect in _until_broken(left, keep, open_executor, workers):
-            if _until_broken(deque([suspect]), keep, open_executor, 1):
-                keep(suspect, {"found": failed(DIED), "seconds": None})
-
-
-def _step(done: int, wanted: int) -> Step:
-    return Step(f"map: {done} of {wanted} points", done / wanted)
+        for suspect in _until_broken(left, save, open_executor, workers):
+            if _until_broken(deque([suspect]), save, open_executor, 1):
+                save(suspect, {"found": failed(DIED), "seconds": None})
 
 
 def _until_broken(
-    left: deque[Asked], keep: Callable[[Asked, dict], None], open_executor: Open, workers: int
-) -> list[Asked]:
-    """Solve what is left; the points that were out when a process died, none if none did."""
-    out: dict[Future, Asked] = {}
-    lost: list[Asked] = []
+    left: deque[PointRequest],
+    save: Callable[[PointRequest, dict], None],
+    open_executor: OpenExecutor,
+    workers: int,
+) -> list[PointRequest]:
+    """Solve points until none are left, or a process dies: the points submitted then, else none."""
+    submitted: dict[Future, PointRequest] = {}
+    lost: list[PointRequest] = []
 
     def collect(finished: Iterable[Future]) -> None:
         for future in finished:
-            point = out.pop(future)
+            point = submitted.pop(future)
             try:
-                keep(point, future.result())
+                save(point, future.result())
             except BrokenExecutor:
                 lost.append(point)
 
     with open_executor(min(workers, len(left))) as executor:
         try:
-            while left or out:
+            while left or submitted:
                 try:
-                    while left and len(out) < 2 * workers:  # one is at hand when one is done
-                        out[executor.submit(solve_point, left[0])] = left[0]
+                    while left and len(submitted) < 2 * workers:  # one is at hand when one is done
+                        submitted[executor.submit(solve_point, left[0])] = left[0]
                         left.popleft()
                 except BrokenExecutor:
-                    if not out:  # it was never whole
+                    if not submitted:  # the pool was never whole
                         raise
-                collect(wait(out, return_when=FIRST_COMPLETED).done)
+                collect(wait(submitted, return_when=FIRST_COMPLETED).done)
                 if lost:
-                    collect(wait(out).done)
+                    collect(wait(submitted).done)
                     break
         finally:
-            for future in out:
+            for future in submitted:
                 future.cancel()
     return lost
+
+
+@dataclass(frozen=True)
+class Workers:
+    """An open executor, and on how many points at once it works."""
+
+    executor: Executor
+    count: int
+
+
+@contextmanager
+def ranks() -> Iterator[Workers | None]:
+    """The processes that mpirun started; each of them calls this.
+
+    The first one gets the others as workers. The others work until it is done, and get None.
+    """
+    load_dolfinx()  # before the pool is made: within a job it would wait for the others for ever
+    from mpi4py import MPI
+    from mpi4py.futures import MPICommExecutor
+
+    with MPICommExecutor(MPI.COMM_WORLD, root=0) as executor:
+        yield executor and Workers(executor, max(1, MPI.COMM_WORLD.size - 1))
+
+
+@contextmanager
+def cluster(scheduler: str) -> Iterator[Workers]:
+    """The workers of a Dask scheduler at an address such as tcp://host:8786.
+
+    How many points each works on at once, and OMP_NUM_THREADS, are set there: 1 is best for both.
+    Raises InputError where there is no scheduler, or Dask is not installed.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise InputError(
+            f"--workers: {scheduler} needs Dask; allowed is a number, or: pip install distributed"
+        ) from error
+    try:
+        client = Client(scheduler)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--workers: {scheduler} does not answer as a Dask scheduler") from error
+    with client:
+        count = sum(client.nthreads().values())
+        yield Workers(client.get_executor(pure=False), max(1, count))

@@ -12,7 +12,7 @@ from comparisons import api
 from comparisons.api.results import CostStudy, Map, Run
 from comparisons.cli import main
 from comparisons.common.errors import InputError
-from comparisons.studies.maps.make import read_map
+from comparisons.studies.maps.content import read_map
 
 ROOT = Path(__file__).parents[3]
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}

@@ -7,8 +7,7 @@ from functools import cache
 import pytest
 
 from comparisons.common.provenance import versions
-from comparisons.studies.maps.content import described
-from comparisons.studies.maps.make import read_map
+from comparisons.studies.maps.content import described, read_map
 from comparisons.studies.maps.picture import map_picture
 from comparisons.studies.maps.point import FAILED, SOLVED, TOLERANCES, solve_point
 from comparisons.studies.maps.request import FINISHED, request_of
@@ -46,7 +45,7 @@ def test_the_command_asks_for_the_same_points(finished):
     request = asked_for(name)
     assert request.scene == name
     assert described(request) == content["scene"]
-    assert request.removed == content["finite_element"]
+    assert request.finite_element == content["finite_element"]
     assert [(p.x, p.y) for p in request.points] == [(p["x"], p["y"]) for p in content["points"]]
     assert content["x"]["values"] == list(request.x.values)
     assert content["y"]["values"] == list(request.y.values)
@@ -65,17 +64,19 @@ def test_one_point_is_what_it_was(finished):
     again = solve_point(request.points[number])["found"]
     before = content["points"][number]
     assert again["status"] == before["status"] == SOLVED
-    for quantity, own in again["quantities"].items():
-        kept = before["quantities"][quantity]
+    for quantity, error in again["quantities"].items():
+        finished = before["quantities"][quantity]
         # another gmsh or solver may give another mesh, and errors as far off as they claim
-        assert abs(own["difference"] - kept["difference"]) <= kept["uncertainty"], quantity
+        assert abs(error["difference"] - finished["difference"]) <= finished["uncertainty"], (
+            quantity
+        )
 
 
 def test_rules_are_those_of_the_points(finished):
     _, content = finished
     assert json.loads(json.dumps(rules_of(content))) == content["rules"]
     assert [rule["tolerance"] for rule in content["rules"]] == list(TOLERANCES)
-    assert all(rule["inside"] for rule in content["rules"][1:])
+    assert all(rule["points_inside"] for rule in content["rules"][1:])
 
 
 def test_pictures_show_the_points(finished):

@@ -1,4 +1,4 @@
-"""Maps: groups take their values, the own error is the exact one, rules and pictures say so."""
+"""Maps: groups take their values, the model error is the exact one, rules and pictures say so."""
 
 from pathlib import Path
 
@@ -10,10 +10,9 @@ from analytic.exact.sliding import sliding_from_load
 from comparisons.common.errors import SceneError
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.maps.groups import GROUPS, Origin, tables_with
-from comparisons.studies.maps.model_error import PointError
-from comparisons.studies.maps.point import FAILED, SOLVED, is_open, solve_point
-from comparisons.studies.maps.request import Asked
+from comparisons.studies.maps.groups import Origin, tables_with
+from comparisons.studies.maps.point import FAILED, SOLVED, PointError, solve_point
+from comparisons.studies.maps.request import PointRequest
 
 HERE = Origin("made.toml", Path("."))
 RIGID = {
@@ -49,7 +48,9 @@ def set_to(tables: dict, **values: float):
 
 
 def solved(tables: dict) -> dict:
-    answer = solve_point(Asked(0.0, 0.0, "peak_pressure", tables, HERE.folder, "m", None, "key"))
+    answer = solve_point(
+        PointRequest(0.0, 0.0, "peak_pressure", tables, HERE.folder, "m", None, "key")
+    )
     assert answer["found"]["status"] == SOLVED, answer
     return answer["found"]["quantities"]
 
@@ -95,9 +96,9 @@ class TestGroups:
         for slope in (None, 0.03):
             asked = values | ({} if slope is None else {"rms_slope": slope})
             problem = set_to(tables, **asked)
-            own = problem.scene.tables["profile"]
+            given = problem.scene.tables["profile"]
             name = "wavelength" if kind == "sinusoid" else "shortest_wavelength"
-            length = own.get(name, 4.0 * own["length"] / (own.get("samples", 2) - 1))
+            length = given.get(name, 4.0 * given["length"] / (given.get("samples", 2) - 1))
             assert length / problem.hertz.half_width == pytest.approx(0.5)
             if slope is None:  # a likeness
                 plain = resolve_tables(tables, name="m", **vars(HERE))
@@ -107,7 +108,7 @@ class TestGroups:
             assert problem.scene.finite_element.geometry == "rough"
             assert problem.scene.finite_element.gap == "displaced"
 
-    def test_a_held_far_boundary_gives_way_to_the_bodys_own(self):
+    def test_a_body_of_its_own_size_has_a_held_far_boundary(self):
         tables = RIGID | {"finite_element": {"far_field": "half-plane"}}
         assert set_to(tables, a_over_thickness=1.0).scene.finite_element.far_field == "held"
 
@@ -135,12 +136,12 @@ class TestGroups:
         ],
         ids=lambda value: value if isinstance(value, str) else "",
     )
-    def test_what_a_scene_lacks_is_named(self, tables, group, what):
+    def test_what_is_missing_in_a_scene_is_named(self, tables, group, what):
         with pytest.raises(SceneError, match=what):
             set_to(tables, **{group: 0.1})
 
 
-class TestOwnError:
+class TestModelError:
     LAYERS = tuple(
         case
         for case in layer_references()
@@ -154,7 +155,7 @@ class TestOwnError:
     )
 
     @pytest.mark.parametrize("case", LAYERS, ids=lambda case: f"{case.base}-{case.half_width}")
-    def test_on_a_layer_is_the_exact_one(self, case):
+    def test_on_a_layer_it_is_the_exact_one(self, case):
         """Hertz's figures under the load that gives an exact contact, over that contact's."""
         smooth = 2.0 * np.sqrt(case.load / np.pi)  # a/t
         nu = 0.3 if case.poissons_ratio is None else case.poissons_ratio
@@ -165,11 +166,11 @@ class TestOwnError:
             "contact_length": smooth / case.half_width - 1.0,
         }
         for name, most in (("peak_pressure", 2e-4), ("contact_length", 4e-3)):
-            own = found[name]
-            assert abs(own["difference"] - exact[name]) <= own["uncertainty"] <= most
-            assert abs(exact[name]) > own["uncertainty"]  # it is told
+            error = found[name]
+            assert abs(error["difference"] - exact[name]) <= error["uncertainty"] <= most
+            assert abs(exact[name]) > error["uncertainty"]
 
-    def test_of_friction_that_moves_the_surfaces_is_the_exact_one(self):
+    def test_of_friction_that_moves_the_surfaces_it_is_the_exact_one(self):
         problem = set_to(RIGID, friction_dundurs=0.25)
         moved = sliding_from_load(
             problem.hertz.load_per_length,
@@ -178,25 +179,24 @@ class TestOwnError:
             problem.scene.friction[0],
             problem.dundurs_beta,
         )
-        own = solved(problem.scene.tables)["peak_pressure"]
+        error = solved(problem.scene.tables)["peak_pressure"]
         exact = problem.hertz.peak_pressure / moved.peak_pressure - 1.0
-        assert abs(own["difference"] - exact) <= own["uncertainty"] < 0.1 * abs(exact)
+        assert abs(error["difference"] - exact) <= error["uncertainty"] < 0.1 * abs(exact)
 
-    def test_levels_are_added_while_it_is_not_told(self):
-        def one(difference: float, uncertainty: float | None) -> PointError:
-            return PointError(1.0, 1.0, difference, uncertainty)
-
-        assert is_open(one(-0.3, 0.11)) and not is_open(one(-0.3, 0.09))
-        assert is_open(one(0.0, 0.004)) and not is_open(one(0.0, 0.003))
-        assert is_open(one(0.1, None))
+    @pytest.mark.parametrize(
+        ("difference", "uncertainty", "is_open"),
+        [(-0.3, 0.11, True), (-0.3, 0.09, False), (0.0, 0.004, True), (0.0, 0.003, False),
+         (0.1, None, True)],
+    )  # fmt: skip
+    def test_levels_are_added_while_the_uncertainty_would_show(
+        self, difference, uncertainty, is_open
+    ):
+        assert PointError(1.0, 1.0, difference, uncertainty).is_open is is_open
 
     def test_what_cannot_be_solved_is_an_answer(self):
         tables = tables_with(RIGID, {"a_over_width": 1.0}, HERE)
-        answer = solve_point(Asked(1.0, 1.0, "peak_pressure", tables, HERE.folder, "m", None, "k"))
+        answer = solve_point(
+            PointRequest(1.0, 1.0, "peak_pressure", tables, HERE.folder, "m", None, "k")
+        )
         assert answer["found"]["status"] == FAILED
         assert "reaches the end of the body" in answer["found"]["why"]
-
-
-def test_every_group_has_words_and_a_span():
-    for group in GROUPS.values():
-        assert group.symbol and group.label and group.span[0] < group.span[1]

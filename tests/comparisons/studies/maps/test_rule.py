@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from comparisons.report.figures.style import drawing
-from comparisons.studies.maps.content import BELOW, MISSING, TOLD, UNCLEAR, known
+from comparisons.studies.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
 from comparisons.studies.maps.picture import map_figure, map_picture
 from comparisons.studies.maps.point import FAILED, SOLVED
 from comparisons.studies.maps.rule import rule_of
@@ -29,7 +29,7 @@ def smooth_map():
                 "x": x,
                 "y": y,
                 "status": SOLVED,
-                "error": TOLD,
+                "error": SIGNIFICANT,
                 "quantities": {
                     "peak_pressure": {"difference": error(x, y), "uncertainty": uncertainty}
                 },
@@ -66,10 +66,14 @@ def transposed(content: dict) -> dict:
 class TestRule:
     def test_a_power_law_is_found_from_its_good_side(self, made):
         rule = rule_of(made, 0.02)
-        assert (rule.group, rule.of, rule.side) == ("a_over_thickness", "friction_dundurs", "below")
+        assert (rule.group, rule.other_group, rule.side) == (
+            "a_over_thickness",
+            "friction_dundurs",
+            "below",
+        )
         assert rule.exponent == -0.5
         assert 0.94 * 0.3 * 0.1**0.5 < rule.coefficient < 0.3 * 0.1**0.5
-        assert rule.inside >= 0.9 * rule.within and rule.largest <= 0.02
+        assert rule.points_inside >= 0.9 * rule.points_within and rule.largest_error <= 0.02
         assert rule.law == f"a/t < {rule.coefficient:g} (μβ)^-0.5"
         assert "keeps the peak pressure within 2 % for a/t = 0.03 to 3 and μβ = 0.01" in rule.text
 
@@ -81,18 +85,18 @@ class TestRule:
     def test_errors_that_add_bound_both_groups(self, smooth_map):
         content = smooth_map(lambda x, y: -0.02 * ((x / 0.3) ** 2 + (y / 0.15) ** 2))
         rule = rule_of(content, 0.02)
-        assert rule.inside >= 0.8 * rule.within
-        assert (rule.group, rule.side, rule.of_span[0]) == ("a_over_thickness", "below", 0.01)
-        assert rule.of_span[1] == pytest.approx(0.1)
+        assert rule.points_inside >= 0.8 * rule.points_within
+        assert (rule.group, rule.side, rule.other_range[0]) == ("a_over_thickness", "below", 0.01)
+        assert rule.other_range[1] == pytest.approx(0.1)
         assert rule.law.endswith("and μβ <= 0.1")
         values = {"x": content["x"]["values"], "y": content["y"]["values"]}
         held = [
             0.02 * ((x / 0.3) ** 2 + (y / 0.15) ** 2)
             for y in values["y"]
             for x in values["x"]
-            if y <= rule.of_span[1] and x < rule.coefficient * y**rule.exponent
+            if y <= rule.other_range[1] and x < rule.coefficient * y**rule.exponent
         ]
-        assert len(held) == rule.inside and max(held) == pytest.approx(rule.largest)
+        assert len(held) == rule.points_inside and max(held) == pytest.approx(rule.largest_error)
         assert max(held) <= 0.02
 
     def test_uncertainty_counts(self, smooth_map):
@@ -111,25 +115,29 @@ class TestRule:
         )
         made["points"][good] = {"x": 0.0, "y": 0.0, "status": FAILED, "why": "…"}
         after = rule_of(made, 0.1)
-        assert after.inside < before.inside
+        assert after.points_inside < before.points_inside
         held = {
             "a_over_thickness": made["x"]["values"][good % 9],
             "friction_dundurs": made["y"]["values"][good // 9],
         }
-        own, of = held[after.group], held[after.of]
-        limit = after.coefficient * of**after.exponent
-        bounded = own < limit if after.side == "below" else own > limit
-        assert not (bounded and after.of_span[0] <= of <= after.of_span[1])
+        value, other = held[after.group], held[after.other_group]
+        limit = after.coefficient * other**after.exponent
+        bounded = value < limit if after.side == "below" else value > limit
+        assert not (bounded and after.other_range[0] <= other <= after.other_range[1])
 
     def test_everywhere_and_nowhere(self, smooth_map):
         everywhere = rule_of(smooth_map(lambda x, y: 1e-3), 0.02)
-        assert (everywhere.inside, everywhere.coefficient, everywhere.law) == (
+        assert (everywhere.points_inside, everywhere.coefficient, everywhere.law) == (
             63,
             None,
             "everywhere",
         )
         nowhere = rule_of(smooth_map(lambda x, y: 0.3), 0.02)
-        assert (nowhere.inside, nowhere.largest, nowhere.law) == (0, None, "no simple bound")
+        assert (nowhere.points_inside, nowhere.largest_error, nowhere.law) == (
+            0,
+            None,
+            "no simple bound",
+        )
 
 
 class TestPicture:
@@ -138,20 +146,19 @@ class TestPicture:
             return map_figure(content).axes[0]
 
     @pytest.mark.parametrize(
-        ("error", "told"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
+        ("error", "shown"), [(-0.09, "−9.0"), (0.47, "+47"), (-0.0102, "−1.0"), (1e-4, "+0.010")]
     )
-    def test_errors_are_told_in_two_digits(self, smooth_map, error, told):
+    def test_errors_are_stated_in_two_digits(self, smooth_map, error, shown):
         axes = self.drawn(smooth_map(lambda x, y: error, 1e-9))
-        assert {text.get_text() for text in axes.texts} == {told}
+        assert {text.get_text() for text in axes.texts} == {shown}
 
-    def test_only_what_is_told_has_a_colour(self, made):
+    def test_only_significant_errors_have_a_colour(self, made):
         made["points"][0]["error"] = BELOW
-        made["points"][1]["error"] = UNCLEAR
+        made["points"][1]["error"] = INCONCLUSIVE
         made["points"][2] = {"x": 0.0, "y": 0.0, "status": FAILED, "why": "…"}
-        made["points"][3] = {"x": 0.0, "y": 0.0, "status": MISSING}
         axes = self.drawn(made)
         cells = axes.patches
-        assert len(cells) == 63 - 2
+        assert len(cells) == 63 - 1
         assert [cell.get_hatch() for cell in cells[:3]] == ["....", "////", None]
         assert [cell.get_facecolor()[3] for cell in cells[:3]] == [0.0, 0.0, 1.0]
         crosses = [line for line in axes.lines if line.get_marker() == "x"]
@@ -160,10 +167,9 @@ class TestPicture:
         assert np.allclose(crosses[0].get_xydata(), place)
         words = [text.get_text() for text in axes.get_legend().get_texts()]
         assert words[4:] == [
-            "not told from numerical error, below 1 %",
-            "not told from numerical error",
+            "within its numerical uncertainty, below 1 %",
+            "within its numerical uncertainty",
             "failed",
-            "blank: not computed",
         ]
 
     def test_colours_are_of_the_error(self, smooth_map):
@@ -195,9 +201,14 @@ class TestPicture:
 
 @pytest.mark.parametrize(
     ("difference", "uncertainty", "kind"),
-    [(0.02, 0.01, TOLD), (-0.02, 0.03, UNCLEAR), (0.002, 0.003, BELOW), (0.5, None, UNCLEAR)],
+    [
+        (0.02, 0.01, SIGNIFICANT),
+        (-0.02, 0.03, INCONCLUSIVE),
+        (0.002, 0.003, BELOW),
+        (0.5, None, INCONCLUSIVE),
+    ],
 )
-def test_what_is_known_of_an_error(difference, uncertainty, kind):
-    own = {"difference": difference, "uncertainty": uncertainty}
-    found = {"status": SOLVED, "quantities": {"peak_pressure": own}}
-    assert known(found, "peak_pressure") == {"error": kind}
+def test_an_error_is_held_against_its_uncertainty(difference, uncertainty, kind):
+    error = {"difference": difference, "uncertainty": uncertainty}
+    found = {"status": SOLVED, "quantities": {"peak_pressure": error}}
+    assert significance(found, "peak_pressure") == {"error": kind}

@@ -17,13 +17,11 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.processes import processes
 from comparisons.studies.maps import sweep as sweeping
-from comparisons.studies.maps.command import exit_status
-from comparisons.studies.maps.executors import Workers
-from comparisons.studies.maps.make import MAP, PICTURE, TIMES, make_map
+from comparisons.studies.maps.content import MAP, PICTURE, map_table
+from comparisons.studies.maps.make import TIMES, exit_status, make_map
 from comparisons.studies.maps.point import NOT_CONVERGED, solve_point
-from comparisons.studies.maps.request import FOLDER, Asked, point_cache, request_of
-from comparisons.studies.maps.sweep import DIED, sweep
-from comparisons.studies.maps.table import map_table
+from comparisons.studies.maps.request import FOLDER, PointRequest, point_cache, request_of
+from comparisons.studies.maps.sweep import DIED, Workers, sweep
 
 SCENE = """
 title = "Small"
@@ -71,7 +69,7 @@ def undisturbed(made) -> Path:
     return made[0]
 
 
-def kept(out: Path) -> dict[str, int]:
+def saved(out: Path) -> dict[str, int]:
     """The finished points, and when each was written."""
     return {path.name: path.stat().st_mtime_ns for path in (out / FOLDER).glob("*.npz")}
 
@@ -85,21 +83,21 @@ class TestStopped:
         out, before = tmp_path / "out", {}
         for enough, stop, status in ((1, self.kill, -9), (2, self.interrupt, 130)):
             with started(*COMMAND, scene, *ASKED, "--workers", "1", "--out", out) as process:
-                assert until(lambda enough=enough: len(kept(out)) >= enough)
+                assert until(lambda enough=enough: len(saved(out)) >= enough)
                 stop(process.pid)
                 assert process.wait(20.0) == status
                 assert until(lambda leader=process.pid: not session(leader), 20.0)
                 said = process.stderr.read()
             assert not (out / MAP).exists()
-            assert before.items() <= kept(out).items()
-            before = kept(out)
+            assert before.items() <= saved(out).items()
+            before = saved(out)
         assert said == (
             "crosscheck: interrupted; finished points are kept, the same command goes on from "
             "there\n"
         )
         (out / FOLDER / ".half.7.part").write_text("{")
         assert main(["map", str(scene), *ASKED, "--workers", "1", "--out", str(out)]) == 0
-        assert before.items() <= kept(out).items() and len(kept(out)) == 4
+        assert before.items() <= saved(out).items() and len(saved(out)) == 4
         assert (out / MAP).read_bytes() == (undisturbed / MAP).read_bytes()
         assert (out / PICTURE).read_bytes() == (undisturbed / PICTURE).read_bytes()
         assert sorted(p.name for p in out.iterdir()) == [MAP, PICTURE, FOLDER, TIMES]
@@ -142,8 +140,8 @@ def test_a_worker_loads_what_solves_and_nothing_that_shows(made):
 
 
 class Fragile(Executor):
-    """Solves at once what it is handed, but for the first point where it has several workers; at a
-    deadly point it breaks, and a moment later with all that is out."""
+    """Solves at once what is submitted, but for the first point where it has several workers. At a
+    deadly point it breaks, and a moment later so does everything that was submitted before."""
 
     def __init__(self, workers: int, deadly: set[float]) -> None:
         self.deadly, self.broken = deadly, False
@@ -168,8 +166,8 @@ class Fragile(Executor):
             future.set_exception(BrokenExecutor("broken"))
 
 
-def asked(x: float) -> Asked:
-    return Asked(x, 0.0, "peak_pressure", {}, Path("."), "made", None, f"key{x:g}")
+def point_at(x: float) -> PointRequest:
+    return PointRequest(x, 0.0, "peak_pressure", {}, Path("."), "made", None, f"key{x:g}")
 
 
 @pytest.fixture
@@ -194,9 +192,9 @@ def fragile(*deadly: float):
 
 
 def test_a_point_that_takes_its_process_along_fails_and_no_other_does(tmp_path, solved):
-    store = point_cache(tmp_path)
-    sweep([asked(x) for x in range(8)], store, fragile(2, 7), 2)
-    found = [store.load(f"key{x}")["found"] for x in range(8)]
+    cache = point_cache(tmp_path)
+    sweep([point_at(x) for x in range(8)], cache, fragile(2, 7), 2)
+    found = [cache.load(f"key{x}")["found"] for x in range(8)]
     for x in (2, 7):
         assert found[x] == {"status": "failed", "why": DIED}
     assert [f["x"] for f in found if f["status"] == "solved"] == [0, 1, 3, 4, 5, 6]
@@ -211,19 +209,19 @@ def test_a_pool_that_cannot_be_used_at_all_ends_the_work(tmp_path, solved):
         yield pool
 
     with pytest.raises(BrokenExecutor):
-        sweep([asked(0), asked(1)], point_cache(tmp_path), opened, 2)
+        sweep([point_at(0), point_at(1)], point_cache(tmp_path), opened, 2)
 
 
 def test_what_is_kept_whole_is_not_solved_again(tmp_path, solved):
-    store = point_cache(tmp_path)
-    sweep([asked(0), asked(1), asked(2)], store, fragile(), 1)
+    cache = point_cache(tmp_path)
+    sweep([point_at(0), point_at(1), point_at(2)], cache, fragile(), 1)
     path = tmp_path / FOLDER / "key1.npz"
     path.write_bytes(path.read_bytes()[:-9])
     solved.clear()
-    told = []
-    sweep([asked(x) for x in (0, 1, 1, 2, 3)], store, fragile(), 1, told.append)
+    stages = []
+    sweep([point_at(x) for x in (0, 1, 1, 2, 3)], cache, fragile(), 1, stages.append)
     assert solved == [1, 3]
-    assert told == [f"map: {done} of 4 points" for done in (2, 3, 4)]
+    assert stages == [f"map: {done} of 4 points" for done in (2, 3, 4)]
 
 
 def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeypatch):
