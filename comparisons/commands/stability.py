@@ -7,27 +7,30 @@ from typing import Annotated
 import typer
 
 from comparisons.commands.arguments import RESULTS, Job, json_option
-from comparisons.commands.output import progress, show, show_json
+from comparisons.commands.output import progress, show, show_file
 
 
 def stability(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the rows.", show_default="results/stability")
     ] = None,
+    junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> Job:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    return partial(_stability, out, as_json)
+    return partial(_stability, out, junit, as_json)
 
 
-def _stability(out: Path | None, as_json: bool) -> int:
-    from comparisons.studies.robustness.run import run_stability
-    from comparisons.studies.robustness.table import stability_table
+def _stability(out: Path | None, junit: Path | None, as_json: bool) -> int:
+    from comparisons.studies.checks import rows_table, verdict_lines
+    from comparisons.studies.robustness.run import run_robustness
 
+    directory = out or RESULTS / "stability"
     with progress() as callback:
-        result = run_stability(out or RESULTS / "stability", callback)
+        study = run_robustness(directory, junit, callback)
     if as_json:
-        show_json(result.as_dict())
+        show_file(directory / "stability.json")
     else:
-        show(stability_table(result))
-    return result.exit_status
+        show(rows_table(study.rows))
+        show(verdict_lines(study))
+    return study.exit_status

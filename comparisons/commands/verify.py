@@ -21,13 +21,13 @@ def verify(
     return partial(_verify, out, junit, as_json)
 
 
-def _verify(out: Path | None, report: Path | None, as_json: bool) -> int:
+def _verify(out: Path | None, junit: Path | None, as_json: bool) -> int:
     from comparisons.studies.verify.table import verify_summary
     from comparisons.studies.verify.verify import verify as verify_all
 
     directory = out or RESULTS / "verify"
     with progress() as callback:
-        found = verify_all(directory, report, callback)
+        found = verify_all(directory, junit, callback)
     if as_json:
         show_file(directory / "verify.json")
     else:

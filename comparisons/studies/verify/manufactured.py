@@ -2,23 +2,30 @@
 
     u_x = a(z) sin(K x + PHASE),   u_z = b(z) cos(K x + PHASE),   a = b = 0 at z = 1
 
-with the body force and the boundary tractions that it takes. In a coating a and b are continued
-with such slopes that displacement and traction are continuous at its lower side. Requirement: in
-L2 orders 2, 3, 4 for degrees 1, 2, 3 and one less in the energy norm, each within 0.1 on both
-sides; reference: the exact solution, integrated with a rule of degree 8 on each element. The error
-is that of the elements, not of nodes only. A body of quadratic edges is solved as it is: the exact
-solution knows no boundary, so that how well the edges follow a profile does not enter.
+with the body force and the boundary tractions that it takes. In a coating a and b continue with
+such slopes that displacement and traction are continuous at its lower side. Requirement: in L2
+orders 2, 3, 4 for degrees 1, 2, 3 and one less in the energy norm, each within 0.1 on both sides.
+Reference: the exact solution, integrated with a rule of degree 8 on each element. A body of
+quadratic edges is solved as it is: the exact solution has no boundary, so that how well the edges
+follow a profile does not enter.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from analytic.material import Material
-from comparisons.studies.verify.checks import Check, order_check
+from comparisons.studies.checks import (
+    BoundedFigure,
+    CheckedCase,
+    Findings,
+    named_cases,
+    order_figure,
+)
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
-from fem.body.exact_load import forces_of
+from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes
 from meshes.block import BlockMesh
 from meshes.real_shape import roughen
@@ -108,16 +115,12 @@ class Exact:
 
 def errors(body: ElasticBody, moved: np.ndarray, exact: Exact) -> tuple[float, float]:
     """L2 norm [m^2] and energy norm [N^(1/2)] of the error."""
-    line, weight = np.polynomial.legendre.leggauss(5)
-    line, weight = 0.5 * (line + 1), 0.5 * weight
-    at = np.array([[r, s * (1 - r)] for r in line for s in line])
-    weight = np.array([w * v * (1 - r) for r, w in zip(line, weight, strict=True) for v in weight])
     nodes, value = body.points[body.mesh.triangles], moved[body.elements]
-    place = np.einsum("mac,qa->mqc", nodes, shapes(at))
-    volume = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
-    off = np.einsum("mac,qa->mqc", value, shapes(at, body.degree))
+    place = np.einsum("mac,qa->mqc", nodes, shapes(AREA))
+    volume = np.abs(np.linalg.det(jacobians(nodes, AREA))) * AREA_WEIGHT
+    off = np.einsum("mac,qa->mqc", value, shapes(AREA, body.degree))
     off = off - exact.displacement(*np.moveaxis(place, -1, 0))
-    slope = gradients(nodes, value, at) - exact.gradient(*np.moveaxis(place, -1, 0))
+    slope = gradients(nodes, value, AREA) - exact.gradient(*np.moveaxis(place, -1, 0))
     strain = 0.5 * (slope + np.swapaxes(slope, -1, -2))
     shear, nu = body.shear_modulus[:, None], body.poissons_ratio[:, None]
     bulk = 2.0 * shear * nu / (1.0 - 2.0 * nu)
@@ -127,8 +130,8 @@ def errors(body: ElasticBody, moved: np.ndarray, exact: Exact) -> tuple[float, f
 
 
 def skewed(cells: int) -> BlockMesh:
-    """A block whose cells are no right-angled triangles, alike on every level; level lines at
-    z = 0, THICKNESS and 1."""
+    """A block without right-angled triangles, of the same shapes on every level; straight lines of
+    nodes at z = 0, THICKNESS and 1."""
     line = np.linspace(-1, 1, cells + 1)
     mesh = structured(line, line[cells // 2 :])
     x, z = mesh.points.T
@@ -178,19 +181,24 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
     return errors(body, body.solve(load), exact)
 
 
-def manufactured_orders(kind: str, degree: int) -> list[Check]:
-    """Orders of both norms, and their size on the finer mesh."""
+def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
+    """Of kinds of bodies with elements of a degree."""
+    named = {
+        f"{kind}, P{degree}": partial(manufactured_findings, kind, degree)
+        for kind, degree in bodies
+    }
+    return named_cases("finite_element", {"manufactured": named})
+
+
+def manufactured_findings(kind: str, degree: int) -> Findings:
+    """Orders of both norms, and the errors on the finer mesh."""
     coarse, fine = (np.array(errors_of(kind, cells, degree)) for cells in CELLS[degree])
-    found = []
-    for norm, order, expected, size, largest in zip(
-        ("L2", "energy"),
-        np.log2(coarse / fine),
-        (degree + 1, degree),
-        fine,
-        LARGEST[degree],
-        strict=True,
-    ):
-        name, source = f"{kind}, P{degree}, {norm}", "manufactured displacement"
-        found.append(order_check("manufactured", f"{name}: order", source, order, expected, MARGIN))
-        found.append(Check("manufactured", f"{name}: error", source, float(size), 0.0, largest))
-    return found
+    orders, reference = np.log2(coarse / fine), "manufactured displacement"
+    figures = []
+    for k, (norm, expected) in enumerate((("L2", degree + 1), ("energy", degree))):
+        error, high = float(fine[k]), LARGEST[degree][k]
+        figures += [
+            order_figure(f"{norm}: order", orders[k], expected, MARGIN, reference),
+            BoundedFigure(f"{norm}: error", error, high, reference),
+        ]
+    return Findings(tuple(figures))

@@ -1,8 +1,9 @@
 """Exact contacts that no scene describes: waves and rounded punches on the half-plane's operators,
-rigid cylinders on the analytic layer. Three grids each, judged as a scene's levels are."""
+rigid cylinders on the analytic layer. Each is solved on three grids, judged as a scene's levels."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +25,8 @@ from comparisons.assessment.uncertainty import (
     length_resolution,
 )
 from comparisons.common.quantities import QUANTITIES
-from comparisons.studies.verify.pairs import Pair
+from comparisons.studies.checks import CheckedCase
+from comparisons.studies.verify.coverage import ExactFindings, Pair, exact_findings
 from comparisons.studies.verify.scenes import (
     LAYER_MODULUS,
     LAYER_RADIUS,
@@ -35,12 +37,12 @@ from comparisons.studies.verify.scenes import (
 
 LEVELS = 3
 FULL = 1.0 - 1e-12  # of a period: contact without an edge
-MARGIN = 0.5  # of the half-width: ground beyond the contact
-OTHERS = {"mean_gap": 2.0}  # formal orders of figures that are not compared in scenes
+MARGIN = 0.5  # of the half-width: grid beyond the contact
+FORMAL_ORDERS = {"mean_gap": 2.0}  # of figures that are not compared in scenes
 
 
 @dataclass(frozen=True)
-class OperatorCase:
+class OperatorContact:
     """A contact on an operator of the library.
 
     kind    wave | punch | layer
@@ -48,7 +50,7 @@ class OperatorCase:
     make    grid to operator
     gap     g0(x) [m], smooth but for `knots` [m]
     span    (2,) ends of the grid [m]; a period's where it is periodic
-    scale   [m] of which the pitch is a part: half of the contact, or the corner that is in contact
+    scale   [m] of which the pitch is a part: half of the contact, or its rounded corner
     """
 
     name: str
@@ -65,29 +67,29 @@ class OperatorCase:
     periodic: bool = False
 
 
-def operator_cases() -> tuple[OperatorCase, ...]:
+def operator_contacts() -> tuple[OperatorContact, ...]:
     """Waves and punches of the gallery, and the layers of the table."""
     contacts = [_contact(c) for c in exact_contacts() if c.period is not None or c.knots]
-    layers = [
-        _layer(reference, nu)
-        for reference in layer_references()
-        for nu in [reference.poissons_ratio or NEARLY_INCOMPRESSIBLE]
-    ]
+    layers = [_layer(r, r.poissons_ratio or NEARLY_INCOMPRESSIBLE) for r in layer_references()]
     return (*contacts, *layers)
 
 
-def operator_pairs(cases: tuple[OperatorCase, ...] | None = None) -> list[Pair]:
-    """Every figure of every case, on three grids of its own number of elements."""
-    cases = operator_cases() if cases is None else cases
-    numbers = spread(len(cases))
+def operator_cases(contacts: Sequence[OperatorContact] | None = None) -> list[CheckedCase]:
+    """Each contact, all if None, with its own number of elements."""
+    contacts = operator_contacts() if contacts is None else contacts
     return [
-        pair
-        for case, elements in zip(cases, numbers, strict=True)
-        for pair in _pairs(case, elements)
+        CheckedCase(
+            contact.kind,
+            f"{contact.name}, {elements:g} elements",
+            contact.model,
+            partial(operator_findings, contact, elements),
+        )
+        for contact, elements in zip(contacts, spread(len(contacts)), strict=True)
     ]
 
 
-def _pairs(case: OperatorCase, elements: float) -> list[Pair]:
+def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
+    """Every figure, on three grids."""
     levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
     history = [_figures(case, *level) for level in levels]
     grid, solution = levels[-1]
@@ -95,7 +97,7 @@ def _pairs(case: OperatorCase, elements: float) -> list[Pair]:
     found = []
     for quantity, exact in case.exact.items():
         values = [figures[quantity] for figures in history]
-        order = OTHERS.get(quantity) or QUANTITIES[quantity].formal_order
+        order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
         resolution = length_resolution(grid.pitch, 1) if quantity == "contact_length" else 0.0
         convergence = grid_convergence(values, order, resolution)
         scale = abs(values[-1])
@@ -115,10 +117,10 @@ def _pairs(case: OperatorCase, elements: float) -> list[Pair]:
                 converged=all(s.converged for _, s in levels),
             )
         )
-    return found
+    return exact_findings(found)
 
 
-def _solved(case: OperatorCase, elements: float) -> tuple[HatGrid, ContactSolution]:
+def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSolution]:
     """One grid with about `elements` on the case's scale; a whole even number on a period."""
     pitch = case.scale / elements
     if case.periodic:
@@ -133,7 +135,7 @@ def _solved(case: OperatorCase, elements: float) -> tuple[HatGrid, ContactSoluti
     return grid, solution
 
 
-def _figures(case: OperatorCase, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
+def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return {
         "peak_pressure": float(solution.pressure.max()),
@@ -142,7 +144,7 @@ def _figures(case: OperatorCase, grid: HatGrid, solution: ContactSolution) -> di
     }
 
 
-def _contact(case: ExactContact) -> OperatorCase:
+def _contact(case: ExactContact) -> OperatorContact:
     names = ("peak_pressure", "contact_length", "mean_gap")
     exact = {name: case.quantities[name] for name in names if name in case.quantities}
     half_width = 0.5 * case.quantities["contact_length"]
@@ -152,7 +154,7 @@ def _contact(case: ExactContact) -> OperatorCase:
         kind, reach = PeriodicHalfPlane, 0.5 * case.period
         if half_width > FULL * reach:
             exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
-    return OperatorCase(
+    return OperatorContact(
         name=case.name,
         source=case.source,
         kind="punch" if case.period is None else "wave",
@@ -168,13 +170,13 @@ def _contact(case: ExactContact) -> OperatorCase:
     )
 
 
-def _layer(reference: LayerReference, nu: float) -> OperatorCase:
+def _layer(reference: LayerReference, nu: float) -> OperatorContact:
     material = Material(LAYER_MODULUS, nu)
     body = LayeredBody(material, LAYER_THICKNESS, reference.base)
     unit = material.plane_strain_modulus * LAYER_THICKNESS / LAYER_RADIUS
     half_width = reference.half_width * LAYER_THICKNESS
     reach = (1.0 + MARGIN) * half_width
-    return OperatorCase(
+    return OperatorContact(
         name=f"analytic layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t",
         source="slope equation by collocation, analytic/exact/layer_contact.json",
         kind="layer",

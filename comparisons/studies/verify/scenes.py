@@ -1,17 +1,18 @@
-"""Scenes whose exact answer is known, as a user would write them.
+"""Scenes whose exact answer is known, as a user would write them, and their solution.
 
-Each is solved by the product's own road, from the tables of a scene to a stated uncertainty, and
-judged by a closed form (or, on layers, by a table of ten digits) that the road does not use. An
-elastic contact only depends on ratios: what makes cases differ for the numerics is where the edges
-fall between two nodes, so each case has a number of pressure elements on a half-width of its own.
+Each is solved as `run` does, from the tables of a scene to a stated uncertainty, and judged by a
+closed form (or, on layers, by a table of ten digits) that the solution does not use. An elastic
+contact only depends on ratios. For the numerics cases differ by where the edges fall between two
+nodes, so each case has its own number of pressure elements on a half-width.
 
 Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
 pressure [Pa], mu friction coefficient.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
+from pathlib import Path
 
 import numpy as np
 
@@ -19,23 +20,32 @@ from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, s
 from analytic.exact.gallery import STEEL, exact_contacts
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
+from comparisons.assessment.comparison import figures, uncertainties
+from comparisons.assessment.refinement import refined
+from comparisons.common.model_names import MODELS
+from comparisons.common.progress import no_progress
+from comparisons.common.quantities import QUANTITIES, relative_l2
+from comparisons.models.level_cache import level_cache
+from comparisons.models.plan import make_plan
+from comparisons.models.problem import problem_of
+from comparisons.models.window import window_of
+from comparisons.scenes.resolve import resolve_tables
+from comparisons.studies.checks import CheckedCase
+from comparisons.studies.verify.coverage import ExactFindings, Pair, exact_findings
 
-BOTH = ("half_plane", "finite_element")
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
 SHARES = (0.95, 0.8, 0.6)  # of the peak pressure that a hardness leaves
-# a/h of the third level. With fewer the grid of the first holds too little open ground to find an
-# edge from.
+# a/h of the third level. With fewer the first level has too few open nodes to find an edge from.
 FEWEST_ELEMENTS, MOST_ELEMENTS = 55.0, 130.0
 HALF_PLANE_ROUNDS = 6
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
-# Extremes are searched where the field is shown.
+# Extremes are searched in the window of the field.
 WINDOW = {"half_range": 1.5, "depth": 1.5, "points": [60, 20]}
-ROUND_OFF = 1e-10  # relative; the tables of references have as many digits
 LAYER_RADIUS, LAYER_THICKNESS, LAYER_MODULUS = 0.1, 1e-3, 200e9
-NEARLY_INCOMPRESSIBLE = 0.4999  # stands for any Poisson's ratio on a frictionless base, beside 0.3
+NEARLY_INCOMPRESSIBLE = 0.4999  # beside 0.3, where any Poisson's ratio gives the same
 
-# Three levels, whatever their uncertainty: the clock must not decide on a fourth.
+# So loose that three levels always do: the clock must not decide on a fourth.
 LOOSE = {"peak_pressure": 0.9, "contact_length": 0.9}
 LOOSE_STRESS = {"tau1_max": 0.9}
 COMPARED = ("peak_pressure", "contact_length", "tau1_max", "tau1_max_depth", "txz_max_abs")
@@ -59,7 +69,7 @@ class ExactScene:
     tables: Mapping[str, object]
     exact: Mapping[str, float]
     pressure: Curve | None = None
-    models: tuple[str, ...] = BOTH
+    models: tuple[str, ...] = MODELS
 
 
 def exact_scenes() -> tuple[ExactScene, ...]:
@@ -68,12 +78,12 @@ def exact_scenes() -> tuple[ExactScene, ...]:
 
 
 def gallery_scenes() -> tuple[ExactScene, ...]:
-    """The gallery's rollers as a user would press them, on the default resolution, both models."""
+    """The gallery's rollers on the default resolution, both models."""
     return tuple(scene_of(case) for case in exact_contacts() if is_roller(case))
 
 
 def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]:
-    """Many resolutions, which cost the half-plane next to nothing."""
+    """Many resolutions, which are cheap for the half-plane."""
     cases = (*rollers(FRICTIONS), *sliding_rollers(SLIDING_FRICTIONS), *capped_rollers(SHARES))
     return tuple(
         replace(scene_of(case, elements), models=("half_plane",))
@@ -82,7 +92,7 @@ def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]
 
 
 def finite_element_scenes() -> tuple[ExactScene, ...]:
-    """Fewer, with what changes the finite elements: far boundary, size, growth, degree."""
+    """Fewer, with other far boundaries, sizes, growths and degrees of the finite elements."""
     settings = (
         {"far_field": "half-plane"},
         {"far_field": "half-plane", "element": "P3"},
@@ -97,28 +107,25 @@ def finite_element_scenes() -> tuple[ExactScene, ...]:
 
 
 def spread(count: int) -> list[float]:
-    """Numbers between FEWEST_ELEMENTS and MOST_ELEMENTS, even on a logarithmic scale and each far
-    from those before it: steps of the golden ratio."""
+    """Numbers between FEWEST_ELEMENTS and MOST_ELEMENTS, even on a logarithmic scale, each far from
+    those before it (steps of the golden ratio)."""
     ratio = MOST_ELEMENTS / FEWEST_ELEMENTS
     return [round(FEWEST_ELEMENTS * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
 
 
 def layer_scenes() -> tuple[ExactScene, ...]:
-    """Rigid cylinders on layers, which are no half-planes."""
-    return tuple(
-        layer_scene(reference, nu)
-        for reference in layer_references()
-        for nu in (
-            (0.3, NEARLY_INCOMPRESSIBLE)
-            if reference.poissons_ratio is None
-            else (reference.poissons_ratio,)
-        )
-    )
+    """Rigid cylinders on layers, for the finite elements alone."""
+    found = []
+    for reference in layer_references():
+        nu = reference.poissons_ratio
+        ratios = (0.3, NEARLY_INCOMPRESSIBLE) if nu is None else (nu,)
+        found += [layer_scene(reference, ratio) for ratio in ratios]
+    return tuple(found)
 
 
 @cache
 def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
-    """Hertz's contact of like bodies, on which friction acts without moving them."""
+    """Hertz's contact of like bodies, where friction does not change the pressure."""
     return tuple(
         hertz_case(f"Hertz, friction {friction:g}", STEEL, STEEL, 8.2e-3, 1.4e9, friction)
         for friction in frictions
@@ -127,7 +134,7 @@ def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
 
 @cache
 def sliding_rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
-    """Rigid cylinders whose traction moves the surface."""
+    """Rigid cylinders, where it does."""
     return tuple(
         sliding_case(f"sliding, friction {friction:g}", STEEL, None, 10e-3, 1e6, friction)
         for friction in frictions
@@ -201,6 +208,54 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
     name = f"layer, {reference.base}, nu = {nu:g}, a = {reference.half_width:g} t"
     source = "slope equation by collocation, analytic/exact/layer_contact.json"
     return ExactScene(name, source, "layer", tables, exact, models=("finite_element",))
+
+
+def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
+    """Each scene by each of its models."""
+    return [
+        CheckedCase(scene.kind, scene.name, model, partial(scene_findings, scene, model))
+        for scene in scenes
+        for model in scene.models
+    ]
+
+
+def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
+    """Solve a scene with one model, as `run` does, and compare each figure with the exact one."""
+    resolved = resolve_tables(
+        scene.tables, name="verify", folder=Path("."), source=f"verify: {scene.name}"
+    )
+    problem = problem_of(resolved)
+    plan = make_plan(problem, (model,))
+    window = window_of(problem) if plan.stress else None
+    runs, _ = refined(problem, plan, window, level_cache(None, resolved, plan), no_progress)
+    run, (friction,) = runs[model], resolved.friction
+    stated = uncertainties(run, problem, friction)
+    history = [figures(level, problem, friction) for level in run.levels]
+    pairs = []
+    for quantity, exact in scene.exact.items():
+        parts = stated[quantity]
+        pairs.append(
+            Pair(
+                case=scene.name,
+                source=scene.source,
+                kind=scene.kind,
+                model=model,
+                quantity=quantity,
+                levels=tuple(level[quantity] for level in history),
+                exact=float(exact),
+                uncertainty=(parts.iteration, parts.discretisation, parts.domain),
+                scale=abs(history[-1][quantity]) or QUANTITIES[quantity].scale(problem.hertz),
+                behaviour=parts.convergence.behaviour,
+                order=parts.convergence.order,
+                converged=all(level.solution.converged for level in run.levels),
+            )
+        )
+    if scene.pressure is None:
+        return exact_findings(pairs)
+    errors = (
+        relative_l2(level.solution.pressure, scene.pressure(level.grid.x)) for level in run.levels
+    )
+    return exact_findings(pairs, tuple(errors))
 
 
 def _elastic(material: Material | None) -> dict:

@@ -1,7 +1,7 @@
-"""Backward errors and conditions of what the half-plane solves: direct solvers, FFT products.
+"""Backward errors and condition numbers of the half-plane's algebra: direct solvers, FFT products.
 
-Ratios as LAPACK's own tests have them (`backward`), for the ordinary grid and for the worst
-conditioned matrices there are: many nodes, incompressible layers, coatings of high contrast.
+Ratios as in LAPACK's own tests (`backward_error`), for the ordinary grid and for the matrices of
+worst condition: many nodes, incompressible layers, coatings of high contrast.
 """
 
 from collections.abc import Callable
@@ -16,9 +16,9 @@ from analytic.operators.convolution import Convolution
 from analytic.operators.elements import at_whole_offsets, hat_galerkin
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.studies.robustness.backward import THRESHOLD, backward_ratio, product_ratio
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.robustness.backward_error import THRESHOLD, backward_ratio
 from comparisons.studies.robustness.many_digits import galerkin_log
-from comparisons.studies.robustness.row import Case, Figure, Findings
 
 OFFSETS = (0, 1, 2, 3, 4, 7, 30, 1000, 65_536, 10**6, 10**8)
 
@@ -33,8 +33,8 @@ def coefficient_findings() -> Findings:
     tabled = float(np.abs(table[::93] / few - 1.0).max())
     return Findings(
         (
-            Figure("coefficient", error, 4e-15, "a hundred digits"),
-            Figure("tabled coefficient", tabled, 4e-15, "a hundred digits"),
+            BoundedFigure("coefficient", error, 4e-15, "a hundred digits"),
+            BoundedFigure("tabled coefficient", tabled, 4e-15, "a hundred digits"),
         )
     )
 
@@ -47,7 +47,7 @@ def direct_findings(make: Callable[[], Convolution], nodes: np.ndarray) -> Findi
     matrix = operator.block(nodes)
     found = operator.solve(nodes, right)
     ratio = np.inf if found is None else backward_ratio(matrix, found, right)
-    figure = Figure("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
+    figure = BoundedFigure("backward error", ratio, THRESHOLD, "LAPACK's test ratio")
     return Findings((figure,), condition=float(np.linalg.cond(matrix)))
 
 
@@ -65,15 +65,14 @@ def product_findings(make: Callable[[], Convolution], single: bool = False) -> F
     matrix = np.where(distance >= 0, operator.column[abs(distance)], operator.row[abs(distance)])
     exact = matrix.astype(np.longdouble) @ pressure.astype(np.longdouble)
     norm = float(np.abs(matrix).sum(axis=1).max())
-    eps = float(np.finfo(kind).eps)
-    found = operator.apply(pressure)
-    ratio = product_ratio(norm, pressure, found[rows], exact, eps)
-    against = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
-    return Findings((Figure("error of the product", ratio, THRESHOLD, against),))
+    error = np.abs(operator.apply(pressure)[rows] - exact).max()
+    ratio = float(error / (norm * np.abs(pressure).max() * float(np.finfo(kind).eps)))
+    reference = "LAPACK's test ratio, 32 bits" if single else "LAPACK's test ratio"
+    return Findings((BoundedFigure("error of the product", ratio, THRESHOLD, reference),))
 
 
 def dense_findings() -> Findings:
-    """Hats finer than what deforms leave a matrix without full rank: it must still be solved."""
+    """A compliance of lower rank than the number of hats must still be inverted."""
     coarse = HalfPlane(40, 4.0, 1.0).block(np.arange(40))
     spread = np.zeros((160, 40))
     for j in range(40):
@@ -86,52 +85,38 @@ def dense_findings() -> Findings:
     sunk = operator.apply(pressure)
     again = operator.apply(operator.precondition(sunk))
     error = float(np.abs(again - sunk).max() / np.abs(sunk).max())
-    figure = Figure("displacement given back", error, 1e-6, "the displacement asked for")
+    figure = BoundedFigure("displacement given back", error, 1e-6, "the displacement asked for")
     return Findings((figure,), condition=float(np.linalg.cond(operator.matrix)))
 
 
-def cases() -> tuple[Case, ...]:
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
     elastomer = LayeredBody(Material(1.0, 0.5 - 1e-9), 0.02, "bonded")
     coated = LayeredBody(Material(1e6, 0.3), 1.0, Material(1.0, 0.3))
-    rough = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
-    rows = [
-        ("coefficients at offsets to 1e8", coefficient_findings),
-        (
-            "half-plane, 120 scattered nodes",
-            partial(direct_findings, partial(HalfPlane, 1000, 1.0, 1.0), rough),
+    scattered = np.flatnonzero(np.random.default_rng(4).uniform(size=1000) < 0.1)[:120]
+    half_plane = partial(HalfPlane, pitch=1.0, modulus=1.0)
+    soft_layer = partial(LayeredSurface, pitch=0.05, body=elastomer)
+    coating = partial(LayeredSurface, pitch=1e-3, body=coated)
+    sliding = partial(CoupledHalfPlane, pitch=1.0, modulus=1.0, friction_dundurs=1.0)
+    direct = {
+        "half-plane, 120 scattered nodes": (partial(half_plane, 1000), scattered),
+        "half-plane, 240 nodes in a row": (partial(half_plane, 1000), np.arange(300, 540)),
+        "incompressible layer, 240 nodes in a row": (
+            partial(soft_layer, 400),
+            np.arange(80, 320),
         ),
-        (
-            "half-plane, 240 nodes in a row",
-            partial(direct_findings, partial(HalfPlane, 1000, 1.0, 1.0), np.arange(300, 540)),
-        ),
-        (
-            "incompressible layer, 240 nodes in a row",
-            partial(
-                direct_findings, partial(LayeredSurface, 400, 0.05, elastomer), np.arange(80, 320)
-            ),
-        ),
-        (
-            "stiff coating, 120 nodes in a row",
-            partial(
-                direct_findings, partial(LayeredSurface, 400, 1e-3, coated), np.arange(100, 220)
-            ),
-        ),
-        (
-            "sliding, mu beta = 1, 120 scattered nodes",
-            partial(direct_findings, partial(CoupledHalfPlane, 1000, 1.0, 1.0, 1.0), rough),
-        ),
-        ("product, 4096 nodes", partial(product_findings, partial(HalfPlane, 4096, 1.0, 1.0))),
-        ("product, 65536 nodes", partial(product_findings, partial(HalfPlane, 65_536, 1.0, 1.0))),
-        ("product, 32 bits", partial(product_findings, partial(HalfPlane, 4096, 1.0, 1.0), True)),
-        (
-            "product, incompressible layer",
-            partial(product_findings, partial(LayeredSurface, 4096, 0.05, elastomer)),
-        ),
-        (
-            "product, sliding, mu beta = 1",
-            partial(product_findings, partial(CoupledHalfPlane, 4096, 1.0, 1.0, 1.0)),
-        ),
-        ("more hats than what deforms", dense_findings),
-    ]
-    return tuple(Case("algebra", name, "half_plane", solve) for name, solve in rows)
+        "stiff coating, 120 nodes in a row": (partial(coating, 400), np.arange(100, 220)),
+        "sliding, mu beta = 1, 120 scattered nodes": (partial(sliding, 1000), scattered),
+    }
+    products = {
+        "product, 4096 nodes": (partial(half_plane, 4096),),
+        "product, 65536 nodes": (partial(half_plane, 65_536),),
+        "product, 32 bits": (partial(half_plane, 4096), True),
+        "product, incompressible layer": (partial(soft_layer, 4096),),
+        "product, sliding, mu beta = 1": (partial(sliding, 4096),),
+    }
+    named = {"coefficients at offsets to 1e8": coefficient_findings}
+    named |= {name: partial(direct_findings, *given) for name, given in direct.items()}
+    named |= {name: partial(product_findings, *given) for name, given in products.items()}
+    named["more hats than what deforms"] = dense_findings
+    return named_cases("half_plane", {"algebra": named})

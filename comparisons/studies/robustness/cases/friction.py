@@ -1,116 +1,102 @@
-"""Friction to 1 where the bodies differ most: the sliding traction moves the surfaces.
+"""Friction up to 1 where the bodies differ most: the sliding traction moves the surfaces.
 
 References: the exact sliding cylinder; the frictionless contact and its linear change; the same
-contact that slides the other way, from behind; the conditions on a dense matrix.
+contact sliding the other way, from behind; the contact conditions on a dense matrix.
 """
 
 from functools import partial
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
-from analytic.exact.sliding import sliding_from_load
-from analytic.grid import HatGrid, roller_gap
+from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.studies.robustness.cases.rough import COUNT, held, rough
-from comparisons.studies.robustness.pressing import (
-    SAME,
-    Pressed,
-    dense_departure,
-    departure,
-    mirrored,
-    press,
+from comparisons.studies.checks import (
+    BoundedFigure,
+    CheckedCase,
+    Findings,
+    named_cases,
+    relative_error,
 )
-from comparisons.studies.robustness.row import Case, Figure, Findings
+from comparisons.studies.robustness.cases.rough import COUNT, LOAD, rough
+from comparisons.studies.robustness.loaded_contact import (
+    HATS_PER_HALF_WIDTH,
+    SAME,
+    LoadedContact,
+    dense_violation,
+    deviation,
+    load_cylinder,
+    load_line,
+    mirrored,
+)
 
-PER_HALF = 77.3
-RADIUS, LOAD = 10e-3, 1e6  # [m], [N/m]
-DISCRETE = 1e-4  # of the peak and of the load's place, with PER_HALF hats
+RADIUS, CYLINDER_LOAD = 10e-3, 1e6  # [m], [N/m]
+HIGH = 1e-4  # of the peak and of the load's place: error by the grid
 SOFT, STEEL = Material(1e5, 0.0), Material(207e9, 0.3)
 
 
 def sliding(
-    body: Material, roller: Material | None, friction: float, load: float = LOAD
-) -> Pressed:
-    """A cylinder that slides, on PER_HALF hats a half-width."""
+    body: Material, roller: Material | None, friction: float
+) -> tuple[LoadedContact, SlidingContact]:
+    """A cylinder that slides (`roller` None: rigid), computed and exact."""
     modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
-    exact = sliding_from_load(load, RADIUS, modulus, friction, beta)
-    pitch = exact.half_width / PER_HALF
-    grid = HatGrid(pitch, -int(2.2 * PER_HALF), int(2.2 * PER_HALF))
-    operator = CoupledHalfPlane(grid.count, pitch, modulus, friction * beta)
-    weighted_gap, constraints = grid.hat_integrals(roller_gap(RADIUS)), Constraints(load=load)
-    solution = solve_coupled(operator, weighted_gap, grid.weights, constraints)
-    return Pressed(grid.x, weighted_gap, operator, constraints, solution)
+    exact = sliding_from_load(CYLINDER_LOAD, RADIUS, modulus, friction, beta)
+    count = 2 * int(2.2 * HATS_PER_HALF_WIDTH) + 1
+    pitch = exact.half_width / HATS_PER_HALF_WIDTH
+    operator = CoupledHalfPlane(count, pitch, modulus, friction * beta)
+    return load_cylinder(operator, RADIUS, Constraints(load=CYLINDER_LOAD)), exact
 
 
-def sliding_findings(
-    body: Material, roller: Material | None, friction: float, load: float = LOAD
-) -> Findings:
+def sliding_findings(body: Material, roller: Material | None, friction: float) -> Findings:
     """Against the exact sliding cylinder."""
-    pressed = sliding(body, roller, friction, load)
-    modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
-    exact = sliding_from_load(load, RADIUS, modulus, friction, beta)
+    contact, exact = sliding(body, roller, friction)
     (left, right), size = exact.edges, exact.half_width
-    (start, stop), *_ = pressed.patches
-    peak = abs(pressed.pressure.max() / exact.peak_pressure - 1.0)
-    place = pressed.x @ pressed.pressure / pressed.pressure.sum()
-    figures = (
-        Figure("peak pressure", peak, DISCRETE, "sliding cylinder, exact"),
-        Figure("trailing edge", abs(start - left) / size, 1e-2, "sliding cylinder, exact"),
-        Figure("leading edge", abs(stop - right) / size, 1e-2, "sliding cylinder, exact"),
-        Figure(
-            "place of the load",
-            abs(place - exact.load_position) / size,
-            DISCRETE,
-            "sliding cylinder, exact",
-        ),
-        dense_departure(pressed, modulus, friction * beta),
+    (start, stop), *_ = contact.patches
+    x, pressure, operator = contact.x, contact.pressure, contact.operator
+    reference = "sliding cylinder, exact"
+    place = abs(x @ pressure / pressure.sum() - exact.load_position) / size
+    return contact.findings(
+        relative_error("peak pressure", pressure.max(), exact.peak_pressure, HIGH, reference),
+        BoundedFigure("trailing edge", abs(start - left) / size, 1e-2, reference),
+        BoundedFigure("leading edge", abs(stop - right) / size, 1e-2, reference),
+        BoundedFigure("place of the load", place, HIGH, reference),
+        dense_violation(contact, operator.modulus, operator.friction_dundurs),
     )
-    return held(pressed, *figures)
 
 
 def slight_findings(friction: float) -> Findings:
     """Next to no friction moves the load by its linear part: -8 n/3 with n = beta mu / pi."""
-    still, moved = sliding(SOFT, None, 0.0), sliding(SOFT, None, friction)
+    (still, _), (moved, _) = sliding(SOFT, None, 0.0), sliding(SOFT, None, friction)
     beta = dundurs_constants(SOFT, None)[1]
-    exact = -8.0 / 3.0 * beta * friction / np.pi * still.pitch * PER_HALF
+    exact = -8.0 / 3.0 * beta * friction / np.pi * still.pitch * HATS_PER_HALF_WIDTH
     change = moved.pressure - still.pressure
     place = moved.x @ change / moved.pressure.sum()
-    figure = Figure(
-        "shift of the load", abs(place / exact - 1.0), 1e-2, "the exact shift's linear part"
-    )
-    return held(moved, figure)
+    reference = "the exact shift's linear part"
+    return moved.findings(relative_error("shift of the load", place, exact, 1e-2, reference))
 
 
 def rough_findings(friction_dundurs: float) -> Findings:
-    """A rough line; reversed, sliding the other way, it presses the same, reversed."""
+    """A rough line; reversed and sliding the other way, it gives the same pressures, reversed."""
     operator = CoupledHalfPlane(COUNT, 1.0, 1.0, friction_dundurs)
-    pressed = press(operator, 1.0, -rough(COUNT), Constraints(load=0.02 * 0.05 * COUNT))
-    behind = mirrored(pressed)
-    figures = (
-        departure(behind.pressure[::-1], pressed.pressure, "pressure", SAME, "its mirror image"),
-        dense_departure(pressed, 1.0, friction_dundurs),
+    contact = load_line(operator, rough(COUNT), Constraints(load=LOAD))
+    behind = mirrored(contact).pressure[::-1]
+    return contact.findings(
+        deviation(behind, contact.pressure, "pressure", SAME, "its mirror image"),
+        dense_violation(contact, 1.0, friction_dundurs),
     )
-    return held(pressed, *figures)
 
 
-def cases() -> tuple[Case, ...]:
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
-    slid = {
+    sliders = {
         "friction 1, rigid on nu = 0": (SOFT, None, 1.0),
         "friction -1, rigid on nu = 0": (SOFT, None, -1.0),
         "friction 1, roller 1e6 times as stiff": (STEEL, Material(207e15, 0.3), 1.0),
         "friction 1, roller 1e-6 times as stiff": (STEEL, Material(207e3, 0.3), 1.0),
         "friction 1, nu = 0.4999": (Material(207e9, 0.4999), None, 1.0),
     }
-    exact = [(name, partial(sliding_findings, *given)) for name, given in slid.items()]
-    slight = [(f"friction {mu:g}", partial(slight_findings, mu)) for mu in (1e-6,)]
-    line = [
-        (f"rough, mu beta = {coupling:g}", partial(rough_findings, coupling))
-        for coupling in (0.5, 3.0)
-    ]
-    return tuple(
-        Case("friction", name, "half_plane", solve) for name, solve in (*exact, *slight, *line)
-    )
+    named = {name: partial(sliding_findings, *given) for name, given in sliders.items()}
+    named["friction 1e-06"] = partial(slight_findings, 1e-6)
+    named |= {f"rough, mu beta = {n:g}": partial(rough_findings, n) for n in (0.5, 3.0)}
+    return named_cases("half_plane", {"friction": named})

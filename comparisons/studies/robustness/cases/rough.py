@@ -1,7 +1,9 @@
-"""Rough contacts at their ends: one node, every node, equal peaks, plateaus, spikes, steep slopes.
+"""Rough lines at their extremes: one node, every node, equal peaks, plateaus, spikes, steep slopes,
+other units.
 
 References: a load over one node's weight; bounded least squares and the contact conditions on a
-dense matrix; the wave that a half-plane carries node by node; the same profile from behind.
+dense matrix; the wave that a half-plane carries node by node; the same profile from behind, or in
+other units.
 """
 
 from collections.abc import Callable
@@ -14,78 +16,86 @@ from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 from analytic.surface.synthetic import self_affine
-from comparisons.studies.robustness.pressing import (
-    SAME,
-    Pressed,
-    cost_figures,
-    dense_departure,
-    dense_matrix,
-    departure,
-    least_squares_departure,
-    mirrored,
-    press,
-    residual_figures,
+from comparisons.studies.checks import (
+    BoundedFigure,
+    CheckedCase,
+    Findings,
+    named_cases,
+    relative_error,
 )
-from comparisons.studies.robustness.row import Case, Figure, Findings
+from comparisons.studies.robustness.loaded_contact import (
+    SAME,
+    LoadedContact,
+    dense_matrix,
+    dense_violation,
+    deviation,
+    least_squares_deviation,
+    load_line,
+    mirrored,
+)
 
 COUNT = 512  # nodes of a rough line
 FEW = 48  # nodes that bounded least squares solve at once
+SLOPE = 0.05  # rms
+LOAD = 0.02 * SLOPE * COUNT  # [N/m] on nodes 1 m apart, modulus 1 Pa
 Shape = Callable[[int], np.ndarray]
 
 
-def rough(count: int, rms_slope: float = 0.05) -> np.ndarray:
+def rough(count: int, rms_slope: float = SLOPE) -> np.ndarray:
     """Heights (n,) [m] of a self-affine line, 1 m from node to node."""
     profile = self_affine(hurst=0.8, samples=count, length=count - 1.0, seed=7, rms_slope=rms_slope)
     return profile.height
 
 
-def held(pressed: Pressed, *figures: Figure) -> Findings:
-    """Findings of a free line: its own figures and those of every contact."""
-    count = len(pressed.x)
-    kept, checks = residual_figures(pressed.solution)
-    spent, cost = cost_figures(pressed.solution, count)
-    condition = None
-    if count <= 2 * COUNT and isinstance(pressed.operator, HalfPlane):
-        touching = np.flatnonzero(pressed.pressure > 0.0)
-        condition = float(np.linalg.cond(pressed.operator.block(touching)))
-    return Findings((*figures, *kept, *spent), checks, condition, cost)
+def pressed(
+    height: np.ndarray, load: float, pitch: float = 1.0, modulus: float = 1.0
+) -> LoadedContact:
+    """A rigid flat on heights (n,) [m] of a half-plane."""
+    return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
+
+
+def findings(contact: LoadedContact, *figures: BoundedFigure) -> Findings:
+    return contact.findings(*figures, condition=contact.condition)
+
+
+def touching_figure(pressure: np.ndarray, count: int, reference: str) -> BoundedFigure:
+    """Exactly `count` nodes carry pressure."""
+    touching = np.count_nonzero(pressure)
+    return BoundedFigure("nodes in contact", touching, count, reference, low=count)
 
 
 def vanishing_findings(load: float) -> Findings:
     """Under next to no load one node alone carries it, and the gap is as it was."""
     height = rough(COUNT)
-    pressed = press(HalfPlane(COUNT, 1.0, 1.0), 1.0, -height, Constraints(load=load))
-    alone = pressed.pressure.max() * 1.0 / load
-    opened = pressed.solution.gap - (height.max() - height)
-    figures = (
-        Figure("nodes in contact", np.count_nonzero(pressed.pressure), 1.0, "one", least=1.0),
-        Figure("pressure", abs(alone - 1.0), 4e-16, "the load over the node's weight"),
-        Figure(
-            "gap", np.abs(opened).max() / np.ptp(height), max(1e-14, 10.0 * load), "the initial gap"
-        ),
+    contact = pressed(height, load)
+    opened = np.abs(contact.solution.gap - (height.max() - height)).max() / np.ptp(height)
+    reference = "the load over the node's weight"
+    return findings(
+        contact,
+        touching_figure(contact.pressure, 1, "one"),
+        relative_error("pressure", contact.pressure.max(), load, 4e-16, reference),
+        BoundedFigure("gap", opened, max(1e-14, 10.0 * load), "the initial gap"),
     )
-    return held(pressed, *figures)
 
 
 def twin_findings(load: float) -> Findings:
-    """Two equal highest peaks: what one carries the other carries."""
+    """Two equal highest peaks carry the same."""
     half = rough(COUNT // 2)
-    height = np.concatenate([half, half[::-1]])
-    pressed = press(HalfPlane(COUNT, 1.0, 1.0), 1.0, -height, Constraints(load=load))
-    share = pressed.pressure[: COUNT // 2].sum() / load
-    figures = (
-        departure(pressed.pressure[::-1], pressed.pressure, "pressure", SAME, "its mirror image"),
-        Figure("share of a peak", abs(share - 0.5), SAME, "half of the load"),
-        dense_departure(pressed, 1.0),
+    contact = pressed(np.concatenate([half, half[::-1]]), load)
+    pressure = contact.pressure
+    share = abs(pressure[: COUNT // 2].sum() / load - 0.5)
+    return findings(
+        contact,
+        deviation(pressure[::-1], pressure, "pressure", SAME, "its mirror image"),
+        BoundedFigure("share of a peak", share, SAME, "half of the load"),
+        dense_violation(contact, 1.0),
     )
-    return held(pressed, *figures)
 
 
 def shape_findings(shape: Shape, load: float) -> Findings:
-    """Few nodes against bounded least squares, whose answer needs no iteration of ours."""
-    height = shape(FEW)
-    pressed = press(HalfPlane(FEW, 1.0, 1.0), 1.0, -height, Constraints(load=load))
-    return held(pressed, least_squares_departure(pressed, 1.0), dense_departure(pressed, 1.0))
+    """Few nodes against bounded least squares, which needs no iteration of ours."""
+    contact = pressed(shape(FEW), load)
+    return findings(contact, least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
 
 
 def plateau(count: int) -> np.ndarray:
@@ -105,23 +115,20 @@ def steps(count: int) -> np.ndarray:
     return np.repeat(rough(count)[::6], 6)[:count]
 
 
-def flat(count: int) -> np.ndarray:
-    return np.zeros(count)
-
-
 def closed_findings() -> Findings:
     """A load that closes all gaps: equilibrium of every node, by elimination."""
     height = rough(COUNT)
     load = 1e3 * np.ptp(height)
-    pressed = press(HalfPlane(COUNT, 1.0, 1.0), 1.0, -height, Constraints(load=load))
+    contact = pressed(height, load)
     ones = np.ones(COUNT)
     system = np.block([[dense_matrix(COUNT, 1.0, 1.0), -ones[:, None]], [ones, np.zeros((1, 1))]])
     expected = np.linalg.solve(system, np.append(height - height.max(), load))[:-1]
-    figures = (
-        Figure("nodes in contact", np.count_nonzero(pressed.pressure), COUNT, "all", least=COUNT),
-        departure(pressed.pressure, expected, "pressure", SAME, "elimination on a dense matrix"),
+    reference = "elimination on a dense matrix"
+    return findings(
+        contact,
+        touching_figure(contact.pressure, COUNT, "all"),
+        deviation(contact.pressure, expected, "pressure", SAME, reference),
     )
-    return held(pressed, *figures)
 
 
 def wave_findings(share: float) -> Findings:
@@ -131,87 +138,121 @@ def wave_findings(share: float) -> Findings:
     the wave's own symbol. In partial contact the reference is Westergaard's.
     """
     count = 1024
-    operator = PeriodicHalfPlane(count, 1.0, 1.0)
     closing = np.pi / count
-    x = np.arange(count) - count // 2
+    mean = share * closing
+    wave = np.cos(2.0 * np.pi * (np.arange(count) - count // 2) / count)
     sinc4 = np.sinc(1.0 / count) ** 2
-    gap = 1.0 - sinc4 * np.cos(2.0 * np.pi * x / count)
-    pressed = press(operator, 1.0, gap, Constraints(load=share * closing * count))
+    load = Constraints(load=mean * count)
+    contact = load_line(PeriodicHalfPlane(count, 1.0, 1.0), sinc4 * wave - 1.0, load)
     # in units that keep digits: the discrete wave closes at its own symbol's pressure
-    symbol = float(hat_aliases(np.array([1.0 / count]))[0]) / np.pi
-    amplitude = sinc4 / symbol
+    amplitude = sinc4 / (float(hat_aliases(np.array([1.0 / count]))[0]) / np.pi)
     figures = []
-    if share * closing >= amplitude:
-        exact = share * closing + amplitude * np.cos(2.0 * np.pi * x / count)
-        figures.append(
-            departure(pressed.pressure, exact, "pressure", SAME, "the wave's symbol, exact")
-        )
-    wave = westergaard_from_mean_pressure(share * closing, float(count), 1.0, 1.0)
-    peak = abs(pressed.pressure.max() / wave.peak_pressure - 1.0)
-    figures.append(Figure("peak pressure", peak, 2e-4, "Westergaard, exact"))
-    return held(pressed, *figures)
+    if mean >= amplitude:
+        exact = mean + amplitude * wave
+        reference = "the wave's symbol, exact"
+        figures.append(deviation(contact.pressure, exact, "pressure", SAME, reference))
+    peak = westergaard_from_mean_pressure(mean, float(count), 1.0, 1.0).peak_pressure
+    found = contact.pressure.max()
+    figures.append(relative_error("peak pressure", found, peak, 2e-4, "Westergaard, exact"))
+    return contact.findings(*figures)
 
 
 def slope_findings(rms_slope: float) -> Findings:
     """Steep roughness: the linear theory's pressures are in proportion to the slope."""
     height = rough(COUNT, rms_slope)
     load = 0.02 * rms_slope * COUNT
-    steep = press(HalfPlane(COUNT, 1.0, 1.0), 1.0, -height, Constraints(load=load))
-    gentle = press(HalfPlane(COUNT, 1.0, 1.0), 1.0, -height * 1e-3, Constraints(load=1e-3 * load))
-    figures = (
-        departure(steep.pressure, 1e3 * gentle.pressure, "pressure", SAME, "a thousandth of it"),
-        dense_departure(steep, 1.0),
+    steep, gentle = pressed(height, load), pressed(height * 1e-3, 1e-3 * load)
+    return findings(
+        steep,
+        deviation(steep.pressure, 1e3 * gentle.pressure, "pressure", SAME, "a thousandth of it"),
+        dense_violation(steep, 1.0),
     )
-    return held(steep, *figures)
 
 
 def mirrored_findings() -> Findings:
-    """The profile reversed presses the same, reversed."""
-    pressed = press(
-        HalfPlane(COUNT, 1.0, 1.0), 1.0, -rough(COUNT), Constraints(load=0.02 * 0.05 * COUNT)
+    """The profile reversed gives the same pressures, reversed."""
+    contact = pressed(rough(COUNT), LOAD)
+    behind, reference = mirrored(contact), "its mirror image"
+    length = behind.contact_length
+    return findings(
+        contact,
+        deviation(behind.pressure[::-1], contact.pressure, "pressure", SAME, reference),
+        relative_error("contact length", length, contact.contact_length, 1e-7, reference),
     )
-    behind = mirrored(pressed)
-    length = abs(behind.contact_length / pressed.contact_length - 1.0)
-    figures = (
-        departure(behind.pressure[::-1], pressed.pressure, "pressure", SAME, "its mirror image"),
-        Figure("contact length", length, 1e-7, "its mirror image"),
-    )
-    return held(pressed, *figures)
 
 
-def cases() -> tuple[Case, ...]:
+def unit_findings(metre: float, pascal: float, same: float) -> Findings:
+    """All lengths times `metre`, all stresses times `pascal`; `same` is how well figures agree."""
+    usual = pressed(rough(COUNT), LOAD)
+    other = pressed(rough(COUNT) * metre, LOAD * metre * pascal, metre, pascal)
+    length = other.contact_length / usual.contact_length
+    approach = other.solution.approach / usual.solution.approach
+    spent, most = (each.solution.iterations["applications"] for each in (other, usual))
+    return findings(
+        other,
+        deviation(other.pressure / pascal, usual.pressure, "pressure", same, "in metres"),
+        relative_error("contact length", length, metre, max(1e2 * same, 1e-15), "in metres"),
+        relative_error("approach", approach, metre, same, "in metres"),
+        BoundedFigure("applications", spent / most, 1.0, "in metres", low=1.0),
+    )
+
+
+def amplitude_findings(amplitude: float) -> Findings:
+    """Heights of `amplitude` [m], peak to valley, on a trace of 1 mm, under a load to match."""
+    height, pitch = rough(COUNT), 1e-3 / COUNT
+    factor = amplitude / float(np.ptp(height))
+    usual, other = pressed(height, LOAD), pressed(height * factor, LOAD * factor, pitch)
+    length = other.contact_length / usual.contact_length
+    scaled = other.pressure / (factor / pitch)
+    return findings(
+        other,
+        deviation(scaled, usual.pressure, "pressure", SAME, "amplitude 1"),
+        relative_error("contact length", length, pitch, 1e-7, "amplitude 1"),
+    )
+
+
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
-    table: dict[str, list[tuple[str, Callable[[], Findings]]]] = {
-        "one node": [
-            (f"load {load:g} of modulus times length", partial(vanishing_findings, load))
+    groups = {
+        "one node": {
+            f"load {load:g} of modulus times length": partial(vanishing_findings, load)
             for load in (1e-12, 1e-50, 1e-150)
-        ],
-        "equal peaks": [
-            ("two equal highest peaks, light", partial(twin_findings, 1e-9)),
-            ("two equal highest peaks, heavy", partial(twin_findings, 1.0)),
-        ],
-        "shapes": [
-            ("plateau, light", partial(shape_findings, plateau, 1e-3)),
-            ("plateau, heavy", partial(shape_findings, plateau, 1.0)),
-            ("spike, alone", partial(shape_findings, spike, 1e-3)),
-            ("spike, pressed in", partial(shape_findings, spike, 20.0)),
-            ("steps", partial(shape_findings, steps, 0.1)),
-            ("flat", partial(shape_findings, flat, 1.0)),
-        ],
-        "full contact": [
-            ("a load that closes all gaps", closed_findings),
-            ("sinusoid, 0.01 of closing", partial(wave_findings, 0.01)),
-            ("sinusoid, just open", partial(wave_findings, 1.0 - 1e-9)),
-            ("sinusoid, just closed", partial(wave_findings, 1.0 + 1e-4)),
-            ("sinusoid, 1e6 times closing", partial(wave_findings, 1e6)),
-        ],
-        "slope": [
-            (f"rms slope {slope:g}", partial(slope_findings, slope)) for slope in (1e-6, 1.0)
-        ],
-        "mirror": [("profile reversed", mirrored_findings)],
+        },
+        "equal peaks": {
+            "two equal highest peaks, light": partial(twin_findings, 1e-9),
+            "two equal highest peaks, heavy": partial(twin_findings, 1.0),
+        },
+        "shapes": {
+            "plateau, light": partial(shape_findings, plateau, 1e-3),
+            "plateau, heavy": partial(shape_findings, plateau, 1.0),
+            "spike, alone": partial(shape_findings, spike, 1e-3),
+            "spike, pressed in": partial(shape_findings, spike, 20.0),
+            "steps": partial(shape_findings, steps, 0.1),
+            "flat": partial(shape_findings, np.zeros, 1.0),
+        },
+        "full contact": {
+            "a load that closes all gaps": closed_findings,
+            "sinusoid, 0.01 of closing": partial(wave_findings, 0.01),
+            "sinusoid, just open": partial(wave_findings, 1.0 - 1e-9),
+            "sinusoid, just closed": partial(wave_findings, 1.0 + 1e-4),
+            "sinusoid, 1e6 times closing": partial(wave_findings, 1e6),
+        },
+        "slope": {f"rms slope {slope:g}": partial(slope_findings, slope) for slope in (1e-6, 1.0)},
+        "mirror": {"profile reversed": mirrored_findings},
+        "amplitude": {
+            f"amplitude {amplitude:g} m": partial(amplitude_findings, amplitude)
+            for amplitude in (1e-12, 1e-9, 1e-6, 1e-3, 1.0)
+        },
+        "units": {
+            name: partial(unit_findings, metre, pascal, same)
+            for name, metre, pascal, same in (
+                ("lengths in 2^-40 m, to the last bit", 2.0**-40, 1.0, 0.0),
+                ("stresses in 2^50 Pa, to the last bit", 1.0, 2.0**50, 0.0),
+                ("lengths in pm", 1e-12, 1.0, SAME),
+                ("lengths in light years", 1e16, 1.0, SAME),
+                ("stresses in 1e15 Pa", 1.0, 1e15, SAME),
+                ("stresses in 1e-15 Pa", 1.0, 1e-15, SAME),
+            )
+        },
     }
-    return tuple(
-        Case(group, name, "half_plane", solve)
-        for group, rows in table.items()
-        for name, solve in rows
-    )
+    return named_cases("half_plane", groups)

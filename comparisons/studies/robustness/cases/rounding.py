@@ -1,28 +1,26 @@
-"""Perturbed arithmetic: how many digits of a result rounding of its input leaves.
+"""How many digits of a result survive rounding of its input.
 
-Every number that a case is given is changed by up to 1e-15 of itself, at random, for several
-seeds; or rounded to 32 bits. What a result then changes by, at most, says how many of its digits
-mean anything:  digits = -log10(change), sixteen at most.
+Every number of a case's input is changed by up to 1e-15 of itself, at random, for several seeds;
+or rounded to 32 bits. The largest change of a result says how many of its digits mean anything:
+digits = -log10(change), sixteen at most.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators.half_plane import HalfPlane
+from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.stress.points import stress_at
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
 from comparisons.studies.robustness.cases.rough import rough
-from comparisons.studies.robustness.row import Case, Figure, Findings, Model
+from comparisons.studies.robustness.loaded_contact import LoadedContact, load_contact
 
 PERTURBATION, SEEDS = 1e-15, 5
 MOST_DIGITS = 16.0
@@ -31,14 +29,7 @@ LOAD = 1.007 * np.pi / 4.0 / 50.0  # no edge of contact on a node
 DEPTHS = np.linspace(0.1, 1.0, 10)
 
 Change = Callable[[np.ndarray | float], np.ndarray]
-
-
-@dataclass(frozen=True)
-class Digits:
-    """Digits that results must keep, under perturbation and under 32-bit input."""
-
-    perturbed: float
-    single: float
+Results = dict[str, np.ndarray]
 
 
 def exact_input(value: np.ndarray | float) -> np.ndarray:
@@ -61,31 +52,32 @@ def single(value: np.ndarray | float) -> np.ndarray:
     return np.asarray(value, dtype=np.float32).astype(float)
 
 
-def digits_findings(results: Callable[[Change], dict[str, np.ndarray]], kept: Digits) -> Findings:
-    """Digits of each result, by its change over its largest amount."""
+def digits_findings(
+    results: Callable[[Change], Results], least: float, least_single: float
+) -> Findings:
+    """Digits of each result: at least `least` under perturbation, `least_single` in 32 bits."""
     reference = results(exact_input)
-    changed = dict.fromkeys(reference, 0.0)
-    for seed in range(SEEDS):
-        for name, value in results(perturbed(seed)).items():
-            changed[name] = max(changed[name], _change(value, reference[name]))
-    rounded = {name: _change(value, reference[name]) for name, value in results(single).items()}
-    digits = {name: _digits(change) for name, change in changed.items()}
-    digits |= {f"{name}, 32-bit input": _digits(change) for name, change in rounded.items()}
-    figures = tuple(
-        Figure(
-            f"digits of {name}",
-            value,
-            MOST_DIGITS,
-            "the exact input's result",
-            least=kept.single if "32-bit" in name else kept.perturbed,
+    changed = [_changes(results(perturbed(seed)), reference) for seed in range(SEEDS)]
+    worst = {name: max(change[name] for change in changed) for name in reference}
+    rounded = _changes(results(single), reference)
+    found = [(name, _digits(change), least) for name, change in worst.items()]
+    found += [
+        (f"{name}, 32-bit input", _digits(change), least_single) for name, change in rounded.items()
+    ]
+    return Findings(
+        tuple(
+            BoundedFigure(f"digits of {name}", digits, MOST_DIGITS, "the exact input's result", low)
+            for name, digits, low in sorted(found, key=lambda each: each[1])
         )
-        for name, value in sorted(digits.items(), key=lambda item: item[1])
     )
-    return Findings(figures, digits=digits)
 
 
-def _change(value: np.ndarray, reference: np.ndarray) -> float:
-    return float(np.max(np.abs(value - reference)) / np.max(np.abs(reference)))
+def _changes(found: Results, reference: Results) -> dict[str, float]:
+    """Largest change of each result, relative to its largest value."""
+    return {
+        name: float(np.max(np.abs(found[name] - value)) / np.max(np.abs(value)))
+        for name, value in reference.items()
+    }
 
 
 def _digits(change: float) -> float:
@@ -94,52 +86,43 @@ def _digits(change: float) -> float:
     return MOST_DIGITS if change == 0.0 else float(min(MOST_DIGITS, max(0.0, -np.log10(change))))
 
 
-def results_of(solution: ContactSolution, x: np.ndarray) -> dict[str, np.ndarray]:
-    """Pressure, approach, contact length and the largest shear below of a solution."""
-    patches = contact_patches(x, solution.pressure, solution.gap)
-    stress = stress_at(x, solution.pressure, 0.0, 0.5 * (patches[0, 0] + patches[0, 1]), DEPTHS)
+def results_of(contact: LoadedContact) -> Results:
+    """Pressure, approach, contact length and the largest shear below the first patch."""
+    patches = contact.patches
+    middle = 0.5 * (patches[0, 0] + patches[0, 1])
     return {
-        "pressure": solution.pressure,
-        "approach": np.array(solution.approach),
-        "contact length": np.array(np.ptp(patches, axis=1).sum()),
-        "tau1": stress.tau1,
+        "pressure": contact.pressure,
+        "approach": np.array(contact.solution.approach),
+        "contact length": np.array(contact.contact_length),
+        "tau1": stress_at(contact.x, contact.pressure, 0.0, middle, DEPTHS).tau1,
     }
 
 
-def hertz_results(make: Callable[[float], HalfPlane], change: Change) -> dict[str, np.ndarray]:
-    """A cylinder on the operator that `make` gives of a changed modulus."""
+def hertz_results(make: Callable[[float], ModelOperator], change: Change) -> Results:
+    """A cylinder on the operator that `make` returns for a changed modulus."""
     x = PITCH * (np.arange(COUNT) - COUNT // 2)
-    weights = np.full(COUNT, PITCH)
     operator = make(float(change(1.0)))
     gap = change(x**2 / 2.0 / 50.0 * PITCH)
-    load = Constraints(load=float(change(LOAD)))
-    solve = solve_coupled if isinstance(operator, CoupledHalfPlane) else solve_contact
-    return results_of(solve(operator, gap, weights, load), x)
+    return results_of(load_contact(operator, x, gap, Constraints(load=float(change(LOAD)))))
 
 
-def rough_results(change: Change) -> dict[str, np.ndarray]:
+def rough_results(change: Change) -> Results:
     """A rough line."""
-    count = 1024
-    height = change(rough(count))
-    weights = np.ones(count)
-    operator = HalfPlane(count, 1.0, float(change(1.0)))
+    height = change(rough(1024))
+    operator = HalfPlane(1024, 1.0, float(change(1.0)))
     load = Constraints(load=float(change(1.0)))
-    return results_of(
-        solve_contact(operator, -height, weights, load), np.arange(count, dtype=float)
-    )
+    return results_of(load_contact(operator, np.arange(1024.0), -height, load))
 
 
-def finite_results(
-    poissons_ratio: float, stiffness: float, change: Change
-) -> dict[str, np.ndarray]:
-    """Finite elements whose mesh is perturbed point by point; a coating of `stiffness`."""
-    from comparisons.studies.robustness.finite_element.algebra import BONDED
-    from comparisons.studies.robustness.finite_element.bodies import (
+def finite_element_results(poissons_ratio: float, stiffness: float, change: Change) -> Results:
+    """Finite elements whose mesh is perturbed point by point; a coating of modulus `stiffness`."""
+    from comparisons.studies.robustness.finite_element.loaded_body import (
+        BONDED,
+        GRID,
         compliance_of,
         flat_mesh,
-        press_finite,
+        load_body,
     )
-    from comparisons.studies.robustness.finite_element.extremes import GRID
     from fem.body.coating import Coating
     from fem.body.elasticity import elastic_body
 
@@ -151,14 +134,13 @@ def finite_results(
     moved[inner] = change(moved[inner])
     edges = flat.triangles[:, [[0, 1, 3], [1, 2, 4], [2, 0, 5]]].reshape(-1, 3)
     moved[edges[:, 2]] = 0.5 * (moved[edges[:, 0]] + moved[edges[:, 1]])
-    mesh = replace(flat, points=moved)
     material = Material(0.91 * float(change(1.0)), poissons_ratio)
     coating = None if stiffness == 1.0 else Coating(Material(stiffness, 0.3), 0.2)
-    compliance = compliance_of(elastic_body(mesh, material, BONDED, coating=coating), GRID)
+    body = elastic_body(replace(flat, points=moved), material, BONDED, coating=coating)
+    compliance = compliance_of(body)
     gap = change(GRID.hat_integrals(lambda x: x**2 / 100.0))
-    model = HalfPlane(GRID.count, GRID.pitch, 1.0)
-    load = Constraints(load=float(change(np.pi / 4.0 / 50.0 * max(1.0, stiffness))))
-    solution = press_finite(compliance, model, GRID, gap, load).solution
+    load = float(change(np.pi / 4.0 / 50.0 * max(1.0, stiffness)))
+    solution = load_body(compliance, gap, load, modulus=1.0)
     return {
         "pressure": solution.pressure,
         "approach": np.array(solution.approach),
@@ -166,47 +148,48 @@ def finite_results(
     }
 
 
-def cases() -> tuple[Case, ...]:
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
-    elastomer, steel = 0.5 - 1e-9, Material(1.0, 0.3)
 
-    def layered(body: Callable[[float], LayeredBody]) -> Callable[[float], LayeredSurface]:
+    def on_layer(body: Callable[[float], LayeredBody]) -> Callable[[float], LayeredSurface]:
         return lambda modulus: LayeredSurface(COUNT, PITCH, body(modulus))
 
-    makers = {
-        "smooth": (lambda modulus: HalfPlane(COUNT, PITCH, modulus), Digits(11.0, 4.0)),
+    # The layer's own numbers are as exact as its type allows: 1 - 2 nu is not perturbed.
+    elastomer, steel = 0.5 - 1e-9, Material(1.0, 0.3)
+    hertz = {
+        "smooth": (partial(HalfPlane, COUNT, PITCH), 11.0, 4.0),
         "sliding, mu beta = 0.5": (
             lambda modulus: CoupledHalfPlane(COUNT, PITCH, modulus, 0.5),
-            Digits(11.0, 4.0),
+            11.0,
+            4.0,
         ),
         "thin incompressible layer": (
-            layered(
+            on_layer(
                 lambda modulus: LayeredBody(Material(1e-2 * modulus, elastomer), 0.05, "bonded")
             ),
-            Digits(12.0, 6.0),
+            12.0,
+            6.0,
         ),
         "coating 1e6 times as stiff": (
-            layered(lambda modulus: LayeredBody(Material(1e6 * modulus, 0.3), 0.01, steel)),
-            Digits(7.5, 2.0),
+            on_layer(lambda modulus: LayeredBody(Material(1e6 * modulus, 0.3), 0.01, steel)),
+            7.5,
+            2.0,
         ),
     }
-    # Material's own numbers are as exact as its type allows: 1 - 2 nu is not perturbed.
-    half: list[tuple[str, Model, Callable, Digits]] = [
-        (name, "half_plane", partial(hertz_results, make), kept)
-        for name, (make, kept) in makers.items()
+    half_plane = {
+        name: partial(digits_findings, partial(hertz_results, make), *least)
+        for name, (make, *least) in hertz.items()
+    }
+    half_plane["rough"] = partial(digits_findings, rough_results, 11.0, 3.0)
+    finite_element = {
+        name: partial(digits_findings, partial(finite_element_results, *given), *least)
+        for name, given, least in (
+            ("smooth", (0.3, 1.0), (11.0, 5.5)),
+            ("nu = 0.4999", (0.4999, 1.0), (8.5, 5.5)),
+            ("coating 1e6 times as stiff", (0.3, 1e6), (5.0, 5.0)),
+        )
+    }
+    return [
+        *named_cases("half_plane", {"rounding": half_plane}),
+        *named_cases("finite_element", {"rounding": finite_element}),
     ]
-    half.append(("rough", "half_plane", rough_results, Digits(11.0, 3.0)))
-    finite: list[tuple[str, Model, Callable, Digits]] = [
-        ("smooth", "finite_element", partial(finite_results, 0.3, 1.0), Digits(11.0, 5.5)),
-        ("nu = 0.4999", "finite_element", partial(finite_results, 0.4999, 1.0), Digits(8.5, 5.5)),
-        (
-            "coating 1e6 times as stiff",
-            "finite_element",
-            partial(finite_results, 0.3, 1e6),
-            Digits(5.0, 5.0),
-        ),
-    ]
-    return tuple(
-        Case("rounding", name, model, partial(digits_findings, results, kept))
-        for name, model, results, kept in (*half, *finite)
-    )

@@ -1,7 +1,7 @@
-"""Stresses at 1e-12 a below the surface, on edges of elements, at 1e6 a below and beside.
+"""Stresses 1e-12 a below the surface, on edges of elements, 1e6 a below and beside.
 
-References in a hundred digits, at the very doubles that the product is given; each component by its
-own relative error, so that none hides behind a larger one.
+References in a hundred digits at the same doubles. Each component is judged by its own relative
+error, so that none hides behind a larger one.
 """
 
 from collections.abc import Callable
@@ -13,16 +13,15 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.stress.elements import hat_stress
 from analytic.stress.field import stress_field
 from analytic.stress.points import stress_at
-from analytic.stress_state import StressState
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
 from comparisons.studies.robustness.many_digits import hat_parts, hertz_parts
-from comparisons.studies.robustness.row import Case, Figure, Findings
 
 DIGITS = 2e-13  # of each component
 NOTHING = 1e-90  # what a hundred digits leave of zero
 ROUNDING = 4e-15  # of the largest component
 NEAR, FAR = 1e-12, 1e6
 BESIDE = (0.0, 0.01, 0.3, 0.999999, 1.0, 1.0 + 2.0**-52, 1.000001, 3.0, 1e3, FAR)
-AXIS = 1e-9  # so near the axis what is odd in x keeps the digits of the largest component only
+AXIS = 1e-9  # what is odd in x keeps only the digits of the largest component here
 HERTZ = HertzContact(1.0, 1.0, 0.5 * np.pi, 0.5, 1.0)
 COUNT = 65  # hats of a line load seen from afar
 Parts = tuple[float, float, float, float]
@@ -53,18 +52,19 @@ def points_findings(
     exact: Callable[[float, float], Parts],
     z: float,
 ) -> Findings:
-    """One depth, places from the axis to 1e6 beside, the ends among them."""
+    """One depth, places from the axis to 1e6 beside it."""
     x = np.array([*BESIDE, *(-place for place in BESIDE[1:]), AXIS])
     expected = np.array([exact(float(each), z) for each in x])
     given = found(x, z)
     error = component_error(given[:-1], expected[:-1])
     size = np.abs(expected).max(axis=1, keepdims=True)
     whole = float((np.abs(given - expected) / size).max())
-    figures = (
-        Figure("any component", error, DIGITS, "a hundred digits"),
-        Figure("all, of the largest", whole, ROUNDING, "a hundred digits"),
+    return Findings(
+        (
+            BoundedFigure("any component", error, DIGITS, "a hundred digits"),
+            BoundedFigure("all, of the largest", whole, ROUNDING, "a hundred digits"),
+        )
     )
-    return Findings(figures)
 
 
 def line_pressure() -> tuple[np.ndarray, np.ndarray]:
@@ -90,7 +90,8 @@ def line_findings(z: float) -> Findings:
     exact = np.array([summed_exactly(float(each), z) for each in x])
     scale = np.abs(exact).max(axis=1, keepdims=True)
     error = float((np.abs(found - exact) / scale).max())
-    return Findings((Figure("stress", error, 1e-13, "a hundred digits, of the largest component"),))
+    reference = "a hundred digits, of the largest component"
+    return Findings((BoundedFigure("stress", error, 1e-13, reference),))
 
 
 def surface_findings() -> Findings:
@@ -102,51 +103,36 @@ def surface_findings() -> Findings:
     off = np.abs(field.stress.sz[0] + carried)[on_nodes].max()
     shear = np.abs(field.stress.txz[0] + 0.3 * carried)[on_nodes].max()
     below = np.abs(field.stress.sz[1] + carried).max() / carried.max()
-    figures = (
-        Figure("sz on the surface", float(off), 0.0, "the pressure, exactly"),
-        Figure("txz on the surface", float(shear), 1e-16, "the traction, exactly"),
-        Figure("sz at 1e-12", float(below), 1e-10, "the pressure"),
+    return Findings(
+        (
+            BoundedFigure("sz on the surface", float(off), 0.0, "the pressure, exactly"),
+            BoundedFigure("txz on the surface", float(shear), 1e-16, "the traction, exactly"),
+            BoundedFigure("sz at 1e-12", float(below), 1e-10, "the pressure"),
+        )
     )
-    return Findings(figures)
 
 
 def resultant_findings() -> Findings:
-    """At 1e6 a the field is the resultant's line load: Flamant's, with the dipole next to none."""
+    """At 1e6 a the field is that of the resultant, Flamant's."""
     nodes, pressure = line_pressure()
     load = pressure.sum() / 32.0
     angle = np.linspace(0.05, np.pi - 0.05, 25)
     x, z = FAR * np.cos(angle), FAR * np.sin(angle)
     stress = stress_at(nodes, pressure, 0.0, x, z)
     radial = -2.0 * load * np.sin(angle) / (np.pi * FAR)
-    exact = StressState(
-        radial * np.cos(angle) ** 2,
-        radial * np.sin(angle) ** 2,
-        radial * np.cos(angle) * np.sin(angle),
-    )
-    error = (
-        max(
-            float(np.abs(a - b).max())
-            for a, b in zip(vars(stress).values(), vars(exact).values(), strict=True)
-        )
-        / np.abs(radial).max()
-    )
-    return Findings((Figure("stress", error, 1e-5, "Flamant, of order 1/distance"),))
+    cosine, sine = np.cos(angle), np.sin(angle)
+    exact = np.array([radial * cosine**2, radial * sine**2, radial * cosine * sine])
+    found = np.array([stress.sx, stress.sz, stress.txz])
+    error = float(np.abs(found - exact).max() / np.abs(radial).max())
+    return Findings((BoundedFigure("stress", error, 1e-5, "Flamant, of order 1/distance"),))
 
 
-def cases() -> tuple[Case, ...]:
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
-    depths = {"1e-12 a": NEAR, "1e-3 a": 1e-3, "a": 1.0, "1e6 a": FAR}
-    rows = [
-        (f"{name}, at {said} below", partial(points_findings, found, exact, z))
-        for name, found, exact in (
-            ("one hat", hat_at, hat_parts),
-            ("Hertz", hertz_at, hertz_parts),
-        )
-        for said, z in depths.items()
-    ]
-    rows += [
-        (f"a line of hats, at {said} below", partial(line_findings, z))
-        for said, z in depths.items()
-    ]
-    rows += [("on the surface", surface_findings), ("1e6 a away", resultant_findings)]
-    return tuple(Case("stress", name, "half_plane", solve) for name, solve in rows)
+    named = {}
+    for label, z in {"1e-12 a": NEAR, "1e-3 a": 1e-3, "a": 1.0, "1e6 a": FAR}.items():
+        named[f"one hat, at {label} below"] = partial(points_findings, hat_at, hat_parts, z)
+        named[f"Hertz, at {label} below"] = partial(points_findings, hertz_at, hertz_parts, z)
+        named[f"a line of hats, at {label} below"] = partial(line_findings, z)
+    named |= {"on the surface": surface_findings, "1e6 a away": resultant_findings}
+    return named_cases("half_plane", {"stress": named})

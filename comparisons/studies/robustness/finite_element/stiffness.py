@@ -1,7 +1,7 @@
 """Stiffness matrices at their worst: backward errors of MUMPS, conditions, exact states of strain.
 
-The ratio of LAPACK's tests must stay below its threshold whatever the condition is. A state that
-the elements hold exactly must come out to rounding, which the condition may magnify:
+LAPACK's test ratio must stay below its threshold whatever the condition number is. A state that the
+elements represent exactly must come out to rounding, which the condition may magnify.
 """
 
 from collections.abc import Callable
@@ -11,25 +11,28 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from analytic.material import Material
-from comparisons.studies.robustness.backward import (
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.robustness.backward_error import (
     EPS,
     THRESHOLD,
     backward_ratio,
     condition_estimate,
     one_norm,
 )
-from comparisons.studies.robustness.finite_element.bodies import flat_mesh
-from comparisons.studies.robustness.row import Case, Figure, Findings
+from comparisons.studies.robustness.finite_element.loaded_body import (
+    BONDED,
+    flat_mesh,
+    rough_mesh,
+)
 from fem.body.coating import Coating
 from fem.body.elasticity import ElasticBody, elastic_body
 from fem.body.support import Support
 from fem.body.surface import hat_forces
 from meshes.block import BlockMesh
-from meshes.real_shape import roughen
 
-BONDED, EVEN = Support("bonded", "fixed"), Support("frictionless", "rollers")
+EVEN = Support("frictionless", "rollers")
 STEEL = Material(207e9, 0.3)
-GIVEN_BACK = 1e-8  # of a state that the elements hold, whatever the condition
+GIVEN_BACK = 1e-8  # error of a state that the elements represent, whatever the condition
 
 
 def solved_free(body: ElasticBody, right: np.ndarray) -> np.ndarray:
@@ -42,7 +45,7 @@ def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
     body = make()
     matrix = csr_matrix(body.stiffness())
     rng = np.random.default_rng(5)
-    forces = np.where(body.held, 0.0, rng.standard_normal(body.nodes.shape))
+    forces = rng.standard_normal(body.nodes.shape)
     load = np.zeros(body.nodes.shape)
     x = body.surface.x
     hats = np.linspace(0.25 * x[0], 0.25 * x[-1], 7)
@@ -52,7 +55,7 @@ def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
         "one hat": np.where(body.held, 0.0, load).ravel(),
     }
     figures = [
-        Figure(
+        BoundedFigure(
             f"backward error, {name}",
             backward_ratio(matrix, solved_free(body, right), right),
             THRESHOLD,
@@ -61,7 +64,7 @@ def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
         for name, right in ratios.items()
     ]
     held = body.held.ravel()
-    # held rows are the identity's: what they add to the condition is their scale, not the body's
+    # held rows are the identity's, whose scale is none of the body's
     free = np.flatnonzero(~held)
 
     def inverse(right: np.ndarray) -> np.ndarray:
@@ -71,12 +74,12 @@ def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
 
     condition = condition_estimate(matrix[free][:, free], inverse)
     symmetry = abs(matrix - matrix.T).max() / abs(matrix).max()
-    figures.append(Figure("asymmetry", float(symmetry), 1e-14, "none"))
+    figures.append(BoundedFigure("asymmetry", float(symmetry), 1e-14, "none"))
     return Findings(tuple(figures), condition=condition)
 
 
 def even_findings(make: Callable[[], ElasticBody]) -> Findings:
-    """Even compression, which elements of any shape hold exactly, under rough ground too.
+    """Even compression, which elements of any shape represent, below a rough boundary, too.
 
     uz = depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu).
     """
@@ -98,9 +101,9 @@ def even_findings(make: Callable[[], ElasticBody]) -> Findings:
     error = np.abs(body.solve(load) - moved).max() / np.abs(moved).max()
     return Findings(
         (
-            Figure("displacement", float(error), GIVEN_BACK, "even compression, exact"),
-            Figure("forces inside", float(ratio), THRESHOLD, "none, as LAPACK's test ratio"),
-            Figure("resultant", float(carried), GIVEN_BACK, "even compression, exact"),
+            BoundedFigure("displacement", float(error), GIVEN_BACK, "even compression, exact"),
+            BoundedFigure("forces inside", float(ratio), THRESHOLD, "none, as LAPACK's test ratio"),
+            BoundedFigure("resultant", float(carried), GIVEN_BACK, "even compression, exact"),
         )
     )
 
@@ -115,17 +118,7 @@ def body_on(
     return elastic_body(mesh(), material, support, degree=degree, coating=coating)
 
 
-def rough_on(slope: float) -> Callable[[], BlockMesh]:
-    """A block whose top is a sinusoid of this rms slope, which fades beyond the refined ground."""
-
-    def height(x: np.ndarray) -> np.ndarray:
-        fading = np.exp(-((x / 2.0) ** 8))
-        return fading * slope * np.sqrt(2.0) / np.pi * np.cos(np.pi * x)
-
-    return lambda: roughen(flat_mesh(8.0, 8.0, 3.0, 0.05), height)
-
-
-def cases() -> tuple[Case, ...]:
+def cases() -> list[CheckedCase]:
     """The cases of this module."""
     plain = partial(flat_mesh, 40.0, 40.0, 1.5, 0.1)
     graded = partial(flat_mesh, 1.0, 1.0, 1e-6, 1e-7, 0.5)
@@ -138,7 +131,7 @@ def cases() -> tuple[Case, ...]:
         "nu = 0.5 less 1e-9, cubic": partial(body_on, plain, Material(1.0, 0.5 - 1e-9), degree=3),
         "grading of 1e7": partial(body_on, graded),
         "a sheet 800 times as wide as thick": partial(body_on, thin),
-        "rms slope 1": partial(body_on, rough_on(1.0)),
+        "rms slope 1": partial(body_on, partial(rough_mesh, 1.0)),
         "modulus 1e-12 Pa": partial(body_on, plain, Material(1e-12, 0.3)),
     }
     coatings = {
@@ -147,16 +140,14 @@ def cases() -> tuple[Case, ...]:
         )
         for ratio in (1e6, 1e-6)
     }
-    rows = [(name, partial(factor_findings, make)) for name, make in (bodies | coatings).items()]
     even = {
         "ordinary": partial(body_on, plain, support=EVEN),
         "nu = 0.4999": partial(body_on, plain, Material(1.0, 0.4999), EVEN),
         "cubic, nu = 0.4999": partial(body_on, plain, Material(1.0, 0.4999), EVEN, 3),
         "linear": partial(body_on, plain, support=EVEN, degree=1),
         "grading of 1e7": partial(body_on, graded, support=EVEN),
-        "rms slope 1": partial(body_on, rough_on(1.0), support=EVEN),
+        "rms slope 1": partial(body_on, partial(rough_mesh, 1.0), support=EVEN),
     }
-    rows += [
-        (f"even compression, {name}", partial(even_findings, make)) for name, make in even.items()
-    ]
-    return tuple(Case("stiffness", name, "finite_element", solve) for name, solve in rows)
+    named = {name: partial(factor_findings, make) for name, make in (bodies | coatings).items()}
+    named |= {f"even compression, {name}": partial(even_findings, m) for name, m in even.items()}
+    return named_cases("finite_element", {"stiffness": named})

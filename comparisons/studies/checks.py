@@ -1,0 +1,337 @@
+"""Cases whose figures must lie within bounds, for `verify` and `stability`: run, show, write.
+
+A case that raises is a row that fails with the error's message. A case without a figure has shown
+nothing and fails, too.
+"""
+
+import math
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from time import process_time
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+from comparisons.common.errors import ExitStatus, InputError, one_line
+from comparisons.common.files import check_writable, published
+from comparisons.common.model_names import LABELS
+from comparisons.common.mpi import is_first
+from comparisons.common.progress import ProgressCallback, Step, no_progress
+from comparisons.common.provenance import as_json, machine, versions
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+
+SCHEMA = 2
+MODEL_LABELS = LABELS | {"layer": "analytic layer", "both": "both"}
+COLUMNS = ("model", "case", "holds", "figure", "value", "bound", "cond.", "cost x", "s")
+
+
+@dataclass(frozen=True)
+class BoundedFigure:
+    """A dimensionless number that must lie between `low` and `high`, both included.
+
+    name       what was measured
+    reference  what it is compared with
+    note       more about it, for JUnit
+    """
+
+    name: str
+    value: float
+    high: float
+    reference: str
+    low: float = 0.0
+    note: str = ""
+
+    @property
+    def holds(self) -> bool:
+        return bool(math.isfinite(self.value) and self.low <= self.value <= self.high)
+
+    @property
+    def excess(self) -> float:
+        """By what factor the value is beyond its nearer bound."""
+        if not math.isfinite(self.value):
+            return math.inf
+        above = self.value / self.high if self.high > 0.0 else math.inf
+        below = self.low / self.value if self.value > 0.0 else math.inf
+        return above if self.value > self.high else below
+
+    @property
+    def bounds(self) -> str:
+        """As text."""
+        return f"{self.low:.4g} to {self.high:.4g}" if self.low else f"at most {self.high:.4g}"
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        fields = asdict(self) | {"holds": self.holds}
+        del fields["note"]
+        return fields
+
+
+def order_figure(
+    name: str, order: float, expected: float, margin: float, reference: str
+) -> BoundedFigure:
+    """An observed order of convergence: one above the expected order is a mistake, too."""
+    return BoundedFigure(name, float(order), expected + margin, reference, expected - margin)
+
+
+def relative_error(
+    name: str, found: float, expected: float, high: float, reference: str
+) -> BoundedFigure:
+    """|found / expected - 1|."""
+    return BoundedFigure(name, float(abs(found / expected - 1.0)), high, reference)
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What a case found.
+
+    figures    decide; the first is what the case is about
+    condition  estimated condition number of its matrix, None where it has none
+    cost       iterations by name; `times_the_ordinary` is their ratio to the ordinary case's
+    """
+
+    figures: tuple[BoundedFigure, ...]
+    condition: float | None = None
+    cost: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class CheckedCase:
+    """A named case of a model; `solve` computes its figures."""
+
+    group: str
+    name: str
+    model: str
+    solve: Callable[[], Findings]
+
+
+def named_cases(
+    model: str, groups: Mapping[str, Mapping[str, Callable[[], Findings]]]
+) -> list[CheckedCase]:
+    """The cases of a model by their groups and names."""
+    return [
+        CheckedCase(group, name, model, solve)
+        for group, named in groups.items()
+        for name, solve in named.items()
+    ]
+
+
+@dataclass(frozen=True)
+class CheckedRow:
+    """A case with its findings; `error` is the message of what it raised, else None."""
+
+    case: CheckedCase
+    findings: Findings
+    error: str | None
+    seconds: float
+
+    @property
+    def holds(self) -> bool:
+        figures = self.findings.figures
+        return self.error is None and bool(figures) and all(f.holds for f in figures)
+
+    @property
+    def decisive(self) -> BoundedFigure | None:
+        """The figure that fails by most, or else the one that the case is about."""
+        figures = self.findings.figures
+        failed = [figure for figure in figures if not figure.holds]
+        return max(failed, key=lambda f: f.excess, default=figures[0] if figures else None)
+
+    @property
+    def faults(self) -> list[str]:
+        """A line for each figure that does not hold, for an error, or for the lack of figures."""
+        label = f"{self.case.model}, {self.case.group}, {self.case.name}"
+        if self.error is not None or not self.findings.figures:
+            return [f"{label}: {self.error or 'no figures'}"]
+        failed = [figure for figure in self.findings.figures if not figure.holds]
+        return [f"{label}, {f.name}: {f.value:.4g}, expected {f.bounds}" for f in failed]
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        return {
+            "group": self.case.group,
+            "case": self.case.name,
+            "model": self.case.model,
+            "holds": self.holds,
+            "figures": [figure.as_dict() for figure in self.findings.figures],
+            "condition": self.findings.condition,
+            "cost": self.findings.cost,
+            "seconds": self.seconds,
+            "error": self.error,
+        }
+
+
+def run_case(case: CheckedCase) -> CheckedRow:
+    """The row of a case, whatever it raises except an interrupt."""
+    start = process_time()
+    findings, error = Findings(()), None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # an overflow shows in the figures
+            findings = case.solve()
+    except Exception as raised:
+        error = one_line(f"{type(raised).__name__}: {raised}")
+    return CheckedRow(case, findings, error, process_time() - start)
+
+
+def run_cases(
+    cases: Iterable[CheckedCase], callback: ProgressCallback = no_progress
+) -> tuple[CheckedRow, ...]:
+    """The rows of all cases."""
+    cases, rows = tuple(cases), []
+    for number, case in enumerate(cases, start=1):
+        failed = sum(not row.holds for row in rows)
+        name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
+        name += f"{case.model}: {case.group}: {case.name}"
+        callback(Step(name, (number - 1) / len(cases)))
+        rows.append(run_case(case))
+    return tuple(rows)
+
+
+@dataclass(frozen=True)
+class CheckedStudy:
+    """All rows of a command, and the seconds that they took together."""
+
+    command: str
+    rows: tuple[CheckedRow, ...]
+    seconds: float
+
+    @property
+    def faults(self) -> list[str]:
+        """What does not hold, a line each."""
+        return [line for row in self.rows for line in row.faults] or ["no rows"] * (not self.rows)
+
+    @property
+    def holds(self) -> bool:
+        return not self.faults
+
+    @property
+    def exit_status(self) -> ExitStatus:
+        return ExitStatus.DONE if self.holds else ExitStatus.OUTSIDE_TOLERANCE
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        passed = sum(row.holds for row in self.rows)
+        return {
+            "schema": SCHEMA,
+            "holds": self.holds,
+            "faults": self.faults,
+            "passed": passed,
+            "failed": len(self.rows) - passed,
+            "rows": [row.as_dict() for row in self.rows],
+            "seconds": self.seconds,
+            "versions": versions(),
+            "machine": machine(),
+        }
+
+
+def check_places(out: Path, junit: Path | None) -> None:
+    """Raise InputError unless the folder `out` and the file `junit` can be written."""
+    check_writable(out)
+    if junit is not None:
+        if junit.is_dir():
+            raise InputError(f"{junit}: cannot be written: it is a folder; allowed is a file")
+        check_writable(junit.parent)
+
+
+def write_study(
+    study: CheckedStudy, out: Path, junit: Path | None, page: str | None = None
+) -> None:
+    """Leave <command>.json, and .html where there is a page, in `out`; JUnit XML in `junit`."""
+    if not is_first():
+        return
+    files = {f"{study.command}.json": as_json(_without_nan(study.as_dict()))}
+    if page is not None:
+        files[f"{study.command}.html"] = page
+    with published(out, tuple(files)) as folder:
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+    if junit is not None:
+        with published(junit.parent, ()) as folder:
+            (folder / junit.name).write_text(junit_xml(study), encoding="utf-8")
+
+
+def _without_nan(value: object) -> object:
+    """JSON has neither NaN nor infinity: None stands for both."""
+    if isinstance(value, dict):
+        return {key: _without_nan(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_without_nan(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def junit_xml(study: CheckedStudy) -> str:
+    """JUnit XML for continuous integration: a testcase for each figure, or for an error."""
+    suites = ElementTree.Element("testsuites", name=f"crosscheck {study.command}")
+    suite = ElementTree.SubElement(suites, "testsuite", name=study.command)
+    for row in study.rows:
+        for name, text, failure in _testcases(row):
+            case = ElementTree.SubElement(
+                suite, "testcase", classname=f"{study.command}.{row.case.model}", name=name
+            )
+            if failure is not None:
+                ElementTree.SubElement(case, "failure", message=f"{failure}: {text}")
+            ElementTree.SubElement(case, "system-out").text = text
+    counts = {
+        "tests": len(suite),
+        "failures": len(suite.findall("testcase/failure")),
+        "errors": 0,
+        "skipped": 0,
+        "time": f"{study.seconds:.3f}",
+    }
+    suite.attrib.update({name: str(count) for name, count in counts.items()})
+    ElementTree.indent(suites)
+    return ElementTree.tostring(suites, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def _testcases(row: CheckedRow) -> list[tuple[str, str, str | None]]:
+    """Name, text and failure of each testcase of a row."""
+    name = f"{row.case.group}: {row.case.name}"
+    if row.error is not None or not row.findings.figures:
+        return [(name, row.error or "no figures", "no figures")]
+    return [
+        (
+            f"{name}: {f.name}",
+            f"{f.value:.6g}, expected {f.bounds} ({f.reference}){f.note and '; '}{f.note}",
+            None if f.holds else "out of bounds",
+        )
+        for f in row.findings.figures
+    ]
+
+
+def rows_table(rows: Sequence[CheckedRow]) -> "Table":
+    """The rows for a terminal, each with its decisive figure."""
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(*COLUMNS)
+    for row in rows:
+        shown, cost = row.decisive, row.findings.cost.get("times_the_ordinary")
+        condition = row.findings.condition
+        table.add_row(
+            MODEL_LABELS[row.case.model],
+            Text(f"{row.case.group}: {row.case.name}"),
+            Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
+            Text(row.error or (f"{shown.name} ({shown.reference})" if shown else "no figures")),
+            f"{shown.value:.2g}" if shown else "",
+            shown.bounds if shown else "",
+            "" if condition is None else f"{condition:.0e}",
+            "" if cost is None else f"{cost:.1f}",
+            f"{row.seconds:.1f}",
+        )
+    return table
+
+
+def verdict_lines(study: CheckedStudy) -> "RenderableType":
+    """What does not hold, and how many rows hold."""
+    from rich.console import Group
+    from rich.text import Text
+
+    passed = sum(row.holds for row in study.rows)
+    verdict = Text("HOLDS" if study.holds else "DOES NOT HOLD", style="bold")
+    verdict.append(f"  {passed} of {len(study.rows)} cases hold, {study.seconds:.0f} s", "not bold")
+    faults = [Text(f"does not hold: {line}", style="bold red") for line in study.faults]
+    return Group(*faults, verdict)
