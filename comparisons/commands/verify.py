@@ -22,8 +22,8 @@ def verify(
 
 
 def _verify(out: Path | None, junit: Path | None, as_json: bool) -> int:
+    from comparisons.studies.verify.run import verify as verify_all
     from comparisons.studies.verify.table import verify_summary
-    from comparisons.studies.verify.verify import verify as verify_all
 
     directory = out or RESULTS / "verify"
     with progress() as callback:

@@ -61,6 +61,8 @@ class BoundedFigure:
     @property
     def bounds(self) -> str:
         """As text."""
+        if math.isinf(self.high):
+            return f"at least {self.low:.4g}"
         return f"{self.low:.4g} to {self.high:.4g}" if self.low else f"at most {self.high:.4g}"
 
     def as_dict(self) -> dict:
@@ -307,21 +309,27 @@ def rows_table(rows: Sequence[CheckedRow]) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(*COLUMNS)
+    cells = []
     for row in rows:
         shown, cost = row.decisive, row.findings.cost.get("times_the_ordinary")
         condition = row.findings.condition
-        table.add_row(
-            MODEL_LABELS[row.case.model],
-            Text(f"{row.case.group}: {row.case.name}"),
-            Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
-            Text(row.error or (f"{shown.name} ({shown.reference})" if shown else "no figures")),
-            f"{shown.value:.2g}" if shown else "",
-            shown.bounds if shown else "",
-            "" if condition is None else f"{condition:.0e}",
-            "" if cost is None else f"{cost:.1f}",
-            f"{row.seconds:.1f}",
+        cells.append(
+            (
+                MODEL_LABELS[row.case.model],
+                Text(f"{row.case.group}: {row.case.name}"),
+                Text("yes", style="green") if row.holds else Text("NO", style="bold red"),
+                Text(row.error or (f"{shown.name} ({shown.reference})" if shown else "no figures")),
+                f"{shown.value:.2g}" if shown else "",
+                shown.bounds if shown else "",
+                "" if condition is None else f"{condition:.0e}",
+                "" if cost is None else f"{cost:.1f}",
+                f"{row.seconds:.1f}",
+            )
         )
+    filled = [k for k in range(len(COLUMNS)) if any(row[k] for row in cells)]
+    table = Table(*(COLUMNS[k] for k in filled))
+    for row in cells:
+        table.add_row(*(row[k] for k in filled))
     return table
 
 

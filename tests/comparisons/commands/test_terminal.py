@@ -179,7 +179,7 @@ def test_scenes_as_json(capsys):
 @pytest.mark.parametrize(
     ("name", "module", "function"),
     [
-        ("verify", "comparisons.studies.verify.verify", "verify"),
+        ("verify", "comparisons.studies.verify.run", "verify"),
         ("cost", "comparisons.studies.cost.cost", "cost"),
     ],
 )

@@ -191,7 +191,7 @@ def test_an_ignored_interrupt_stays_ignored(folder):
     ("command", "work"),
     [
         ("paper", "studies.paper.reproduce.paper"),
-        ("stability", "studies.robustness.run.run_stability"),
+        ("stability", "studies.robustness.run.run_robustness"),
     ],
 )
 def test_a_command_that_keeps_nothing_says_so(tmp_path, monkeypatch, capsys, command, work):

@@ -11,7 +11,7 @@ from comparisons.studies.verify.manufactured import (
     BODY,
     Exact,
     errors,
-    manufactured_orders,
+    manufactured_findings,
     skewed,
 )
 from fem.body import elasticity
@@ -23,9 +23,9 @@ from meshes.real_shape import roughen
 @pytest.mark.parametrize("degree", [1, 2, 3])
 @pytest.mark.parametrize("kind", BODIES)
 def test_orders(kind, degree):
-    checks = manufactured_orders(kind, degree)
-    assert len(checks) == 4
-    assert [check for check in checks if not check.holds] == []
+    figures = manufactured_findings(kind, degree).figures
+    assert len(figures) == 4
+    assert [figure for figure in figures if not figure.holds] == []
 
 
 @pytest.mark.parametrize("kind", BODIES)

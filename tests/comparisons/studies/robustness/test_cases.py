@@ -1,0 +1,120 @@
+"""The half-plane's stiff and extreme cases: they hold, and fail when what they test is broken.
+
+Requirement: every row can fail. Kernels and solvers are each broken slightly, and the rows that
+are meant for them must see it.
+"""
+
+from functools import partial
+
+import numpy as np
+import pytest
+
+from analytic.contact import problem as contact
+from analytic.layers import layered
+from analytic.operators import half_plane as operators
+from analytic.operators.elements import hat_galerkin
+from analytic.stress import elements as stress_elements
+from comparisons.studies.checks import run_case
+from comparisons.studies.robustness import loaded_contact
+from comparisons.studies.robustness.backward_error import THRESHOLD
+from comparisons.studies.robustness.cases import (
+    algebra,
+    friction,
+    layers,
+    rough,
+    rounding,
+    smooth,
+    stresses,
+)
+
+SLOW = ("1000000 p", "65536 points", "a line of hats")
+
+
+@pytest.mark.parametrize("module", [smooth, rough, friction, layers, stresses, algebra])
+def test_quick_cases_hold(module):
+    rows = [run_case(case) for case in module.cases() if not case.name.startswith(SLOW)]
+    assert rows and [fault for row in rows for fault in row.faults] == []
+
+
+def test_a_broken_kernel_fails_the_rows(monkeypatch, row_of):
+    def bent(offset: np.ndarray) -> np.ndarray:
+        """The hat's coefficients, those of neighbours a thousandth off."""
+        return hat_galerkin(offset) * np.where(np.abs(offset) == 1.0, 1.001, 1.0)
+
+    monkeypatch.setattr(operators, "hat_galerkin", bent)
+    cached = (smooth.ordinary_shape, loaded_contact.ordinary_applications)
+    for each in cached:
+        each.cache_clear()
+    try:
+        broken = row_of(smooth, "ordinary: steel on steel"), row_of(rough, "rms slope 1")
+        mirror = row_of(rough, "profile reversed")
+    finally:
+        for each in cached:
+            each.cache_clear()
+    assert [row.decisive.name for row in broken if not row.holds] == 2 * ["gap against pressure"]
+    assert mirror.holds  # a symmetric mistake cannot be seen from behind
+
+
+def test_a_broken_solver_fails_the_rows(monkeypatch, row_of):
+    def loose(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+        return np.linalg.solve(matrix, right).astype(np.float32).astype(float)
+
+    monkeypatch.setattr("analytic.operators.convolution.cholesky_solve", loose)
+    row = row_of(algebra, "half-plane, 120 scattered nodes")
+    assert not row.holds and row.decisive.value > 1e3 * THRESHOLD
+    assert not row_of(rough, "plateau, heavy").holds
+
+
+def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch, row_of):
+    original = contact.exchange_blocks
+
+    def hasty(problem, start, **settled):
+        return np.maximum(original(problem, start, **settled), 1e-6)
+
+    monkeypatch.setattr(contact, "exchange_blocks", hasty)
+    assert not row_of(rough, "load 1e-12 of modulus times length").holds
+
+
+def test_a_broken_layer_fails_the_rows(monkeypatch, row_of):
+    original = layered.normal
+    monkeypatch.setattr(layered, "normal", lambda layer, w: original(layer, w) * (1.0 + 1e-12))
+    assert not row_of(layers, "waves: coating 1e6 times as stiff").holds
+
+
+def test_stresses_that_cancel_far_away_fail_the_row(monkeypatch, row_of):
+    monkeypatch.setattr(stress_elements, "NEAREST", 1e9)
+    row = row_of(stresses, "one hat, at 1e6 a below")
+    assert not row.holds and row.decisive.value > 1e3
+
+
+def test_a_length_that_is_not_in_proportion_fails_the_units(monkeypatch, row_of):
+    monkeypatch.setattr(rough, "HalfPlane", partial(operators.HalfPlane, datum=10.0))
+    assert not row_of(rough, "lengths in pm").holds
+
+
+def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch, row_of):
+    original = friction.CoupledHalfPlane
+    monkeypatch.setattr(
+        friction, "CoupledHalfPlane", lambda *given: original(*given[:3], -given[3])
+    )
+    assert not row_of(friction, "friction 1, rigid on nu = 0").holds
+
+
+def test_digits_are_those_that_perturbation_leaves():
+    def results(change, loss):
+        return {"sum": change(1.0) - loss}
+
+    whole = rounding.digits_findings(partial(results, loss=0.0), 14.0, 6.0)
+    digits = {figure.name: figure.value for figure in whole.figures}
+    assert digits["digits of sum"] > 14.5
+    cancelled = rounding.digits_findings(partial(results, loss=1.0 - 1e-6), 14.0, 6.0)
+    digits = {figure.name: figure.value for figure in cancelled.figures}
+    assert 8.5 < digits["digits of sum"] < 10.0
+    assert not all(figure.holds for figure in cancelled.figures)
+
+
+@pytest.mark.parametrize("name", ["smooth", "thin incompressible layer"])
+def test_digits_of_a_contact(name, row_of):
+    row = row_of(rounding, name)
+    [approach] = [f.value for f in row.findings.figures if f.name == "digits of approach"]
+    assert row.holds and approach > 12.0

@@ -1,0 +1,124 @@
+"""Pairs of stated uncertainty and true error, their coverage, and observed orders."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import pytest
+
+from comparisons.common.errors import ExitStatus
+from comparisons.studies.checks import CheckedCase, CheckedRow, junit_xml
+from comparisons.studies.verify.coverage import (
+    Pair,
+    Verification,
+    coverage,
+    coverage_case,
+    exact_findings,
+    observed_order,
+    verification,
+)
+from comparisons.studies.verify.table import coverage_line, verify_page
+
+
+def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
+    exact = 2.0
+    given = {
+        "case": "case <&>",
+        "source": "source",
+        "kind": "Hertz",
+        "model": "half_plane",
+        "quantity": "contact_length",
+        "levels": (1.9, 1.95, exact * (1.0 + error)),
+        "exact": exact,
+        "uncertainty": (0.0, stated, 0.0),
+        "scale": exact,
+        "behaviour": "monotone",
+        "order": 1.0,
+        "converged": True,
+    }
+    return Pair(**(given | others))
+
+
+def whole(pairs: Iterable[Pair], error: str | None = None) -> Verification:
+    """The verification of one row with these pairs."""
+    case = CheckedCase("Hertz", "case <&>", "half_plane", lambda: None)
+    return verification((CheckedRow(case, exact_findings(pairs), error, 0.0),), 0.0, 200)
+
+
+ENOUGH = [pair()] * 200
+
+
+def test_an_error_within_the_uncertainty_is_covered():
+    assert pair(1e-3, 1.001e-3).covered and not pair(1e-3, 0.999e-3).covered
+    assert not pair(-1e-3, 0.999e-3).covered
+    assert pair(-1e-3, 2e-3).overestimation == pytest.approx(2.0)
+    parts = pair(-1e-3, uncertainty=(1e-3, 2e-3, 4e-3))
+    assert parts.overestimation == pytest.approx(7.0)
+
+
+def test_an_error_of_rounding_is_not_informative():
+    rounded = pair(1e-14, 0.0)
+    assert rounded.covered and not rounded.informative and rounded.overestimation is None
+    found = coverage([rounded, pair(), pair(stated=0.5e-3)])
+    assert (found.count, found.informative, found.covered) == (3, 2, 0.5)
+    assert found.median_overestimation == pytest.approx(1.25)
+
+
+def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
+    assert pair().figure.holds
+    assert not pair(error=0.1, stated=1.0).figure.holds
+    assert not pair(converged=False).figure.holds
+    largest = pair(error=0.03, quantity="tau1_max")
+    assert replace(largest, kind="surface").figure.holds and not largest.figure.holds
+
+
+@pytest.mark.parametrize(
+    ("pairs", "holds"),
+    [
+        ([pair()] * 95 + [pair(stated=0.0)] * 5, True),
+        ([pair()] * 94 + [pair(stated=0.0)] * 6, False),
+        ([pair(stated=6e-3)] * 100, False),
+        ([], False),
+    ],
+)
+def test_coverage_needs_both_a_share_and_a_ratio(pairs, holds):
+    figures = coverage_case(pairs, fewest=0).solve().figures
+    assert all(figure.holds for figure in figures) is holds
+
+
+@pytest.mark.parametrize(
+    ("pairs", "error"),
+    [
+        (ENOUGH, "no solution"),
+        (ENOUGH[1:], None),
+        ([*ENOUGH, pair(error=0.1, stated=1.0)], None),
+        ([pair(stated=0.0)] * 200, None),
+        ([pair(stated=1.0)] * 200, None),
+    ],
+)
+def test_all_must_hold(pairs, error):
+    assert whole(ENOUGH).holds
+    broken = whole(pairs, error)
+    assert not broken.holds and len(broken.faults) == 1
+    assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
+    [suite] = ElementTree.fromstring(junit_xml(broken).encode())
+    assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
+    assert "Does not hold" in verify_page(broken)
+
+
+def test_one_miss_among_many_is_reported_but_does_not_fail():
+    missed = whole([*ENOUGH, pair(stated=0.0)])
+    [suite] = ElementTree.fromstring(junit_xml(missed).encode())
+    assert missed.holds and suite.get("failures") == "0"
+    assert "NOT covered" in suite[200].find("system-out").text
+    assert "case &lt;&amp;&gt;" in verify_page(missed)
+
+
+def test_coverage_is_rounded_down():
+    assert coverage_line(whole([pair()] * 1999 + [pair(stated=0.0)])) == "coverage 99 %"
+    assert coverage_line(whole(ENOUGH)) == "coverage 100 %"
+    assert coverage_line(whole([])) == "coverage 0 %"
+
+
+def test_an_observed_order_is_of_the_root_mean_square():
+    assert observed_order([[16.0, -4.0, 1.0], [-32.0, 7.0, -2.0]]) == pytest.approx(2.0)
