@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 
 from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable, published
-from comparisons.common.model_names import LABELS
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
+from comparisons.common.quantities import LABELS
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

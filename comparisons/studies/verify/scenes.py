@@ -20,11 +20,10 @@ from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, s
 from analytic.exact.gallery import STEEL, exact_contacts
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
-from comparisons.assessment.comparison import figures, uncertainties
+from comparisons.assessment.comparison import figures, relative_l2, uncertainties
 from comparisons.assessment.refinement import refined
-from comparisons.common.model_names import MODELS
 from comparisons.common.progress import no_progress
-from comparisons.common.quantities import QUANTITIES, relative_l2
+from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
