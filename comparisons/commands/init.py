@@ -28,18 +28,17 @@ def init(
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.studies.init.asked import asked_fields
-    from comparisons.studies.init.begin import begin
+    from comparisons.studies.init.first_scene import given_fields, write_first_scene
 
-    asked = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
-    begun = begin(profile, out, asked_fields(asked), force)
+    options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
+    made = write_first_scene(profile, out, given_fields(options), force)
     if as_json:
-        show_json(begun.as_dict())
+        show_json(made.as_dict())
         return ExitStatus.DONE
     from rich.console import Console
 
     from comparisons.studies.init.table import init_table
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
-    show(init_table(begun, Console().width - 1 if is_watched() else None, unicode))
+    show(init_table(made, Console().width - 1 if is_watched() else None, unicode))
     return ExitStatus.DONE

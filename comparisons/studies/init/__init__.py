@@ -1,1 +1,1 @@
-"""A first scene for a measured profile: what the file is, a look at it, a commented scene file."""
+"""A first scene for a measured profile: read with guessed units, shown, written with comments."""

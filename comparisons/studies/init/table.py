@@ -2,29 +2,34 @@
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from comparisons.common.numbers import significant, with_unit
 from comparisons.report.tables.problem import in_mm
 from comparisons.report.terminal import PLAIN
 from comparisons.results.plausibility import warnings_about_surface
 from comparisons.scenes.scene import ProfileInfo
-from comparisons.studies.init.begin import Begun
-from comparisons.studies.init.dots import drawn
+from comparisons.studies.init.first_scene import FirstScene
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
-ROWS, MOST_COLUMNS = 6, 100
+
+# Bits of a braille character's dots: rows from the top, columns from the left (Unicode, U+2800).
+BRAILLE = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
+ASCII = {(False, False): " ", (True, False): "'", (False, True): ".", (True, True): ":"}
+ROWS, MOST_COLUMNS = 6, 100  # of the picture
 NONE = "-"
 
 
-def init_table(begun: Begun, columns: int | None, unicode: bool) -> "RenderableType":
-    """The summary; with a picture `columns` wide, None for none."""
+def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "RenderableType":
+    """For rich to print; with a picture that is `columns` wide, without one where it is None."""
     from rich import box
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text
 
-    info = begun.scene.profile_info
+    info = made.scene.profile_info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
     read += f"{_length(info.length)} long, {_length(info.spacing)} apart"
     parts: list[RenderableType] = [Text(read.translate(PLAIN), style="bold")]
@@ -32,7 +37,7 @@ def init_table(begun: Begun, columns: int | None, unicode: bool) -> "RenderableT
         parts.append(Text(info.place))
     parts.append("")
     if columns:
-        parts += [*_picture(begun, min(columns, MOST_COLUMNS), not unicode), ""]
+        parts += [*_picture(made, min(columns, MOST_COLUMNS), not unicode), ""]
     table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
     for name in ("roughness", "as pressed", "ISO 21920-2"):
         table.add_column(name, justify="left" if name == "roughness" else "right")
@@ -45,9 +50,9 @@ def init_table(begun: Begun, columns: int | None, unicode: bool) -> "RenderableT
         Text(f"plausibility warning: {each}".translate(PLAIN))
         for each in warnings_about_surface(info)
     ]
-    for name, because in begun.look.guesses.items():
-        parts.append(Text(f"{name} = {begun.look.fields[name]}: {because}"))
-    parts += ["", Text(f"scene   {begun.path}"), Text(f"next    crosscheck run {begun.path}")]
+    for name, because in made.profile.reasons.items():
+        parts.append(Text(f"{name} = {made.profile.fields[name]}: {because}"))
+    parts += ["", Text(f"scene   {made.path}"), Text(f"next    crosscheck run {made.path}")]
     return Group(*parts)
 
 
@@ -87,15 +92,15 @@ def _length(value: float) -> str:
     return with_unit(value, "m")
 
 
-def _picture(begun: Begun, columns: int, plain: bool) -> "list[RenderableType]":
+def _picture(made: FirstScene, columns: int, plain: bool) -> "list[RenderableType]":
     """The profile as it is pressed, its heights at the left and its ends below."""
     from rich.text import Text
 
-    profile = begun.scene.profile
-    x, height = profile.x + begun.scene.position, profile.height
+    profile = made.scene.profile
+    x, height = profile.x + made.scene.position, profile.height
     marks = [with_unit(v, "m", 3).translate(PLAIN) for v in (height.max(), height.min())]
     margin = max(map(len, marks)) + 1
-    lines = drawn(x, height, columns - margin, ROWS, plain)
+    lines = curve(x, height, columns - margin, ROWS, plain)
     labels = [marks[0], *[""] * (ROWS - 2), marks[1]]
     ends = [with_unit(v, "m", 3).translate(PLAIN) for v in (x[0], x[-1])]
     below = f"{ends[0]}{ends[1]:>{columns - margin - len(ends[0])}}"
@@ -104,3 +109,35 @@ def _picture(begun: Begun, columns: int, plain: bool) -> "list[RenderableType]":
           for label, line in zip(labels, lines, strict=True)),
         Text(" " * margin + below, no_wrap=True),
     ]  # fmt: skip
+
+
+def curve(x: np.ndarray, y: np.ndarray, columns: int, rows: int, plain: bool = False) -> list[str]:
+    """The curve through (x, y), x ascending, as `rows` lines of `columns` characters.
+
+    In each column of dots it spans from its lowest to its highest value there.
+    plain   ASCII: a character has two dots, one above the other, instead of braille's four by two
+    """
+    across, down = (1, 2) if plain else (2, 4)
+    dots = _dots(x, y, columns * across, rows * down)
+    blocks = dots.reshape(rows, down, columns, across).transpose(0, 2, 1, 3)
+    if plain:
+        return ["".join(ASCII[tuple(block[:, 0])] for block in line) for line in blocks]
+    codes = 0x2800 + np.sum(blocks * BRAILLE, axis=(2, 3))
+    return ["".join(map(chr, line)) for line in codes]
+
+
+def _dots(x: np.ndarray, y: np.ndarray, width: int, height: int) -> np.ndarray:
+    """(height, width) bool: the dots that the curve covers, the top row first."""
+    ends = np.linspace(x[0], x[-1], width + 1)
+    at_ends = np.interp(ends, x, y)
+    column = np.clip(np.searchsorted(ends, x, side="right") - 1, 0, width - 1)
+    low = np.minimum(at_ends[:-1], at_ends[1:])
+    high = np.maximum(at_ends[:-1], at_ends[1:])
+    np.minimum.at(low, column, y)
+    np.maximum.at(high, column, y)
+    bottom, top = float(y.min()), float(y.max())
+    size = (top - bottom) or 1.0
+    first = np.minimum(height * (low - bottom) / size, height - 1).astype(int)
+    last = np.maximum(np.ceil(height * (high - bottom) / size).astype(int) - 1, first)
+    level = np.arange(height)[::-1, None]
+    return (level >= first) & (level <= last)

@@ -8,25 +8,54 @@ from pathlib import Path
 
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
+from comparisons.common.units import LENGTH
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.init.look import Look, look
+from comparisons.scenes.schema.fields import Number, Unit, Whole
+from comparisons.studies.init.guess import ProfileFields, fields_of_profile
 from comparisons.studies.init.scene_text import scene_text, toml
 
+# Options of `crosscheck init` that are fields of [profile].
+TYPES = {
+    "x_unit": Unit(LENGTH),
+    "z_unit": Unit(LENGTH),
+    "spacing": Number(LENGTH, above=0.0),
+    "row": Whole(0, 2**31),
+    "column": Whole(0, 2**31),
+}
+EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"))
+
+
+def given_fields(options: Mapping[str, str | int | None]) -> dict[str, str]:
+    """Fields of [profile] as TOML from the options; raises InputError for a wrong one."""
+    given = {name: value for name, value in options.items() if value is not None}
+    for name, value in given.items():
+        try:
+            TYPES[name].read(value)
+        except ValueError as error:
+            raise InputError(f"--{name.replace('_', '-')}: {error}") from error
+    for first, second in EXCLUSIVE:
+        if first in given and second in given:
+            raise InputError(
+                f"--{second}: is given beside --{first.replace('_', '-')}; allowed is one of them"
+            )
+    return {name: toml(v) if isinstance(v, str) else str(v) for name, v in given.items()}
+
+
 STEEL = {"youngs_modulus": '"210 GPa"', "poissons_ratio": "0.3"}
-# Of the roller, largest first: the contact has to stay on the trace.
+# Of the roller, largest first: the contact must stay on the trace.
 RADII = ("10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um")
 PEAK = '"1 GPa"'
 
 
 @dataclass(frozen=True)
-class Begun:
-    """A scene file that was written, what it says, and how its profile was read."""
+class FirstScene:
+    """A scene file that was written, what it resolves to, and how its profile is read."""
 
     path: Path
     scene: ResolvedScene
-    look: Look
+    profile: ProfileFields
 
     def as_dict(self) -> dict:
         """For JSON, SI units."""
@@ -36,31 +65,33 @@ class Begun:
         return {
             "scene": str(self.path),
             "profile": {name: plain[name] for name in (*trace, "form")},
-            "fields": {name: _value(text) for name, text in self.look.fields.items()},
-            "guesses": self.look.guesses,
+            "fields": {name: _value(text) for name, text in self.profile.fields.items()},
+            "guesses": self.profile.reasons,
             "surface": info.surface(),
             "roller_radius": self.scene.roller_radius,
         }
 
 
-def begin(
-    profile: Path, out: Path | None = None, asked: Mapping[str, str] | None = None,
+def write_first_scene(
+    profile: Path,
+    out: Path | None = None,
+    given: Mapping[str, str] | None = None,
     force: bool = False,
-) -> Begun:  # fmt: skip
+) -> FirstScene:
     """Write a commented scene for the profile in a file.
 
-    out     the scene's file, beside the profile and called as it by default
-    asked   fields of [profile] as TOML that are not to be guessed
+    out     the scene's file; by default beside the profile, with the suffix .toml
+    given   fields of [profile] as TOML that are not to be guessed
     force   replace the scene's file
     Raises InputError, one line, and writes nothing, where the profile or the place for the scene
     cannot be used.
     """
     out = profile.with_suffix(".toml") if out is None else out
     _check_place(profile, out, force)
-    found = look(profile, asked or {})
+    found = fields_of_profile(profile, given or {})
     text, scene = _fitting(profile, out, found)
     write_whole(out, text)
-    return Begun(out, scene, found)
+    return FirstScene(out, scene, found)
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
@@ -76,7 +107,7 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
         raise InputError(f"{out}: {out.parent} is no folder; allowed is one that is there")
 
 
-def _fitting(profile: Path, out: Path, found: Look) -> tuple[str, ResolvedScene]:
+def _fitting(profile: Path, out: Path, found: ProfileFields) -> tuple[str, ResolvedScene]:
     """The scene with the largest roller whose contact stays on the trace."""
     refusal = None
     for radius in RADII:
@@ -94,7 +125,7 @@ def _fitting(profile: Path, out: Path, found: Look) -> tuple[str, ResolvedScene]
     raise InputError(str(refusal).replace(str(out), str(profile), 1))
 
 
-def _text(profile: Path, out: Path, found: Look, radius: str) -> str:
+def _text(profile: Path, out: Path, found: ProfileFields, radius: str) -> str:
     values = {
         "roller": {"radius": toml(radius), **STEEL},
         "body": STEEL,
@@ -106,7 +137,7 @@ def _text(profile: Path, out: Path, found: Look, radius: str) -> str:
     notes = {
         "roller": {"radius": "an example: put in yours"},
         "load": {"hertz_peak_pressure": "an example: put in yours"},
-        "profile": found.guesses,
+        "profile": found.reasons,
     }
     return scene_text(f"{profile.stem} under a smooth roller", values, notes)
 

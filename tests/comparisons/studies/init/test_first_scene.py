@@ -6,18 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import PROFILES
 
 from comparisons.cli import main
-from comparisons.scenes.files import SCENES
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.schema.fields import field_type
 from comparisons.scenes.schema.profile import VARIETIES
 from comparisons.scenes.schema.scene import SECTIONS, SceneFile
-from comparisons.studies.init.begin import begin
-from comparisons.studies.init.fields import SECTIONS as DESCRIBED
+from comparisons.studies.init.first_scene import write_first_scene
+from comparisons.studies.init.scene_text import SECTIONS as DESCRIBED
 from comparisons.studies.init.scene_text import scene_text
 
-SHIPPED = sorted((SCENES / "profiles").glob("*.csv"))
+SHIPPED = sorted(PROFILES.glob("*.csv"))
 X = 0.5 * np.arange(801)  # um
 Z = 0.2 * np.sin(2.0 * np.pi * X / 31.0) + 0.05 * np.cos(2.0 * np.pi * X / 7.0)  # um
 RMS = np.sqrt(0.5 * (0.2**2 + 0.05**2)) * 1e-6
@@ -63,12 +63,12 @@ def folder(tmp_path, monkeypatch) -> Path:
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_a_shipped_profile_makes_a_scene_that_loads_as_it_was_read(path, tmp_path):
-    begun = begin(path, tmp_path / "mine.toml")
+    made = write_first_scene(path, tmp_path / "mine.toml")
     scene = load_scene(tmp_path / "mine.toml")
-    assert scene.profile_info.roughness == begun.scene.profile_info.roughness
+    assert scene.profile_info.roughness == made.scene.profile_info.roughness
     assert scene.profile_info.path.samefile(path)
-    assert begun.look.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
-    assert all("x_um,height_um" in begun.look.guesses[name] for name in ("x_unit", "z_unit"))
+    assert made.profile.fields == {"x_unit": '"um"', "z_unit": '"um"', "form": '"line"'}
+    assert all("x_um,height_um" in made.profile.reasons[name] for name in ("x_unit", "z_unit"))
     given = np.loadtxt(path, delimiter=",", skiprows=3)
     np.testing.assert_allclose(scene.profile_info.trace.height, 1e-6 * given[:, 1], rtol=1e-12)
 
@@ -96,15 +96,15 @@ def test_the_scene_runs_unchanged(folder, monkeypatch):
 
 def test_a_short_trace_gets_a_small_roller(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(0.1 * X, 0.01 * Z))
-    radius = begin(Path("trace.csv")).scene.roller_radius
+    radius = write_first_scene(Path("trace.csv")).scene.roller_radius
     assert 1e-5 <= radius <= 1e-3
 
 
 def test_the_form_of_a_round_specimen_is_an_arc(folder):
     (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z - (X - 200.0) ** 2 / 1e4))
-    begun = begin(Path("trace.csv"))
-    assert begun.look.fields["form"] == '"arc"'
-    assert begun.scene.profile_info.form.radius == pytest.approx(5e-3, rel=0.01)
+    made = write_first_scene(Path("trace.csv"))
+    assert made.profile.fields["form"] == '"arc"'
+    assert made.scene.profile_info.form.radius == pytest.approx(5e-3, rel=0.01)
 
 
 def test_what_is_asked_for_is_not_guessed(folder):
