@@ -61,19 +61,19 @@ class ToleranceCheck:
     tolerance: float
 
     @property
-    def doubt(self) -> float:
+    def total_uncertainty(self) -> float:
         """Uncertainty with what no model shows, which is added as squares."""
         return self.uncertainty + math.hypot(*self.not_modelled.values())
 
     @property
     def is_inside(self) -> bool:
         """Whether the error is within the tolerance beyond doubt."""
-        return abs(self.value) + self.doubt <= self.tolerance
+        return abs(self.value) + self.total_uncertainty <= self.tolerance
 
     @property
     def is_outside(self) -> bool:
         """Whether the error exceeds the tolerance beyond doubt."""
-        return abs(self.value) - self.doubt > self.tolerance
+        return abs(self.value) - self.total_uncertainty > self.tolerance
 
     @property
     def verdict(self) -> Validity:
@@ -81,7 +81,7 @@ class ToleranceCheck:
         return "holds" if self.is_inside else "fails" if self.is_outside else "inconclusive"
 
     @property
-    def is_blurred(self) -> bool:
+    def is_unresolved(self) -> bool:
         """Whether the uncertainty alone reaches across the tolerance, whatever is not shown."""
         return self.uncertainty >= abs(abs(self.value) - self.tolerance)
 
@@ -98,9 +98,9 @@ def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
         return "fails", f"outside the tolerance: {_named(outside)}"
     unclear = [s for s in checks if not s.is_inside]
     if not unclear:
-        worst = max(checks, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+        worst = max(checks, key=lambda s: (abs(s.value) + s.total_uncertainty) / s.tolerance)
         return "holds", f"every judged error is within its tolerance; nearest: {_named([worst])}"
-    numerical = [s for s in unclear if s.is_blurred]
+    numerical = [s for s in unclear if s.is_unresolved]
     if numerical:
         return "inconclusive", f"an error cannot be told from its tolerance: {_named(numerical)}"
     return "inconclusive", (

@@ -62,7 +62,7 @@ def headline(outcome: Outcome) -> Headline:
             f"{_made_of(outcome, _nearest(outside))}{others}.",
         )
     unclear = [s for s in checks if not s.is_inside]
-    numerical = [s for s in unclear if s.is_blurred]
+    numerical = [s for s in unclear if s.is_unresolved]
     worst = _nearest(numerical or unclear)
     if numerical:
         return Headline(
@@ -88,7 +88,7 @@ def _all_judged(checks: list[ToleranceCheck]) -> str:
 
 def _nearest(checks: Iterable[ToleranceCheck]) -> ToleranceCheck:
     """The one farthest outside, or nearest to, its tolerance, its doubt included."""
-    return max(checks, key=lambda s: (abs(s.value) + s.doubt) / s.tolerance)
+    return max(checks, key=lambda s: (abs(s.value) + s.total_uncertainty) / s.tolerance)
 
 
 def _said(check: ToleranceCheck, several: bool) -> str:

@@ -111,7 +111,7 @@ def _own(outcome: Outcome) -> dict[str, Cell]:
         return {}
     found: dict[str, Cell] = {}
     for name, tolerance in outcome.problem.scene.tolerance.items():
-        errors = [own for own in outcome.budget.own if own.quantity == name]
+        errors = [own for own in outcome.budget.model_errors if own.quantity == name]
         if not errors:
             continue
         worst = max(errors, key=lambda own: abs(own.value) + own.uncertainty)

@@ -223,7 +223,7 @@ def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list
     tolerance = problem.scene.tolerance
     verdicts = {(c.quantity, c.friction): c.verdict for c in budget.tolerance_checks(tolerance)}
     found: dict[str, list[dict]] = {}
-    for error in budget.own:
+    for error in budget.model_errors:
         found.setdefault(error.quantity, []).append(
             {
                 "friction": error.friction,
@@ -234,7 +234,7 @@ def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list
                     for name, effect in error.effects.items()
                 },
                 "interaction": error.interaction,
-                "not_modelled": budget.choice.not_modelled(error.quantity),
+                "not_modelled": budget.selection.not_modelled(error.quantity),
                 "tolerance": tolerance.get(error.quantity),
                 "verdict": verdicts.get((error.quantity, error.friction)),
             }
@@ -276,15 +276,15 @@ def error_budget_content(
 
 def _effect(name: str, budget: ErrorBudget) -> dict:
     """What became of an effect, and by what estimate."""
-    choice = budget.choice
-    estimate = choice.estimates.get(name)
-    if name in choice.contained:
+    selection = budget.selection
+    estimate = selection.estimates.get(name)
+    if name in selection.contained:
         status, why = "contained", "the scene's own finite elements have it"
-    elif name in choice.added:
+    elif name in selection.added:
         status, why = "computed", "its estimate exceeds a tenth of a tolerance"
-    elif name in choice.impossible:
-        status, why = "not computed", choice.impossible[name]
-    elif name in choice.negligible:
+    elif name in selection.impossible:
+        status, why = "not computed", selection.impossible[name]
+    elif name in selection.negligible:
         status, why = "negligible", "its estimate is below a tenth of every tolerance"
     else:
         status, why = "does not apply", "it does not apply, or has no size"

@@ -1,10 +1,7 @@
-"""What a figure owes to the sampling of the trace: solved again from every other sample.
+"""The error budget of a finished comparison: the model error by effects, and the trace's sampling.
 
-The half-plane is enough, both models press the same curve. Taking every other sample can be done
-in two ways, that of even and that of odd ones; the larger change counts, and stands for what the
-samples themselves leave unknown as if that fell by half with the distance between them.
-
-The error budget of a finished comparison.
+What the sampling leaves unknown is estimated by solving again from every other sample, the even or
+the odd ones: the larger change counts. The half-plane is enough, for both models press one curve.
 """
 
 import math
@@ -13,11 +10,19 @@ from dataclasses import dataclass, replace
 
 from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
-from comparisons.assessment.effects.contributions import EffectContributions, bodies_for, parts_of
+from comparisons.assessment.effects.contributions import (
+    EffectContributions,
+    contributions_of,
+    variants_for,
+)
 from comparisons.assessment.effects.model_error import ModelError, model_errors
-from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
-from comparisons.assessment.effects.selection import NONLINEAR, Choice, choose
-from comparisons.assessment.effects.solutions import Bodies, NotComputedError, processes_beside
+from comparisons.assessment.effects.quantities_of_interest import quantities_of, relative_sizes
+from comparisons.assessment.effects.selection import NONLINEAR, EffectSelection, select_effects
+from comparisons.assessment.effects.solutions import (
+    NotComputedError,
+    SolvedVariants,
+    processes_beside,
+)
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.cache import Cache
@@ -29,47 +34,7 @@ from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
-REFERENCE = 3  # levels: where edges are as fine as the scene's own resolution asks
-
-
-def sampling_changes(
-    problem: Problem, plan: Plan, window: Window | None, levels: Sequence[Level]
-) -> dict[float, dict[str, float]]:
-    """By friction coefficient and quantity, the relative change from half the samples.
-
-    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
-    """
-    profile, frictions = problem.scene.profile, problem.scene.friction
-    level = levels[:REFERENCE][-1]
-    found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
-    for first in (0, 1):
-        thinned = _pressed(problem, _every_other(profile, first))
-        other = half_plane_level(thinned, plan, level.grid.pitch, window, Stages())
-        for friction in frictions:
-            whole = answer_of(level, problem, friction)
-            change = answer_of(other, thinned, friction) - whole
-            for name, size in sizes(change, whole, problem, window).items():
-                found[friction][name] = max(found[friction].get(name, 0.0), abs(size))
-    return found
-
-
-def _every_other(profile: Profile, first: int) -> Profile:
-    """Every other sample from the given one on, and both ends, so that nothing is cut off."""
-    last = len(profile.x) - 1
-    kept = sorted({0, *range(first, last + 1, 2), last})
-    return Profile(profile.x[kept], profile.height[kept])
-
-
-def _pressed(problem: Problem, profile: Profile) -> Problem:
-    """The problem with another profile, on the same grids."""
-    return replace(
-        problem,
-        scene=replace(problem.scene, profile=profile),
-        gap=roller_gap(problem.scene.roller_radius, surface(profile)),
-        knots=profile.x,
-    )
-
-
+SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
 GROWTH_OF_TIME = 3.5  # from one level to the next, at most
@@ -77,40 +42,41 @@ GROWTH_OF_TIME = 3.5  # from one level to the next, at most
 
 @dataclass(frozen=True)
 class ErrorBudget:
-    """What separates the half-plane from the finite elements, and both from the surface.
+    """What separates the half-plane from the whole model, and both from the surface.
 
-    choice     which effects were computed
-    levels     that the effects were taken to; 0 where the difference could not be split
-    unsplit    why it could not, else None
-    own        of each quantity at each friction coefficient
-    sampling   by friction and quantity: what half the samples of the trace change; empty without
-    seconds    that the effects took
+    selection     which effects were computed
+    levels        that the effects were taken to; 0 where the difference could not be split
+    unsplit       why it could not, else None
+    model_errors  of each quantity at each friction coefficient
+    sampling      by friction and quantity: what half the samples of the trace change
+    seconds       that the effects took
     """
 
-    choice: Choice
+    selection: EffectSelection
     levels: int
     unsplit: str | None
-    own: tuple[ModelError, ...]
+    model_errors: tuple[ModelError, ...]
     sampling: dict[float, dict[str, float]]
     seconds: float
 
     def of(self, quantity: str, friction: float) -> ModelError:
-        """Of one quantity."""
-        return next(o for o in self.own if (o.quantity, o.friction) == (quantity, friction))
+        """The model error in a quantity."""
+        wanted = quantity, friction
+        return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
 
     def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
-        """Where the half-plane stands in every quantity that has a tolerance."""
+        """Of every model error that has a tolerance."""
         return [
             ToleranceCheck(
-                own.quantity,
-                own.friction,
-                own.value,
-                own.uncertainty,
-                self.choice.not_modelled(own.quantity),
-                tolerance[own.quantity],
+                error.quantity,
+                error.friction,
+                error.value,
+                error.uncertainty,
+                self.selection.not_modelled(error.quantity),
+                tolerance[error.quantity],
             )
-            for own in self.own
-            if own.quantity in tolerance
+            for error in self.model_errors
+            if error.quantity in tolerance
         ]
 
 
@@ -121,38 +87,38 @@ def error_budget(
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
     couplings: tuple[Coupling, ...],
-    checkpoint: Cache,
+    cache: Cache,
     callback: ProgressCallback,
 ) -> ErrorBudget:
-    """Choose the effects that may matter, solve them, and split the difference of the models.
+    """Select the effects that may matter, solve them, and split the difference of the models.
 
-    An effect that cannot be solved is left out with the reason, and stands with its estimate.
+    An effect that cannot be solved is not modelled: its estimate and the reason are kept.
     """
     peak = float(runs["half_plane"].finest.solution.pressure.max())
-    choice = choose(problem, peak, couplings)
+    selection = select_effects(problem, peak, couplings)
     if not plan.effects:
-        asked = choice.added | set(choice.impossible)
-        choice = choice.without(asked, "not asked for (budget.effects)")
+        asked = selection.added | set(selection.impossible)
+        selection = selection.without(asked, "not asked for (budget.effects)")
     unsplit = None
     with processes_beside() as beside:
-        bodies = Bodies(problem, window, runs["finite_element"], checkpoint, callback, beside)
+        solved = SolvedVariants(problem, window, runs["finite_element"], cache, callback, beside)
         while True:
             try:
-                levels, own = _refined(problem, window, runs, rows, choice, bodies)
+                levels, own = _refined(problem, window, runs, rows, selection, solved)
                 break
             except NotComputedError as error:
-                dropped = _blamed(choice, error)
+                dropped = _given_up(selection, error)
                 if not dropped:  # what the scene itself has cannot be taken apart
                     levels, own, unsplit = 0, _unsplit(rows), str(error)
                     break
-                choice = choice.without(dropped, str(error))
+                selection = selection.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
         callback("error budget: sampling of the trace")
         sampling = from_first(
             lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
         )
-    return ErrorBudget(choice, levels, unsplit, tuple(own), sampling, bodies.seconds)
+    return ErrorBudget(selection, levels, unsplit, tuple(own), sampling, solved.seconds)
 
 
 def _refined(
@@ -160,21 +126,21 @@ def _refined(
     window: Window | None,
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
-    choice: Choice,
-    bodies: Bodies,
+    selection: EffectSelection,
+    solved: SolvedVariants,
 ) -> tuple[int, list[ModelError]]:
-    """The half-plane's own errors, and the level that the effects were taken to for them.
+    """The level that the effects were taken to, and the model errors.
 
-    Raises NotComputedError where an effect has no answer on the least levels.
+    Raises NotComputedError where a variant has no solution on the least levels.
     """
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
     asked = problem.scene.budget.levels or MOST_LEVELS
     most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
-        bodies.prepare(bodies_for(problem, choice), number)
+        solved.prepare(variants_for(problem, selection), number)
         try:
-            new = {mu: parts_of(problem, bodies, choice, mu, number) for mu in history}
+            new = {mu: contributions_of(problem, solved, selection, mu, number) for mu in history}
         except NotComputedError:
             if number <= LEAST_LEVELS:
                 raise
@@ -190,22 +156,24 @@ def _refined(
                 runs,
                 [row for row in rows if row.friction == friction],
                 parts,
-                choice,
+                selection,
             )
         ]
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
-        if number >= LEAST_LEVELS and _is_beyond(problem, runs, bodies, number):
+        if number >= LEAST_LEVELS and _is_beyond(problem, runs, solved, number):
             break
     return len(next(iter(history.values()))), own
 
 
-def _is_beyond(problem: Problem, runs: dict[str, ModelRun], bodies: Bodies, number: int) -> bool:
+def _is_beyond(
+    problem: Problem, runs: dict[str, ModelRun], solved: SolvedVariants, number: int
+) -> bool:
     """Whether one more level of the effects would exceed the time, by the laws of cost: clocks
     would give another machine other figures."""
     spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
-    spent += sum(bodies.expected_of(each) for each in range(1, number + 1))
-    finer = GROWTH_OF_TIME * bodies.expected_of(number)
+    spent += sum(solved.expected_of(each) for each in range(1, number + 1))
+    finer = GROWTH_OF_TIME * solved.expected_of(number)
     return spent + finer > problem.scene.budget.time
 
 
@@ -235,15 +203,51 @@ def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
     )
 
 
-def _blamed(choice: Choice, error: NotComputedError) -> frozenset[str]:
-    """The added effects without which a body that has no answer is not needed.
-
-    A nonlinear effect for its own body, a linear one for its own, all where they fail together.
-    """
-    effects = error.body.effects & choice.added
+def _given_up(selection: EffectSelection, error: NotComputedError) -> frozenset[str]:
+    """The added effects without which the variant that has no solution is not needed: a nonlinear
+    effect or a single linear one for its own variant, all where they fail jointly."""
+    effects = error.variant.effects & selection.added
     nonlinear = effects & set(NONLINEAR)
     if nonlinear:
         return nonlinear
-    if len(error.body.effects) == 1 and effects:
+    if len(error.variant.effects) == 1 and effects:
         return effects
-    return choice.added
+    return selection.added
+
+
+def sampling_changes(
+    problem: Problem, plan: Plan, window: Window | None, levels: Sequence[Level]
+) -> dict[float, dict[str, float]]:
+    """By friction coefficient and quantity, the relative change from half the samples.
+
+    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
+    """
+    profile, frictions = problem.scene.profile, problem.scene.friction
+    level = levels[:SAMPLED][-1]
+    found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
+    for first in (0, 1):
+        thinned = _with_profile(problem, _every_other(profile, first))
+        other = half_plane_level(thinned, plan, level.grid.pitch, window, Stages())
+        for friction in frictions:
+            whole = quantities_of(level, problem, friction)
+            change = quantities_of(other, thinned, friction) - whole
+            for name, size in relative_sizes(change, whole, problem, window).items():
+                found[friction][name] = max(found[friction].get(name, 0.0), abs(size))
+    return found
+
+
+def _every_other(profile: Profile, first: int) -> Profile:
+    """Every other sample from the given one on, and both ends, so that nothing is cut off."""
+    last = len(profile.x) - 1
+    kept = sorted({0, *range(first, last + 1, 2), last})
+    return Profile(profile.x[kept], profile.height[kept])
+
+
+def _with_profile(problem: Problem, profile: Profile) -> Problem:
+    """The problem with another profile, on the same grids."""
+    return replace(
+        problem,
+        scene=replace(problem.scene, profile=profile),
+        gap=roller_gap(problem.scene.roller_radius, surface(profile)),
+        knots=profile.x,
+    )

@@ -15,11 +15,11 @@ from comparisons.assessment.comparison import pair_history
 from comparisons.assessment.effects.contributions import EffectContributions
 from comparisons.assessment.effects.quantities_of_interest import (
     QuantitiesOfInterest,
-    answer_of,
-    sizes,
+    quantities_of,
+    relative_sizes,
 )
-from comparisons.assessment.effects.selection import Choice
-from comparisons.assessment.effects.variants import strain_doubt
+from comparisons.assessment.effects.selection import EffectSelection
+from comparisons.assessment.effects.variants import strain_share_uncertainty
 from comparisons.assessment.uncertainty import (
     LENGTHS,
     difference_of_figures,
@@ -71,7 +71,7 @@ def model_errors(
     runs: dict[str, ModelRun],
     rows: list[Comparison],
     history: list[EffectContributions],
-    choice: Choice,
+    selection: EffectSelection,
 ) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
 
@@ -79,9 +79,10 @@ def model_errors(
     history  the effects there on the first levels, coarse to fine
     """
     friction, last = rows[0].friction, history[-1]
-    whole = [parts.own + parts.lacking for parts in history]
+    whole = [parts.own + parts.not_contained for parts in history]
     half_plane = [
-        answer_of(level, problem, friction) for level in runs["half_plane"].levels[: len(history)]
+        quantities_of(level, problem, friction)
+        for level in runs["half_plane"].levels[: len(history)]
     ]
     number = len(history) - 1
     iteration = largest_iteration(
@@ -92,7 +93,7 @@ def model_errors(
     def share(name: str, changes: list[QuantitiesOfInterest]) -> Estimate:
         if QUANTITIES[name].of_pair:
             values = [
-                sizes(change, reference, problem, window)[name]
+                relative_sizes(change, reference, problem, window)[name]
                 for change, reference in zip(changes, whole, strict=True)
             ]
         else:  # by one scale: a place may jump to the surface on one level alone
@@ -103,7 +104,7 @@ def model_errors(
         doubt = _doubt(values, name, edge)
         return Estimate(values[-1], doubt + iteration)
 
-    lacking = [parts.lacking for parts in history]
+    lacking = [parts.not_contained for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]
     pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
     found = []
@@ -116,13 +117,15 @@ def model_errors(
         stand_in = 0.0
         if "finite_strain" in effects:
             strain = effects["finite_strain"]
-            stand_in = strain_doubt(problem) * abs(strain.value)
+            stand_in = strain_share_uncertainty(problem) * abs(strain.value)
             effects["finite_strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
         numerical = np.inf if row.uncertainty is None else row.uncertainty
         missing = share(name, lacking)
         if not QUANTITIES[name].of_pair:
-            value, doubt = _of_figure(row, numerical, last.lacking.figures[name], missing, problem)
-        elif _is_any(last.lacking):
+            value, doubt = _of_figure(
+                row, numerical, last.not_contained.figures[name], missing, problem
+            )
+        elif _is_any(last.not_contained):
             norm, there = share(name, own), pair.norms[number][name]
             parts = numerical, abs(there - row.difference), missing.uncertainty
             value = norm.value
@@ -134,7 +137,7 @@ def model_errors(
                 name,
                 friction,
                 effects,
-                sizes(last.interaction, whole[-1], problem, window)[name],
+                relative_sizes(last.interaction, whole[-1], problem, window)[name],
                 value,
                 doubt + stand_in,
                 stand_in,

@@ -48,7 +48,7 @@ class QuantitiesOfInterest:
         return self + other * -1.0
 
 
-def answer_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
+def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
     """The answer of a solved level; `problem` is the one that it solves."""
     stress = level.stress(friction)
     return QuantitiesOfInterest(
@@ -58,7 +58,7 @@ def answer_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfIn
     )
 
 
-def sizes(
+def relative_sizes(
     difference: QuantitiesOfInterest,
     reference: QuantitiesOfInterest,
     problem: Problem,

@@ -9,17 +9,27 @@ from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
-# Names of effects whose bodies are not linear: they are measured beside the linear ones.
+# Effects in the order of the sums of their contributions, whose last bit depends on it. The
+# nonlinear ones are measured beside the linear ones.
+LINEAR = (
+    "exact_circle",
+    "coating",
+    "normal_tangential_coupling",
+    "finite_roller",
+    "deformed_gap",
+    "finite_size",
+    "rough_boundary",
+)
 NONLINEAR = ("finite_strain", "plastic_flow")
 
 
 @dataclass(frozen=True)
-class Choice:
+class EffectSelection:
     """What becomes of every effect.
 
     contained    the scene's own finite elements have it
     added        computed beside, for the verdict
-    negligible     too small by its estimate to matter, each with it
+    negligible   too small to matter, each with its estimate
     impossible   would matter, but cannot be computed here: the reason
     estimates    of all that apply, by effect and quantity
     """
@@ -32,16 +42,16 @@ class Choice:
 
     @property
     def whole(self) -> frozenset[str]:
-        """Effects that the verdict's finite elements have."""
+        """Effects of the whole model, which the verdict is about."""
         return self.contained | self.added
 
-    def without(self, names: frozenset[str], why: str) -> "Choice":
-        """The same with some of the added effects given up for a reason."""
+    def without(self, names: frozenset[str], why: str) -> "EffectSelection":
+        """The same without some of the added effects, for a reason."""
         impossible = self.impossible | dict.fromkeys(names, why)
         return replace(self, added=self.added - names, impossible=dict(sorted(impossible.items())))
 
     def not_modelled(self, quantity: str) -> Sizes:
-        """Estimates on a quantity of the effects that no model has, by name."""
+        """By name, estimates of the effects on a quantity that no model has."""
         open_effects = set(self.negligible) | set(self.impossible)
         return {
             name: sizes[quantity]
@@ -50,7 +60,9 @@ class Choice:
         }
 
 
-def choose(problem: Problem, peak: float, couplings: tuple[Coupling, ...]) -> Choice:
+def select_effects(
+    problem: Problem, peak: float, couplings: tuple[Coupling, ...]
+) -> EffectSelection:
     """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure."""
     own, tolerance = contained(problem.scene), problem.scene.tolerance
     applying = {name for name, effect in EFFECTS.items() if effect.applies(problem)}
@@ -81,7 +93,7 @@ def choose(problem: Problem, peak: float, couplings: tuple[Coupling, ...]) -> Ch
             impossible[name] = why
         else:
             added.add(name)
-    return Choice(own, frozenset(added), negligible, impossible, sized)
+    return EffectSelection(own, frozenset(added), negligible, impossible, sized)
 
 
 def why_not(name: str, problem: Problem) -> str | None:

@@ -1,4 +1,4 @@
-"""The finite-element problems behind a budget: one for each set of effects, on the same pressures.
+"""The finite-element problems behind an error budget: one for each set of effects, on one grid.
 
 Where the roller is elastic, finite strain is measured on a stand-in: a rigid roller on a body of
 the same combined modulus. What strain adds is of second order in each body's own displacement, so
@@ -6,10 +6,10 @@ that of two bodies it is the share
 
     r = E*^2 (1/E1'^2 + 1/E2'^2),   1/E* = 1/E1' + 1/E2'
 
-of what it adds in the stand-in, which carries all displacement in one body: 1/2 for like ones. Of
-stresses, which are the rough body's own, it may be that body's share of the displacement instead,
-E* / E1'; and r holds to first order. So it is believed to 1 - r of itself, or to the difference of
-the two shares.
+of what it adds in the stand-in, which carries all displacement in one body: 1/2 for equal bodies.
+Of stresses in the rough body it may be that body's share of the displacement instead, E* / E1'; and
+r holds to first order. Its relative uncertainty is therefore 1 - r, or the difference of the two
+shares over r where that is larger.
 """
 
 from dataclasses import dataclass, replace
@@ -19,16 +19,16 @@ from comparisons.assessment.effects.catalogue import with_effects
 from comparisons.models.problem import Problem
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
 
-STRAINED = "P2"  # elements that finite deformation is solved by
+STRAINED = "P2"  # elements of finite deformation
 
 
 @dataclass(frozen=True)
-class Body:
-    """What to solve.
+class ModelVariant:
+    """A finite-element model of the scene with other effects.
 
-    effects    names
+    effects    names of those that it has
     friction   the coefficient that shapes its pressures; None: they are the same for all
-    stand_in   with the rigid roller in place of the elastic one
+    stand_in   a rigid roller in place of the elastic one
     held       far boundary and elements as finite deformation takes them
     """
 
@@ -39,7 +39,7 @@ class Body:
 
     @property
     def name(self) -> str:
-        """Of files, one to a body."""
+        """Of its file in a cache."""
         words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
         words += ["held"] * self.held + ["stand-in"] * self.stand_in
         return (
@@ -47,14 +47,14 @@ class Body:
         )
 
 
-def problem_with(problem: Problem, body: Body) -> Problem:
-    """The scene's problem with a body's effects, on the same grids of pressures."""
-    scene = with_effects(problem.scene, body.effects)
-    if body.friction is not None:
-        scene = replace(scene, friction=(body.friction,))
-    if body.stand_in:
+def problem_with(problem: Problem, variant: ModelVariant) -> Problem:
+    """The problem of a variant, on the same pressure elements."""
+    scene = with_effects(problem.scene, variant.effects)
+    if variant.friction is not None:
+        scene = replace(scene, friction=(variant.friction,))
+    if variant.stand_in:
         scene = replace(scene, roller=None, body=combined_body(problem))
-    if body.held:
+    if variant.held:
         settings, block = scene.finite_element, scene.finite_element.block
         if settings.far_field == "half-plane":
             block = HELD_BLOCK
@@ -70,7 +70,7 @@ def combined_body(problem: Problem) -> Material:
 
 
 def strain_share(problem: Problem) -> float:
-    """r: of what finite strain adds in the stand-in, what it adds in the scene's two bodies."""
+    """r: what finite strain adds in the scene's bodies over what it adds in the stand-in."""
     scene = problem.scene
     if scene.roller is None:
         return 1.0
@@ -78,8 +78,8 @@ def strain_share(problem: Problem) -> float:
     return problem.modulus**2 * sum(1.0 / modulus**2 for modulus in moduli)
 
 
-def strain_doubt(problem: Problem) -> float:
-    """How far r may be off, relative to it; 0 where the scene is its own stand-in."""
+def strain_share_uncertainty(problem: Problem) -> float:
+    """Of r, relative to it; 0 where the roller is rigid."""
     if problem.scene.roller is None:
         return 0.0
     share = strain_share(problem)

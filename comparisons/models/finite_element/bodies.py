@@ -31,7 +31,7 @@ KEPT = 2  # of the body and of the roller
 
 
 @dataclass(frozen=True)
-class Bodies:
+class BodyPair:
     """What presses and is pressed.
 
     rough         the rough body
@@ -83,7 +83,7 @@ def bodies_of(
     patches: np.ndarray,
     stages: Stages,
     store: BodyStore,
-) -> Bodies:
+) -> BodyPair:
     """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
     scene, settings = problem.scene, problem.scene.finite_element
     spec = block_spec(problem, refinement, patches)
@@ -103,10 +103,10 @@ def bodies_of(
         coating = Coating(scene.coating.material, scene.coating.thickness)
     rough = _body(mesh, shape, scene.body, support, settings.degree, coating, stages, store)
     if scene.roller is None:
-        return Bodies(rough, None, 0.0)
+        return BodyPair(rough, None, 0.0)
     if plan.shared_factor:
         share = scene.body.youngs_modulus / scene.roller.youngs_modulus
-        return Bodies(rough, None, share)
+        return BodyPair(rough, None, share)
     wanted = roller_spec(problem, spec)
     with stages.stage("mesh", "finite elements: mesh of the roller"):
         flat = store.mesh(wanted)
@@ -117,7 +117,7 @@ def bodies_of(
     if settings.roller_body == "disc":
         support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
     roller = _body(mesh, shape, scene.roller, support, settings.degree, None, stages, store)
-    return Bodies(rough, roller, 0.0)
+    return BodyPair(rough, roller, 0.0)
 
 
 def _body(

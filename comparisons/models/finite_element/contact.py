@@ -12,7 +12,7 @@ from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
-from comparisons.models.finite_element.bodies import Bodies
+from comparisons.models.finite_element.bodies import BodyPair
 from comparisons.models.problem import Problem
 from fem.body.elasticity import ElasticBody
 from fem.compliance.far_field import FarField
@@ -68,7 +68,7 @@ class MutualCompliance:
         return sum(p.factor * p.compliance.matrix(p.friction) for p in self.parts)
 
 
-def mutual_compliance(problem: Problem, bodies: Bodies, grid: HatGrid) -> MutualCompliance:
+def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> MutualCompliance:
     """Both bodies under the same hats.
 
     Along the roller's normal where the gap is taken at the displaced place: the displacement along

@@ -14,7 +14,7 @@ from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.cost import flow_increments
-from comparisons.models.finite_element.stress import DeformedSurface, Pressed
+from comparisons.models.finite_element.stress import DeformedSurface, LoadedBody
 from comparisons.models.problem import Problem
 from fem.nonlinear.finite_deformation import press_finitely
 from fem.nonlinear.plasticity import ElasticPlastic
@@ -33,7 +33,7 @@ def pressed_finitely(
     grid: HatGrid,
     linear: ContactSolution,
     constraints: Constraints,
-) -> Pressed:
+) -> LoadedBody:
     """The body at finite strains, met by the roller where its surface has come to.
 
     Pressures are those on the deformed surface, where it has come to along x. Raises FemError
@@ -75,7 +75,7 @@ def pressed_finitely(
     depth = np.interp(x, top.x, down)
     nodal, across = found.stress, found.stress_across
     others = {"sy": across, "von_mises": von_mises(nodal.stress, across)}
-    pressed = Pressed(
+    pressed = LoadedBody(
         rough.body, solution, depth * weights, lambda friction: nodal, patches, others
     )
     return DeformedSurface(grid, found.place, depth).carried(problem, pressed)
@@ -88,7 +88,7 @@ def pressed_plastically(
     linear: ContactSolution,
     gap: np.ndarray,
     constraints: Constraints,
-) -> Pressed:
+) -> LoadedBody:
     """The body flowing where it must, under its load and when the roller is gone again.
 
     gap  (count,) [m^2] initial, weighted by each hat
@@ -130,4 +130,4 @@ def pressed_plastically(
     }
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return Pressed(rough.body, solution, own, lambda friction: stress, patches, others)
+    return LoadedBody(rough.body, solution, own, lambda friction: stress, patches, others)

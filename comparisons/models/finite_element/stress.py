@@ -22,7 +22,7 @@ from fem.stress.stress import NodalStress, evaluate, nodal_stress
 
 
 @dataclass(frozen=True)
-class Pressed:
+class LoadedBody:
     """The rough body in contact.
 
     displacement  (count,) [m^2] of its surface into the body, weighted by each hat
@@ -45,7 +45,7 @@ def pressed_linearly(
     grid: HatGrid,
     solution: ContactSolution,
     gap: np.ndarray,
-) -> Pressed:
+) -> LoadedBody:
     """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
     one, weighted by each hat.
 
@@ -70,14 +70,14 @@ def pressed_linearly(
             own = both / operator.parts[0].factor
         else:
             own = rough.apply(pressure, dragged)
-        return Pressed(rough.body, solution, own, stress, patches)
+        return LoadedBody(rough.body, solution, own, stress, patches)
     moved = rough.displacement(pressure, dragged)
     top = rough.body.top
     along, down = rough.body.at_points(moved)[top.point].T
     place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
     stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
     solution = replace(solution, pressure=pressure / stretch)
-    pressed = Pressed(rough.body, solution, depth * grid.weights, stress, patches)
+    pressed = LoadedBody(rough.body, solution, depth * grid.weights, stress, patches)
     return DeformedSurface(grid, place, depth).carried(problem, pressed)
 
 
@@ -90,7 +90,7 @@ class DeformedSurface:
     place: np.ndarray
     depth: np.ndarray
 
-    def carried(self, problem: Problem, pressed: Pressed) -> Pressed:
+    def carried(self, problem: Problem, pressed: LoadedBody) -> LoadedBody:
         """What was found at the nodes, told at the grid's x again.
 
         The residuals stay those of the equations that were solved, over the undeformed surface.
@@ -109,7 +109,7 @@ class DeformedSurface:
 
 
 def stresses_of(
-    pressed: Pressed, frictions: tuple[float, ...], window: Window
+    pressed: LoadedBody, frictions: tuple[float, ...], window: Window
 ) -> tuple[tuple[StressResult, ...], MeshField]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh."""
     body, results, on_mesh = pressed.body, [], {}

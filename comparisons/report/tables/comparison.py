@@ -71,11 +71,11 @@ def comparison_rows(outcome: Outcome) -> list[ComparisonRow]:
 def reference_of(outcome: Outcome, quantity: str) -> str:
     """What the finite elements solve: the half-plane's problem, or that with effects that bear on
     the quantity; those without an estimate bear on all."""
-    choice = outcome.budget.choice
+    selection = outcome.budget.selection
     named = [
         EFFECTS[name].label
         for name in EFFECTS
-        if name in choice.contained and quantity in choice.estimates.get(name, [quantity])
+        if name in selection.contained and quantity in selection.estimates.get(name, [quantity])
     ]
     return ", ".join(named) or SAME_PROBLEM
 

@@ -33,7 +33,7 @@ def budget_rows(outcome: Outcome, judged: bool = False) -> list[BudgetRow]:
     rows = []
     for name in QUANTITIES:
         alike: dict[tuple, list[float]] = {}
-        for own in outcome.budget.own:
+        for own in outcome.budget.model_errors:
             if own.quantity == name and (name in tolerance or not judged):
                 alike.setdefault(_figures(own), []).append(own.friction)
         for (value, doubt, parts), frictions in alike.items():
@@ -78,13 +78,13 @@ def parts_in_words(own: ModelError) -> tuple[str, ...]:
 def left_out_line(outcome: Outcome) -> str:
     """The effects that no model of the run has, each with its largest estimate on what is judged,
     or on anything where nothing is; those that one reason keeps out stand together."""
-    choice = outcome.budget.choice
+    selection = outcome.budget.selection
     judged = set(outcome.problem.scene.tolerance)
     alike: dict[str, list[str]] = {}
-    for name in (*choice.impossible, *choice.negligible):
-        sizes = choice.estimates[name]
+    for name in (*selection.impossible, *selection.negligible):
+        sizes = selection.estimates[name]
         largest = max((sizes[q] for q in judged & set(sizes)), default=max(sizes.values()))
-        why = choice.impossible.get(name, "")
+        why = selection.impossible.get(name, "")
         alike.setdefault(why, []).append(f"{EFFECTS[name].label} (at most {percent(largest)})")
     parts = [", ".join(named) + (f": {why}" if why else "") for why, named in alike.items()]
     return "; ".join(parts) or "nothing"

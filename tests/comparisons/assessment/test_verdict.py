@@ -115,7 +115,9 @@ def test_an_error_outside_but_for_what_no_model_shows_is_laid_to_that():
 
 def test_effects_that_are_not_shown_add_as_squares():
     both = {"exact_circle": 0.012, "coating": 0.012}  # 0.024 by sum, 0.0170 by squares
-    assert judged(not_modelled=both).doubt == pytest.approx(0.002 + 0.012 * math.sqrt(2.0))
+    assert judged(not_modelled=both).total_uncertainty == pytest.approx(
+        0.002 + 0.012 * math.sqrt(2.0)
+    )
     assert validity_verdict([judged(value=0.001, not_modelled=both)])[0] == "holds"
     assert validity_verdict([judged(value=0.0015, not_modelled=both)])[0] == "inconclusive"
 

@@ -90,10 +90,10 @@ def test_figures_are_also_given_over_those_of_hertz(wavy_page, wavy_outcome: Out
 
 
 def test_every_row_says_what_problem_the_finite_elements_solve(wavy_outcome: Outcome):
-    choice = wavy_outcome.budget.choice
+    selection = wavy_outcome.budget.selection
 
     def references(**changed) -> dict[str, str]:
-        budget = replace(wavy_outcome.budget, choice=replace(choice, **changed))
+        budget = replace(wavy_outcome.budget, selection=replace(selection, **changed))
         rows = comparison_rows(replace(wavy_outcome, budget=budget))
         return {row.quantity: row.reference for row in rows}
 

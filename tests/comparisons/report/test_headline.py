@@ -4,12 +4,12 @@ import math
 from dataclasses import replace
 
 from comparisons.assessment.effects.model_error import Estimate, ModelError
-from comparisons.assessment.effects.selection import Choice
+from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.report.headline import headline
 from comparisons.results.outcome import Outcome
 
 TOLERANCE = 0.02
-NONE = Choice(frozenset(), frozenset(), {}, {}, {})
+NONE = EffectSelection(frozenset(), frozenset(), {}, {}, {})
 
 
 def own(quantity: str, value: float, uncertainty: float, **effects: float) -> ModelError:
@@ -17,13 +17,15 @@ def own(quantity: str, value: float, uncertainty: float, **effects: float) -> Mo
     return ModelError(quantity, 0.0, shares, 0.0, value, uncertainty)
 
 
-def judged(outcome: Outcome, *errors: ModelError, choice: Choice = NONE) -> Outcome:
+def judged(outcome: Outcome, *errors: ModelError, selection: EffectSelection = NONE) -> Outcome:
     """A run whose half-plane has these errors, all judged."""
     scene = outcome.problem.scene
     tolerance = {error.quantity: TOLERANCE for error in errors}
     problem = replace(outcome.problem, scene=replace(scene, tolerance=tolerance))
     return replace(
-        outcome, problem=problem, budget=replace(outcome.budget, own=errors, choice=choice)
+        outcome,
+        problem=problem,
+        budget=replace(outcome.budget, model_errors=errors, selection=selection),
     )
 
 
@@ -75,17 +77,17 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
     assert said.kind == "inconclusive"
     assert "uncertainty that reaches across the tolerance" in said.sentence
     sizes = {"plastic_flow": {"contact_length": 0.1}, "exact_circle": {"contact_length": 0.001}}
-    missing = Choice(
+    missing = EffectSelection(
         frozenset(),
         frozenset(),
         {"exact_circle": sizes["exact_circle"]},
         {"plastic_flow": "the body has no yield stress"},
         sizes,
     )
-    said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), choice=missing))
+    said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
     assert "may move it by 10 %, plastic flow most" in said.sentence
-    said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), choice=missing))
+    said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
     assert "may move it by 10 %, plastic flow most" in said.sentence
 

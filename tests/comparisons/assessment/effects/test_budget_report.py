@@ -11,7 +11,7 @@ from rich.console import Console
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.effects.model_error import Estimate, ModelError
-from comparisons.assessment.effects.selection import Choice
+from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.report.figures.model_error import LOOKS, budget_bars, budget_picture
 from comparisons.report.figures.style import drawing
 from comparisons.report.tables.model_error import budget_rows, left_out_line
@@ -25,7 +25,7 @@ ESTIMATES = {
     "plastic_flow": {"peak_pressure": 0.08},
     "deformed_gap": {"peak_pressure": 0.02},
 }
-CHOICE = Choice(
+SELECTION = EffectSelection(
     frozenset({"finite_size"}),
     frozenset({"deformed_gap", "finite_strain"}),
     {"exact_circle": ESTIMATES["exact_circle"]},
@@ -47,7 +47,7 @@ def split(wavy_outcome: Outcome) -> Outcome:
         ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
         ModelError("pressure_l2", 0.0, EFFECTS_HERE, 0.002, 0.05, 0.01),
     )
-    budget = ErrorBudget(CHOICE, 2, None, own, {0.0: {"peak_pressure": 0.003}}, 1.5)
+    budget = ErrorBudget(SELECTION, 2, None, own, {0.0: {"peak_pressure": 0.003}}, 1.5)
     rows = tuple(
         row
         for row in wavy_outcome.comparisons
@@ -78,8 +78,8 @@ def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
         "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
     )
     why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
-    choice = replace(split.budget.choice, impossible=why, negligible=())
-    both = replace(split, budget=replace(split.budget, choice=choice))
+    selection = replace(split.budget.selection, impossible=why, negligible=())
+    both = replace(split, budget=replace(split.budget, selection=selection))
     assert left_out_line(both) == (
         "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
     )

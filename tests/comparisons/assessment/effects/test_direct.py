@@ -1,13 +1,14 @@
-"""The half-plane's own error, put together of effects, against finite elements that have them all.
+"""The model error of the half-plane, put together of effects, against finite elements that have
+them all.
 
 Here they are switched on in the scene, from the first level to the last: nothing is added up.
 """
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import RUBBER, STEEL, problem, resolved
 
 from comparisons.assessment.comparison import figures, norms
 from comparisons.assessment.effects.catalogue import contained
@@ -18,14 +19,9 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import ResolvedScene
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-RUBBER = {"youngs_modulus": 3e6, "poissons_ratio": 0.45}
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
 ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
 ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
@@ -83,31 +79,27 @@ def outcome_of(tables: dict, levels: int) -> Outcome:
     return run(scene, None, MODELS)
 
 
-def resolved(tables: dict) -> ResolvedScene:
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
-
-
 def direct_errors(tables: dict) -> dict[str, float]:
     """(half-plane - finite elements) / finite elements on the third level, by quantity."""
-    problem = problem_of(resolved(tables))
-    plan, pitch = make_plan(problem, MODELS), problem.pitches[2]
-    friction = problem.scene.friction[0]
-    one = half_plane_level(problem, plan, pitch, None, Stages())
-    other = finite_element_level(problem, plan, Refinement(pitch), None, Stages())
-    flat, real = (figures(level, problem, friction) for level in (one, other))
+    posed = problem(tables)
+    plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
+    friction = posed.scene.friction[0]
+    one = half_plane_level(posed, plan, pitch, None, Stages())
+    other = finite_element_level(posed, plan, Refinement(pitch), None, Stages())
+    flat, real = (figures(level, posed, friction) for level in (one, other))
     found = {name: flat[name] / real[name] - 1.0 for name in QUANTITIES[:2]}
-    return found | norms(one, other, problem, friction, None)
+    return found | norms(one, other, posed, friction, None)
 
 
 def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
     """Of every judged quantity, put together and switched on; the third level has so many elements
     to a half-width."""
     tables, switches = SCENES[name]
-    half_width = problem_of(resolved(tables)).hertz.half_width
+    half_width = problem(tables).hertz.half_width
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
     added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
     assert added.budget.levels == levels and added.budget.unsplit is None
-    assert added.budget.choice.whole == contained(resolved(switched))
+    assert added.budget.selection.whole == contained(resolved(switched))
     errors = direct_errors(switched)
     friction = added.problem.scene.friction[0]
     return [(added.budget.of(quantity, friction), errors[quantity]) for quantity in QUANTITIES]

@@ -4,12 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
+from scenes import problem, resolved
 
 import comparisons.studies.maps
 from comparisons.assessment.effects.estimates import estimates
-from comparisons.models.problem import problem_of
 from comparisons.scenes.files import read_toml
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.groups import Origin, tables_with
 
 FINISHED = Path(comparisons.studies.maps.__file__).parent / "finished"
@@ -25,19 +24,17 @@ def test_they_bound_every_point_of_a_finished_map(name):
     """What the half-plane is off by, beyond its uncertainty, is at most the sum of estimates."""
     content = json.loads((FINISHED / f"{name}.json").read_text(encoding="utf-8"))
     origin = Origin(name, FINISHED)
-    base = resolve_tables(
-        read_toml(FINISHED / f"{name}.toml"), name=name, folder=FINISHED, source=name
-    )
+    base = resolved(read_toml(FINISHED / f"{name}.toml"), name, FINISHED)
     checked, tight = 0, 0.0
     for point in content["points"]:
         if point["status"] != "solved":
             continue
         groups = {content[axis]["group"]: point[axis] for axis in ("x", "y")}
         tables = tables_with(base.tables, groups, origin)
-        problem = problem_of(resolve_tables(tables, name="point", folder=FINISHED, source=name))
+        posed = problem(tables)
         found = point["quantities"]
         linear = {"deformed_gap"} | ({"rough_boundary"} if "profile" in base.tables else set())
-        sizes = estimates(problem, found["peak_pressure"]["half_plane"], linear)
+        sizes = estimates(posed, found["peak_pressure"]["half_plane"], linear)
         for quantity, error in found.items():
             if error["uncertainty"] is None:
                 continue

@@ -1,4 +1,5 @@
-"""The half-plane's own error by real finite elements: against exact layers, and as it scales."""
+"""The model error of the half-plane by real finite elements: against exact layers, and as it
+scales."""
 
 import json
 from dataclasses import replace
@@ -6,6 +7,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import pytest
+from scenes import STEEL, resolved
 
 import comparisons.models.finite_element.level
 from analytic.exact.layers import TABLE
@@ -15,19 +17,16 @@ from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import MODELS
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import resolve_tables
 from meshes.block import MeshError
 
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 RIGID = {"radius": 10e-3, "rigid": True}
 
 
 def outcome_of(tables: dict, out: Path = Path("made")) -> Outcome:
     """A run that leaves no files."""
-    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
     with patch("comparisons.runs.run.write_files"):
-        return run(scene, out, MODELS)
+        return run(resolved(tables), out, MODELS)
 
 
 def smooth(peak_pressure: float, **tables: dict) -> dict:
@@ -90,9 +89,9 @@ def outcomes() -> list[Outcome]:
 
 
 class TestSmooth:
-    def test_the_displaced_gap_and_strain_are_computed(self, outcomes):
+    def test_the_deformed_gap_and_strain_are_computed(self, outcomes):
         for outcome in outcomes:
-            assert outcome.budget.choice.added == {"deformed_gap", "finite_strain"}
+            assert outcome.budget.selection.added == {"deformed_gap", "finite_strain"}
             assert (
                 outcome.result["error_budget"]["effects"]["exact_circle"]["status"] == "negligible"
             )
@@ -132,7 +131,7 @@ class TestSmooth:
         plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
         for part in ("models", "comparison", "groups", "hertz"):
             assert _figures(plain.result[part]) == _figures(outcomes[0].result[part])
-        assert plain.budget.choice.added == frozenset()
+        assert plain.budget.selection.added == frozenset()
         assert plain.result["validity"]["verdict"] == "inconclusive"
 
 
@@ -152,7 +151,7 @@ def test_where_the_half_plane_is_exact_it_has_no_error_and_holds():
     assert outcome.result["validity"]["verdict"] == "holds"
 
 
-def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
+def test_an_effect_that_cannot_be_solved_is_not_modelled_with_its_reason():
     solve = comparisons.models.finite_element.level.finite_element_level
 
     def without_strain(problem, *arguments, **others):
@@ -162,11 +161,11 @@ def test_an_effect_that_cannot_be_solved_is_left_out_with_its_reason():
 
     with patch("comparisons.models.finite_element.level.finite_element_level", without_strain):
         outcome = outcome_of(smooth(2.0e9))
-    choice = outcome.budget.choice
-    assert choice.impossible["finite_strain"] == "no mesh is possible"
-    assert choice.added == {"deformed_gap"}
+    selection = outcome.budget.selection
+    assert selection.impossible["finite_strain"] == "no mesh is possible"
+    assert selection.added == {"deformed_gap"}
     assert set(outcome.budget.of("peak_pressure", 0.0).effects) == {"deformed_gap"}
-    assert "finite_strain" in choice.not_modelled("peak_pressure")
+    assert "finite_strain" in selection.not_modelled("peak_pressure")
     effect = outcome.result["error_budget"]["effects"]["finite_strain"]
     assert effect["status"] == "not computed" and effect["because"] == "no mesh is possible"
 
@@ -189,7 +188,7 @@ def test_what_cannot_be_taken_apart_keeps_its_difference():
     assert own.effects == {}
 
 
-def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp_path):
+def test_variants_that_were_solved_before_an_interruption_are_not_solved_again(tmp_path):
     solve, solved = comparisons.models.finite_element.level.finite_element_level, []
 
     def counted(problem, *arguments, **others):
@@ -199,7 +198,7 @@ def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp
         return solve(problem, *arguments, **others)
 
     with patch("comparisons.models.finite_element.level.finite_element_level", counted):
-        stop = 7  # levels and the half-size block are four; the third body of the budget
+        stop = 7  # levels and the half-size block are four; the third variant of the budget
         with pytest.raises(KeyboardInterrupt, match="goes on from there"):
             outcome_of(smooth(2.0e9), tmp_path / "out")
         first, stop = len(solved), None
@@ -207,13 +206,13 @@ def test_bodies_that_were_solved_before_an_interruption_are_not_solved_again(tmp
         once = outcome_of(smooth(2.0e9), tmp_path / "other")
     assert _figures(again.result) == _figures(once.result)
     whole = len(solved) - first
-    assert whole == 2 * _bodies(once) - (first - 1)
+    assert whole == 2 * _levels(once) - (first - 1)
 
 
-def _bodies(outcome: Outcome) -> int:
+def _levels(outcome: Outcome) -> int:
     """Finite-element levels of a run: the scene's own, the far-boundary check, and the budget's."""
     budget: ErrorBudget = outcome.budget
-    per_level = 1 + 1 + 1  # displaced gap, and strain with what it is measured beside
+    per_level = 1 + 1 + 1  # deformed gap, and strain with what it is measured beside
     own = len(outcome.runs["finite_element"].levels) + 1
     return own + budget.levels * (per_level - 1)
 

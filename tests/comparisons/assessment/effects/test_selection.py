@@ -4,14 +4,14 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE, choose
+from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE, select_effects
 from comparisons.common.mpi import RANKS
 
 RIGID = {"roller": {"rigid": True}}
 
 
 def chosen(problem, peak=None, couplings=()):
-    return choose(problem, peak or problem.hertz.peak_pressure, couplings)
+    return select_effects(problem, peak or problem.hertz.peak_pressure, couplings)
 
 
 def judged(problem, **tolerance):
@@ -50,11 +50,11 @@ def test_what_does_not_apply_is_not_spoken_of(problem_with):
 
 
 def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
-    choice = chosen(problem_with(**RIGID, finite_element={"gap": "displaced"}))
-    assert choice.contained == {"deformed_gap"}
-    assert "deformed_gap" not in choice.added | set(choice.negligible)
-    assert "deformed_gap" not in choice.not_modelled("peak_pressure")
-    assert "deformed_gap" in choice.whole
+    selection = chosen(problem_with(**RIGID, finite_element={"gap": "displaced"}))
+    assert selection.contained == {"deformed_gap"}
+    assert "deformed_gap" not in selection.added | set(selection.negligible)
+    assert "deformed_gap" not in selection.not_modelled("peak_pressure")
+    assert "deformed_gap" in selection.whole
 
 
 @pytest.mark.parametrize(
@@ -72,9 +72,9 @@ def test_what_the_scene_has_is_neither_added_nor_missing(problem_with):
     ],
 )
 def test_finite_strain_that_cannot_be_solved_counts_with_its_estimate(problem_with, tables, why):
-    choice = chosen(problem_with(**tables))
-    assert why in choice.impossible["finite_strain"]
-    assert choice.not_modelled("peak_pressure")["finite_strain"] > 0.0
+    selection = chosen(problem_with(**tables))
+    assert why in selection.impossible["finite_strain"]
+    assert selection.not_modelled("peak_pressure")["finite_strain"] > 0.0
 
 
 def test_under_mpirun_finite_strain_is_not_solved(problem_with, monkeypatch):
@@ -92,10 +92,10 @@ def test_a_cap_stands_for_flow_only_where_nothing_flows(problem_with):
 
 
 def test_what_is_given_up_stands_with_its_reason(problem_with):
-    choice = chosen(problem_with()).without(frozenset({"finite_roller"}), "its mesh failed")
-    assert "finite_roller" not in choice.added
-    assert choice.impossible["finite_roller"] == "its mesh failed"
-    assert "finite_roller" in choice.not_modelled("peak_pressure")
+    selection = chosen(problem_with()).without(frozenset({"finite_roller"}), "its mesh failed")
+    assert "finite_roller" not in selection.added
+    assert selection.impossible["finite_roller"] == "its mesh failed"
+    assert "finite_roller" in selection.not_modelled("peak_pressure")
 
 
 def test_strain_takes_back_what_linear_bodies_overdo(problem_with):

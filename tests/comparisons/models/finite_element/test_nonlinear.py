@@ -6,11 +6,17 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
+from scenes import STEEL, problem
 
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
 from comparisons.models.finite_element.nonlinear import pressed_finitely
 from fem.solver.mumps import FemError
 
+RIGID = {
+    "roller": {"radius": 8e-3, "rigid": True},
+    "body": STEEL,
+    "load": {"hertz_peak_pressure": 2e9},
+}
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
 WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None, hats=None))
 
@@ -34,8 +40,7 @@ def pressed(problem, shift: float):
     ("profile", "pitches", "words"),
     [(None, 0, "elements$"), (COMPUTED, 9, "elements$"), (COMPUTED, 1, "trace: a longer one")],
 )
-def test_it_is_told_what_ends_there(problem_with, profile, pitches, words):
-    tables = {} if profile is None else {"profile": profile}
-    problem = problem_with(roller={"rigid": True}, **tables)
+def test_it_is_told_what_ends_there(profile, pitches, words):
+    posed = problem(RIGID if profile is None else RIGID | {"profile": profile})
     with pytest.raises(FemError, match=f"reaches beyond the .*{words}"):
-        pressed(problem, pitches * problem.pitches[0])
+        pressed(posed, pitches * posed.pitches[0])

@@ -1,22 +1,19 @@
 """Sliding traction on bodies of like constants: half-planes move alike, layers and coats do not."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from scenes import STEEL, problem
 
-from comparisons.assessment.effects.quantities_of_interest import answer_of, sizes
-from comparisons.assessment.effects.selection import choose
+from comparisons.assessment.effects.quantities_of_interest import quantities_of, relative_sizes
+from comparisons.assessment.effects.selection import select_effects
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.level import Level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.models.problem import Problem
 
-STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
 HALF_WIDTH = 216e-6  # of the smooth contact
 BODIES = {
     "thin layer": {"body": STEEL | {"thickness": 0.3 * HALF_WIDTH}},
@@ -38,9 +35,9 @@ def solved(tables: dict, **finite_element: object) -> tuple[Problem, Level]:
         "resolution": {"pitch": HALF_WIDTH / 20.0},
         "tolerance": {"peak_pressure": 0.02, "contact_length": 0.02, "pressure_l2": 0.02},
     } | tables
-    problem = problem_of(resolve_tables(made, name="made", folder=Path("."), source="made.toml"))
-    plan, refinement = make_plan(problem, MODELS), Refinement(problem.pitches[0])
-    return problem, finite_element_level(problem, plan, refinement, None, Stages())
+    posed = problem(made)
+    plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
+    return posed, finite_element_level(posed, plan, refinement, None, Stages())
 
 
 def test_half_planes_are_moved_alike():
@@ -58,15 +55,12 @@ def test_along_the_roller_s_normal_a_solution_is_found():
 
 @pytest.mark.parametrize("name", BODIES)
 def test_what_layers_and_coats_are_moved_otherwise_is_bounded_and_not_passed_over(name):
-    problem, still = solved(BODIES[name])
+    posed, still = solved(BODIES[name])
     _, moved = solved(BODIES[name], coupled=True)
-    without = answer_of(still, problem, 0.3)
-    change = sizes(answer_of(moved, problem, 0.3) - without, without, problem, None)["pressure_l2"]
-    choice = choose(problem, problem.hertz.peak_pressure, ())
-    assert (
-        0.003
-        < change
-        <= choice.estimates["normal_tangential_coupling"]["pressure_l2"]
-        < 5.0 * change
-    )
-    assert "coupling" in choice.added
+    without = quantities_of(still, posed, 0.3)
+    difference = quantities_of(moved, posed, 0.3) - without
+    change = relative_sizes(difference, without, posed, None)["pressure_l2"]
+    selection = select_effects(posed, posed.hertz.peak_pressure, ())
+    estimate = selection.estimates["normal_tangential_coupling"]["pressure_l2"]
+    assert 0.003 < change <= estimate < 5.0 * change
+    assert "normal_tangential_coupling" in selection.added

@@ -1,4 +1,4 @@
-"""Bodies solved by several processes: the same answers, and what becomes of those that end."""
+"""Model variants solved by several processes: the same solutions, and what becomes of failures."""
 
 import os
 import pickle
@@ -10,10 +10,14 @@ import numpy as np
 import pytest
 
 from comparisons.assessment.effects import solutions as solve
-from comparisons.assessment.effects.contributions import bodies_for, parts_of
-from comparisons.assessment.effects.selection import Choice
-from comparisons.assessment.effects.solutions import Bodies, NotComputedError, processes_beside
-from comparisons.assessment.effects.variants import Body
+from comparisons.assessment.effects.contributions import contributions_of, variants_for
+from comparisons.assessment.effects.selection import EffectSelection
+from comparisons.assessment.effects.solutions import (
+    NotComputedError,
+    SolvedVariants,
+    processes_beside,
+)
+from comparisons.assessment.effects.variants import ModelVariant
 from comparisons.assessment.refinement import refined
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import no_progress
@@ -22,7 +26,7 @@ from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
-CHOICE = Choice(frozenset(), frozenset({"deformed_gap", "finite_strain"}), {}, {}, {})
+SELECTION = EffectSelection(frozenset(), frozenset({"deformed_gap", "finite_strain"}), {}, {}, {})
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +37,8 @@ def made(problem_with):
     keeps_nothing = level_cache(None, problem.scene, plan)
     runs, _ = refined(problem, plan, None, keeps_nothing, no_progress)
 
-    def bodies(beside, own=runs["finite_element"]) -> Bodies:
-        return Bodies(problem, None, own, keeps_nothing, no_progress, beside)
+    def bodies(beside, own=runs["finite_element"]) -> SolvedVariants:
+        return SolvedVariants(problem, None, own, keeps_nothing, no_progress, beside)
 
     return bodies
 
@@ -53,13 +57,13 @@ def test_bodies_beside_answer_as_here(made, always):
             return call(*given)
 
         shared.beside = [seen]
-        asked = bodies_for(shared.problem, CHOICE)
+        asked = variants_for(shared.problem, SELECTION)
         shared.prepare(asked, 1)
     assert answered and len(asked) == 3  # the gap's own is what strain is measured beside
-    assert all((body, 1, 0.0) in shared.answers for body in asked[1:])
-    one, two = (parts_of(b.problem, b, CHOICE, 0.0, 1) for b in (alone, shared))
-    assert one.lacking.figures == two.lacking.figures
-    np.testing.assert_array_equal(one.lacking.pressure, two.lacking.pressure)
+    assert all((body, 1, 0.0) in shared.solved for body in asked[1:])
+    one, two = (contributions_of(b.problem, b, SELECTION, 0.0, 1) for b in (alone, shared))
+    assert one.not_contained.figures == two.not_contained.figures
+    np.testing.assert_array_equal(one.not_contained.pressure, two.not_contained.pressure)
     assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
 
 
@@ -68,24 +72,29 @@ def test_what_a_process_cannot_finish_is_solved_here(made, always):
         raise ProcessEnded
 
     bodies = made([ends])
-    bodies.prepare([Body(frozenset({"deformed_gap"})), Body(frozenset({"exact_circle"}))], 1)
-    assert {body.effects for body, _, _ in bodies.answers} == {
+    bodies.prepare(
+        [ModelVariant(frozenset({"deformed_gap"})), ModelVariant(frozenset({"exact_circle"}))], 1
+    )
+    assert {body.effects for body, _, _ in bodies.solved} == {
         frozenset({"deformed_gap"}),
         frozenset({"exact_circle"}),
     }
 
 
 def test_a_body_without_an_answer_is_heard_of_when_it_is_asked(made, always):
-    gap, circle = Body(frozenset({"deformed_gap"})), Body(frozenset({"exact_circle"}))
+    gap, circle = (
+        ModelVariant(frozenset({"deformed_gap"})),
+        ModelVariant(frozenset({"exact_circle"})),
+    )
     bodies = made(())
     with patch.object(solve, "_solved", side_effect=NotComputedError(gap, "no\nmesh")):
         bodies.prepare([gap], 1)
     bodies.prepare([gap, circle], 1)  # is not tried again
-    assert bodies.answer(circle, 1, 0.0)
+    assert bodies.solution(circle, 1, 0.0)
     with pytest.raises(NotComputedError, match=r"^no mesh$") as caught:
-        bodies.answer(gap, 1, 0.0)
+        bodies.solution(gap, 1, 0.0)
     copied = pickle.loads(pickle.dumps(caught.value))  # as it comes from another process
-    assert (copied.body, str(copied)) == (gap, "no mesh")
+    assert (copied.variant, str(copied)) == (gap, "no mesh")
 
 
 def test_processes_are_begun_where_they_pay_and_memory_allows(made):
