@@ -10,7 +10,7 @@ from analytic.surface.readers.text import (
     DECIMAL_COMMAS,
     NAMES,
     ProfileError,
-    TextTable,
+    ProfileTable,
     read_table,
     shown,
 )
@@ -116,7 +116,7 @@ def read_profile(
     )
 
 
-def _check_shape(table: TextTable, spacing: float | None, max_samples: int) -> None:
+def _check_shape(table: ProfileTable, spacing: float | None, max_samples: int) -> None:
     count = len(table.lines)
     if table.numbers.shape[1] == 2 and spacing is not None:
         message = "two columns bring their own x; the sample spacing is for heights alone"
@@ -132,7 +132,7 @@ def _check_shape(table: TextTable, spacing: float | None, max_samples: int) -> N
         raise ProfileError(table.path, f"has {count} samples; at most {max_samples} are allowed")
 
 
-def _dropout_error(table: TextTable, lost: np.ndarray) -> ProfileError:
+def _dropout_error(table: ProfileTable, lost: np.ndarray) -> ProfileError:
     row = int(np.argmax(lost))
     what = "height" if np.isnan(table.numbers[row, -1]) else "x"
     others = int(np.count_nonzero(lost)) - 1
@@ -145,7 +145,7 @@ def _dropout_error(table: TextTable, lost: np.ndarray) -> ProfileError:
 
 
 def _bridge(
-    table: TextTable, x: np.ndarray, height: np.ndarray, lost: np.ndarray
+    table: ProfileTable, x: np.ndarray, height: np.ndarray, lost: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x and height without gaps, and the rows that they come from (the ends may go)."""
     if np.all(lost):
@@ -161,7 +161,7 @@ def _bridge(
     return bridge(x, height, lost)
 
 
-def _check_places(table: TextTable, x: np.ndarray, rows: np.ndarray) -> None:
+def _check_places(table: ProfileTable, x: np.ndarray, rows: np.ndarray) -> None:
     """Refuse samples at one place: `x` ascends, `rows` are theirs in the table."""
     length = x[-1] - x[0]
     hint = f"; {DECIMAL_COMMAS}" if table.commas_may_be_decimal() else ""

@@ -141,7 +141,7 @@ class ColumnsError(ProfileError):
 
 
 @dataclass(frozen=True)
-class TextTable:
+class ProfileTable:
     """The rows of a file.
 
     numbers    (rows, columns), 1 or 2 columns, NaN for a dropout
@@ -169,7 +169,7 @@ class TextTable:
         return self.separator == "," and not any("." in row for row in self.text)
 
 
-def read_table(path: Path, max_bytes: int, one_column: bool) -> TextTable:
+def read_table(path: Path, max_bytes: int, one_column: bool) -> ProfileTable:
     """The rows of the file at `path`, which may have `max_bytes` at most.
 
     one_column   what the caller announces; it decides only how rows like `1,5` are read
@@ -184,14 +184,16 @@ def read_table(path: Path, max_bytes: int, one_column: bool) -> TextTable:
     separator, decimal = _dialect(path, int(lines[0]), text, one_column)
     numbers = _fast_numbers(text, separator, decimal)
     if numbers is None:
-        table = TextTable(path, np.empty((0, 0)), text, lines[filled], separator, decimal, header)
+        table = ProfileTable(
+            path, np.empty((0, 0)), text, lines[filled], separator, decimal, header
+        )
         numbers = _careful_numbers(table)
     numbers = np.where(np.isfinite(numbers), numbers, np.nan)
     if some_blank and numbers.shape[1] == 1:
         every = np.full((len(rows), 1), np.nan)
         every[filled] = numbers
-        return TextTable(path, every, rows, lines, separator, decimal, header)
-    return TextTable(path, numbers, text, lines[filled], separator, decimal, header)
+        return ProfileTable(path, every, rows, lines, separator, decimal, header)
+    return ProfileTable(path, numbers, text, lines[filled], separator, decimal, header)
 
 
 def _header(path: Path, lines: list[str]) -> tuple[int, tuple[str, ...]]:
@@ -277,7 +279,7 @@ def _fast_numbers(rows: list[str], separator: str, decimal: str) -> np.ndarray |
     return numbers if len(numbers) == len(rows) and numbers.shape[1] <= 2 else None
 
 
-def _careful_numbers(table: TextTable) -> np.ndarray:
+def _careful_numbers(table: ProfileTable) -> np.ndarray:
     """The numbers row by row, dropouts as NaN; `table` has everything but its numbers."""
     cells = _split(table.text, table.separator)
     width = Counter(map(len, cells)).most_common(1)[0][0]
@@ -321,7 +323,7 @@ def _number(cell: str, decimal: str) -> float | None:
     return float("nan") if _is_dropout(cell) else None
 
 
-def _wrong_columns(table: TextTable, found: int, width: int) -> str:
+def _wrong_columns(table: ProfileTable, found: int, width: int) -> str:
     if found == width:
         message = f"{found} columns; a profile has two (x, height) or one (height)"
     else:
