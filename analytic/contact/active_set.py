@@ -183,13 +183,13 @@ def exchange_feasibly(
     else:
         pressure = problem.feasible(start, np.full(len(start), True))
         active = ActiveSet.of(pressure, hardness)
-    gap = problem.gap + problem.apply(pressure)
+    weighted_gap = problem.weighted_gap + problem.apply(pressure)
     for _ in range(20 * len(start)):
         active = problem.with_a_free_node(active)
         rest = problem.equilibrium(pressure, active, 0.0)
-        rest_gap = rest.gap + problem.approach * problem.weights
+        rest_gap = rest.weighted_gap + problem.approach * problem.weights
         if np.all((rest.pressure >= 0.0) & (rest.pressure <= hardness)):
-            pressure, gap = rest.pressure, rest_gap
+            pressure, weighted_gap = rest.pressure, rest_gap
             violated = problem.violations(rest, active)
             if not (violated.joining.any() or violated.softening.any()):
                 return pressure
@@ -197,16 +197,16 @@ def exchange_feasibly(
             continue
         step = rest.pressure - pressure
         trial = problem.feasible(rest.pressure, active.free)
-        trial_gap = problem.gap + problem.apply(trial)
-        gain = _energy_lost(pressure, gap, trial, trial_gap)
-        if gain < WORTHWHILE * _energy_lost(pressure, gap, rest.pressure, rest_gap):
+        trial_gap = problem.weighted_gap + problem.apply(trial)
+        gain = _energy_lost(pressure, weighted_gap, trial, trial_gap)
+        if gain < WORTHWHILE * _energy_lost(pressure, weighted_gap, rest.pressure, rest_gap):
             trial = _first_met(pressure, step, hardness, active.free)
-            trial_gap = problem.gap + problem.apply(trial)
+            trial_gap = problem.weighted_gap + problem.apply(trial)
         down, up = active.free & (step < 0.0), active.free & (step > 0.0)
         active = ActiveSet(
             active.lower | (down & (trial <= 0.0)), active.upper | (up & (trial >= hardness))
         )
-        pressure, gap = trial, trial_gap
+        pressure, weighted_gap = trial, trial_gap
     return pressure
 
 

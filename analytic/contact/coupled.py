@@ -58,9 +58,9 @@ class CoupledEquilibrium(EquilibriumProblem):
             return rest
         # GMRES has not applied C to its result: the approach is what that leaves on the average
         weights = self.weights[active.free]
-        left = float((weights @ rest.gap[active.free]) / (weights @ weights))
+        left = float((weights @ rest.weighted_gap[active.free]) / (weights @ weights))
         self.approach += left
-        return replace(rest, gap=rest.gap - left * self.weights)
+        return replace(rest, weighted_gap=rest.weighted_gap - left * self.weights)
 
     def _iterate(
         self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
@@ -69,16 +69,16 @@ class CoupledEquilibrium(EquilibriumProblem):
         weights, search = self.weights[nodes], self.search(nodes)
         if self.by_load:
             pressure[nodes] += (self.constraints.load - self.weights @ pressure) * search.lift
-        gap = self.gap[nodes] + self.displacement(pressure)[nodes]
+        weighted_gap = self.weighted_gap[nodes] + self.weighted_displacement(pressure)[nodes]
         if self.by_load:
-            self.approach = float((weights @ gap) / (weights @ weights))
+            self.approach = float((weights @ weighted_gap) / (weights @ weights))
 
         def moved(values: np.ndarray) -> np.ndarray:
             line = np.zeros_like(pressure)
             line[nodes] = values
             return search.step(self.apply(line)[nodes])
 
-        error = search.step(gap - self.approach * weights)
+        error = search.step(weighted_gap - self.approach * weights)
         tight = TIGHT * np.linalg.norm(pressure[nodes])
         goal = max(reduction * np.linalg.norm(error), tight)
         step, left = krylov_step(moved, error, goal)
@@ -135,14 +135,14 @@ SHORTEST = 1e-10  # a contraction step this small, relative in the norm of N, is
 
 def solve_coupled(
     operator: CoupledOperator,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
 ) -> ContactSolution:
     """Solve the contact problem of this module; residuals are those of the coupled operator.
 
-    gap      G (n,) [m^2]         weights  w (n,) [m]
+    weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
     start    pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them,
              which costs less than the way from the uncoupled solution
 
@@ -152,12 +152,12 @@ def solve_coupled(
     KKT_TOLERANCE is returned with `converged` False.
     """
     if not operator.skew:
-        return solve_contact(operator.normal, gap, weights, constraints, start)
+        return solve_contact(operator.normal, weighted_gap, weights, constraints, start)
     check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0, "contractions": 0}
-    common, constraints = common_gap(gap, weights, constraints)
-    gap = gap - common * weights
-    problem = CoupledEquilibrium(operator, gap, weights, constraints, spent)
+    common, constraints = common_gap(weighted_gap, weights, constraints)
+    weighted_gap = weighted_gap - common * weights
+    problem = CoupledEquilibrium(operator, weighted_gap, weights, constraints, spent)
     settled = False
     if start is not None:
         pressure, settled = _exchange(problem, start)
@@ -175,7 +175,7 @@ def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
     return assessed(
         problem.apply(pressure),
         pressure,
-        problem.gap,
+        problem.weighted_gap,
         problem.weights,
         problem.approach,
         problem.constraints,
@@ -224,12 +224,12 @@ def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
     operator, weights, constraints = problem.operator, problem.weights, problem.constraints
     normal = operator.normal
     share, before = 1.0, np.inf
-    displacement, even = problem.apply(pressure), normal.apply(pressure)
+    weighted_displacement, even = problem.apply(pressure), normal.apply(pressure)
     for _ in range(MAX_CONTRACTIONS):
         scaled = constraints
         if not problem.by_load:
             scaled = replace(constraints, approach=share * constraints.approach)
-        linear = share * (problem.gap + displacement) - even
+        linear = share * (problem.weighted_gap + weighted_displacement) - even
         trial = solve_contact(normal, linear, weights, scaled, start=pressure)
         problem.approach = trial.approach / share
         problem.spent["contractions"] += 1
@@ -239,7 +239,7 @@ def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
         shortened = length < (1.0 - 0.5 * share) * before  # as it must for share < 1.5/(1+k^2)
         share, before = (share, length) if shortened else (0.5 * share, np.inf)
         pressure, even = trial.pressure, moved
-        displacement = problem.apply(pressure)
+        weighted_displacement = problem.apply(pressure)
         if length <= SHORTEST**2 * (pressure @ even):
             break
     return _solution(problem, pressure)

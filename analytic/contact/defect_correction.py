@@ -52,7 +52,7 @@ _Solver = Callable[..., ContactSolution]
 def solve_with_model(
     operator: ComplianceOperator,
     model: ModelOperator,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
@@ -60,19 +60,21 @@ def solve_with_model(
 ) -> ContactSolution:
     """Solve the contact problem of `operator`; residuals are those of `operator` itself.
 
-    gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
+    weighted_gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
     `iterations` counts the steps and the applications of C and of D; C is applied once more than
     there are steps where an approach is prescribed and the model is a half-plane.
     """
-    return _solve(operator, model, solve_contact, gap, weights, constraints, start, tolerance)
+    return _solve(
+        operator, model, solve_contact, weighted_gap, weights, constraints, start, tolerance
+    )
 
 
 def solve_with_coupled_model(
     operator: ComplianceOperator,
     model: CoupledOperator,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
@@ -85,43 +87,52 @@ def solve_with_coupled_model(
     an operator, too (`analytic.operators.tangential`); without a skew part it serves a frictionless
     contact.
     """
-    return _solve(operator, model, solve_coupled, gap, weights, constraints, start, tolerance)
+    return _solve(
+        operator, model, solve_coupled, weighted_gap, weights, constraints, start, tolerance
+    )
 
 
 def _solve(
     operator: ComplianceOperator,
     model: ModelOperator,
     solver: _Solver,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None,
     tolerance: float,
 ) -> ContactSolution:
-    common, constraints = common_gap(gap, weights, constraints)
-    gap = gap - common * weights
-    pressure, carried, share = start, np.zeros_like(gap), 1.0
+    common, constraints = common_gap(weighted_gap, weights, constraints)
+    weighted_gap = weighted_gap - common * weights
+    pressure, carried, share = start, np.zeros_like(weighted_gap), 1.0
     path: list[tuple[np.ndarray, np.ndarray]] = []  # r and f of the last steps
     best, model_applications, probes = None, 0, 0
     if constraints.approach is not None and isinstance(model, HalfPlane):
         model = _at_datum_of(operator, model, weights, start)
         model_applications, probes = 1, 1
     for step in range(1, MAX_STEPS + 1):
-        trial = solver(model, gap + carried, weights, constraints, pressure)
+        trial = solver(model, weighted_gap + carried, weights, constraints, pressure)
         model_applications += 1 + trial.iterations["applications"]
         pressure = trial.pressure
-        displacement = operator.apply(pressure)
+        weighted_displacement = operator.apply(pressure)
         counts = {
             "steps": step,
             "applications": step + probes,
             "model_applications": model_applications,
         }
         free = _free(pressure, constraints)
-        approach = _approach(displacement, pressure, gap, weights, constraints)
+        approach = _approach(weighted_displacement, pressure, weighted_gap, weights, constraints)
         solution = assessed(
-            displacement, pressure, gap, weights, approach, constraints, counts, tolerance
+            weighted_displacement,
+            pressure,
+            weighted_gap,
+            weights,
+            approach,
+            constraints,
+            counts,
+            tolerance,
         )
-        misfit = displacement - model.apply(pressure) - carried
+        misfit = weighted_displacement - model.apply(pressure) - carried
         if constraints.approach is None:  # the approach takes up what is common to all nodes
             misfit -= (weights @ misfit) / (weights @ weights) * weights
         if best is None or solution.residuals.worst < best.residuals.worst:
@@ -170,9 +181,9 @@ def _free(pressure: np.ndarray, constraints: Constraints) -> np.ndarray:
 
 
 def _approach(
-    displacement: np.ndarray,
+    weighted_displacement: np.ndarray,
     pressure: np.ndarray,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
 ) -> float:
@@ -180,4 +191,4 @@ def _approach(
     if constraints.approach is not None:
         return constraints.approach
     carriers = np.where(_free(pressure, constraints), pressure, 0.0)
-    return float(carriers @ (gap + displacement) / (carriers @ weights))
+    return float(carriers @ (weighted_gap + weighted_displacement) / (carriers @ weights))

@@ -133,9 +133,9 @@ class SearchDirections:
             lift = self.inverse(weights)
             self.lift = lift / (weights @ lift)
 
-    def inverse(self, displacement: np.ndarray) -> np.ndarray:
+    def inverse(self, weighted_displacement: np.ndarray) -> np.ndarray:
         """Pressures (m,) under which the nodes sink by about `displacement` (m,)."""
-        extended = self._extension.extend(displacement)
+        extended = self._extension.extend(weighted_displacement)
         return self._extension.gather(self.operator.precondition(extended))
 
     def step(self, residual: np.ndarray) -> np.ndarray:
@@ -181,7 +181,7 @@ class Equilibrium:
     """
 
     pressure: np.ndarray
-    gap: np.ndarray
+    weighted_gap: np.ndarray
     overlap: np.ndarray
     accurate: bool
 
@@ -197,17 +197,17 @@ class EquilibriumProblem:
     def __init__(
         self,
         operator: ModelOperator,
-        gap: np.ndarray,
+        weighted_gap: np.ndarray,
         weights: np.ndarray,
         constraints: Constraints,
         spent: dict[str, int],
         tight: float = TIGHT,
     ) -> None:
-        self.operator, self.gap, self.weights = operator, gap, weights
+        self.operator, self.weighted_gap, self.weights = operator, weighted_gap, weights
         self.constraints, self.spent, self.tight = constraints, spent, tight
         self.by_load = constraints.load is not None
         self.approach = 0.0 if self.by_load else constraints.approach
-        self._rounding = ROUNDING * np.abs(gap)
+        self._rounding = ROUNDING * np.abs(weighted_gap)
         self._own_compliance: float | None = None
         self._applied: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
         self._last: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
@@ -262,7 +262,7 @@ class EquilibriumProblem:
         """
         if not self.by_load or active.free.any():
             return active
-        reach = self.gap / self.weights
+        reach = self.weighted_gap / self.weights
         if self._load_of(active.upper) < self.constraints.load:
             node = np.argmin(np.where(active.lower, reach, np.inf))
         else:
@@ -272,36 +272,32 @@ class EquilibriumProblem:
         return ActiveSet(lower, upper)
 
     def balanced(self, rest: Equilibrium) -> ActiveSet:
-        """ActiveSet that carry the prescribed load while each node sinks for itself.
+        """The active set of the same load on independent springs.
 
-        Where nearly all that touches is at the hardness, few free nodes bear what is missing of
-        the load, and exchanges by their signs move the approach from node to node.
+        Where nearly all that touches is at the hardness, exchanges by signs would only move the
+        approach from one of the few free nodes to the next.
         """
         if self._own_compliance is None:
-            one = np.zeros_like(self.gap)
+            one = np.zeros_like(self.weighted_gap)
             one[len(one) // 2] = 1.0
             self._own_compliance = self.apply(one)[len(one) // 2]
-        free = np.full(len(self.gap), True)
-        pressure = self.feasible(rest.pressure - rest.gap / self._own_compliance, free)
+        free = np.full(len(self.weighted_gap), True)
+        pressure = self.feasible(rest.pressure - rest.weighted_gap / self._own_compliance, free)
         return ActiveSet.of(pressure, self.constraints.hardness)
 
     def violations(self, rest: Equilibrium, active: ActiveSet) -> Violations:
         """Where sign conditions fail, pressures by more than SET_TOLERANCE of the largest."""
         hardness, pressure = self.constraints.hardness, rest.pressure
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
-        tensile, joining = (
-            active.free & (pressure < -slack),
-            active.lower & (rest.gap < -rest.overlap),
-        )
-        if not np.isfinite(hardness):
-            return Violations(
-                tensile, active.upper, joining, active.upper
-            )  # none is at the hardness
+        tensile = active.free & (pressure < -slack)
+        joining = active.lower & (rest.weighted_gap < -rest.overlap)
+        if not np.isfinite(hardness):  # no node is at it
+            return Violations(tensile, active.upper, joining, active.upper)
         return Violations(
             tensile=tensile,
             excessive=active.free & (pressure > hardness + slack),
             joining=joining,
-            softening=active.upper & (rest.gap > rest.overlap),
+            softening=active.upper & (rest.weighted_gap > rest.overlap),
         )
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
@@ -319,28 +315,28 @@ class EquilibriumProblem:
             self._applied = pressure, self.apply(pressure)
             return self.at_rest(*self._applied, True)
         pressure[nodes] = start[nodes]
-        displacement, accurate = self._iterate(nodes, pressure, reduction)
-        return self.at_rest(pressure, displacement, accurate)
+        weighted_displacement, accurate = self._iterate(nodes, pressure, reduction)
+        return self.at_rest(pressure, weighted_displacement, accurate)
 
     def at_rest(
-        self, pressure: np.ndarray, displacement: np.ndarray, accurate: bool
+        self, pressure: np.ndarray, weighted_displacement: np.ndarray, accurate: bool
     ) -> Equilibrium:
         """The equilibrium of pressures (n,) [Pa] with their Cp (n,) [m^2] at the approach found."""
-        self._last = pressure, displacement
-        low, high = displacement.min(), displacement.max()
+        self._last = pressure, weighted_displacement
+        low, high = weighted_displacement.min(), weighted_displacement.max()
         overlap = self._rounding + (SET_TOLERANCE * (high - low) + ROUNDING * max(high, -low))
-        gap = self.gap + displacement - self.approach * self.weights
-        return Equilibrium(pressure, gap, overlap, accurate)
+        weighted_gap = self.weighted_gap + weighted_displacement - self.approach * self.weights
+        return Equilibrium(pressure, weighted_gap, overlap, accurate)
 
     def _solve(self, nodes: np.ndarray, pressure: np.ndarray) -> np.ndarray | None:
         """Pressures (m,) of the free nodes beside `pressure` on the others; None of too many."""
         if len(nodes) == 0:
             return np.empty(0)
         weights = self.weights[nodes]
-        gap = self.gap[nodes]
+        weighted_gap = self.weighted_gap[nodes]
         if pressure.any():
-            gap = gap + self.apply(pressure)[nodes]
-        found = self.operator.solve(nodes, np.array([gap, weights]).T)
+            weighted_gap = weighted_gap + self.apply(pressure)[nodes]
+        found = self.operator.solve(nodes, np.array([weighted_gap, weights]).T)
         if found is None:
             return None
         from_gap, from_weights = found.T
@@ -366,15 +362,15 @@ class EquilibriumProblem:
             # a load that is right to rounding needs no correction, and no application
             if abs(missing) > ROUNDING * self.constraints.load:
                 pressure[nodes] += missing * search.lift
-        displacement = self.displacement(pressure)
+        weighted_displacement = self.weighted_displacement(pressure)
         # what rounding leaves of the sum of gap and displacement cannot be lowered
-        largest = np.sqrt(len(nodes)) * np.abs(displacement).max()
+        largest = np.sqrt(len(nodes)) * np.abs(weighted_displacement).max()
         floor = np.linalg.norm(self._rounding[nodes]) + ROUNDING * largest
-        balanced = displacement[nodes]
+        balanced = weighted_displacement[nodes]
         if self.by_load:
             balanced = balanced - balanced.mean()
         tight = max(self.tight * np.linalg.norm(balanced), floor)
-        total = (self.gap + displacement)[search.stretch]
+        total = (self.weighted_gap + weighted_displacement)[search.stretch]
         line, places = np.zeros_like(total), nodes - search.stretch.start
         found, direction = pressure[nodes], np.zeros(len(nodes))
         goal, slope_before, least, since_least = None, 1.0, np.inf, 0
@@ -387,7 +383,7 @@ class EquilibriumProblem:
             goal = max(reduction * size, tight) if goal is None else goal
             if size <= goal:
                 pressure[nodes] = found
-                moved = self.apply(pressure) if search.cropped else total - self.gap
+                moved = self.apply(pressure) if search.cropped else total - self.weighted_gap
                 return moved, bool(size <= tight)
             since_least = 0 if size < PROGRESS * least else since_least + 1
             if size < least:
@@ -408,12 +404,12 @@ class EquilibriumProblem:
             total -= image
         # rounding is reached; what followed the least residual drifts off
         pressure[nodes] = best
-        displacement = self.apply(pressure)
+        weighted_displacement = self.apply(pressure)
         if self.by_load:
-            self.approach = float(search.lift @ (self.gap + displacement)[nodes])
-        return displacement, True
+            self.approach = float(search.lift @ (self.weighted_gap + weighted_displacement)[nodes])
+        return weighted_displacement, True
 
-    def displacement(self, pressure: np.ndarray) -> np.ndarray:
+    def weighted_displacement(self, pressure: np.ndarray) -> np.ndarray:
         """Cp (n,) [m^2]; of the last pressures it is known."""
         if self._last is not None and np.array_equal(pressure, self._last[0]):
             return self._last[1]

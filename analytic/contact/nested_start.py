@@ -28,13 +28,13 @@ def coarse_start(
     settle    pressures of a coarse problem, whose edges may be off, from a start
     coarsest  nodes below which no coarser grid is made
     """
-    count, periodic = len(problem.gap), problem.operator.periodic
+    count, periodic = len(problem.weighted_gap), problem.operator.periodic
     operator = problem.operator.coarsened() if count >= coarsest else None
     if operator is None:
         return foundation_start(problem)
     coarse = type(problem)(
         operator,
-        restricted(problem.gap, periodic),
+        restricted(problem.weighted_gap, periodic),
         restricted(problem.weights, periodic),
         problem.constraints,
         problem.spent,
@@ -50,7 +50,7 @@ def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
     what the body does under an even pressure of that load.
     """
     weights, constraints = problem.weights, problem.constraints
-    height, count = problem.gap / weights, len(weights)
+    height, count = problem.weighted_gap / weights, len(weights)
     softness = FOUNDATION * np.mean(np.abs(problem.apply(np.ones(count)) / weights))
     if constraints.load is None:
         level = constraints.approach

@@ -82,41 +82,10 @@ class ContactSolution:
     converged: bool
 
 
-def contact_residuals(
-    displacement: np.ndarray,
-    pressure: np.ndarray,
-    gap: np.ndarray,
-    weights: np.ndarray,
-    approach: float,
-    constraints: Constraints,
-) -> tuple[np.ndarray, Residuals]:
-    """Gap (n,) [m] and residuals, from Cp (n,) [m^2], weighted initial gap (n,) and approach."""
-    hardness = constraints.hardness
-    actual = (gap + displacement) / weights - approach
-    lowered = displacement / weights
-    largest = np.max(np.abs(lowered))
-    scale = largest if constraints.load is None else max(np.ptp(lowered), EVEN * largest)
-    scale = scale or max(0.0, -np.min(actual)) or 1.0  # overlapping without pressure
-    load = weights @ pressure
-    highest = np.max(pressure)
-    free = pressure < hardness * (1.0 - SET_TOLERANCE)
-    error = 0.0 if constraints.load is None else abs(load - constraints.load) / constraints.load
-    apart = np.where(free, np.abs(actual), np.maximum(actual, 0.0))
-    work = np.sum(weights * np.abs(pressure) * apart)
-    residuals = Residuals(
-        load_balance=error,
-        complementarity=work / load / scale if load > 0.0 else 0.0,
-        penetration=max(0.0, -np.min(actual[free], initial=0.0)) / scale,
-        negative_pressure=max(0.0, -np.min(pressure)) / highest if highest > 0.0 else 0.0,
-        excess_pressure=max(0.0, highest / hardness - 1.0),
-    )
-    return actual, residuals
-
-
 def assessed(
-    displacement: np.ndarray,
+    weighted_displacement: np.ndarray,
     pressure: np.ndarray,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     approach: float,
     constraints: Constraints,
@@ -124,14 +93,30 @@ def assessed(
     tolerance: float = KKT_TOLERANCE,
 ) -> ContactSolution:
     """Pressures (n,) [Pa] with their Cp (n,) [m^2] as a solution, `converged` to `tolerance`."""
-    actual, residuals = contact_residuals(
-        displacement, pressure, gap, weights, approach, constraints
+    hardness = constraints.hardness
+    gap = (weighted_gap + weighted_displacement) / weights - approach
+    lowered = weighted_displacement / weights
+    largest = np.max(np.abs(lowered))
+    scale = largest if constraints.load is None else max(np.ptp(lowered), EVEN * largest)
+    scale = scale or max(0.0, -np.min(gap)) or 1.0  # overlapping without pressure
+    load = weights @ pressure
+    highest = np.max(pressure)
+    free = pressure < hardness * (1.0 - SET_TOLERANCE)
+    error = 0.0 if constraints.load is None else abs(load - constraints.load) / constraints.load
+    apart = np.where(free, np.abs(gap), np.maximum(gap, 0.0))
+    work = np.sum(weights * np.abs(pressure) * apart)
+    residuals = Residuals(
+        load_balance=error,
+        complementarity=work / load / scale if load > 0.0 else 0.0,
+        penetration=max(0.0, -np.min(gap[free], initial=0.0)) / scale,
+        negative_pressure=max(0.0, -np.min(pressure)) / highest if highest > 0.0 else 0.0,
+        excess_pressure=max(0.0, highest / hardness - 1.0),
     )
     return ContactSolution(
         pressure=pressure,
-        gap=actual,
+        gap=gap,
         approach=float(approach),
-        load=float(weights @ pressure),
+        load=float(load),
         residuals=residuals,
         iterations=dict(iterations),
         converged=bool(residuals.worst <= tolerance),
@@ -140,7 +125,7 @@ def assessed(
 
 def solve_contact(
     operator: ModelOperator,
-    gap: np.ndarray,
+    weighted_gap: np.ndarray,
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray | None = None,
@@ -148,7 +133,7 @@ def solve_contact(
 ) -> ContactSolution:
     """Solve the contact problem of this module.
 
-    gap        G (n,) [m^2]         weights  w (n,) [m]
+    weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
     start      pressures (n,) [Pa] of a nearby problem; without them a coarser grid supplies them
     tolerance  residual of the last equilibrium over the displacements that it balances
 
@@ -157,9 +142,9 @@ def solve_contact(
     """
     check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0}
-    common, constraints = common_gap(gap, weights, constraints)
-    gap = gap - common * weights
-    problem = EquilibriumProblem(operator, gap, weights, constraints, spent, tolerance)
+    common, constraints = common_gap(weighted_gap, weights, constraints)
+    weighted_gap = weighted_gap - common * weights
+    problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent, tolerance)
     if start is None:
         start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
     pressure = exchange_blocks(problem, start)
@@ -167,7 +152,7 @@ def solve_contact(
     solution = assessed(
         problem.applied(pressure),
         pressure,
-        gap,
+        weighted_gap,
         weights,
         problem.approach,
         constraints,
@@ -187,12 +172,12 @@ def check_load(constraints: Constraints, weights: np.ndarray) -> None:
 
 
 def common_gap(
-    gap: np.ndarray, weights: np.ndarray, constraints: Constraints
+    weighted_gap: np.ndarray, weights: np.ndarray, constraints: Constraints
 ) -> tuple[float, Constraints]:
     """The part of the gap [m] that the approach absorbs, and the constraints without it.
 
     Far larger than what a light load closes, it would drown that in rounding.
     """
     if constraints.approach is None:
-        return float(np.min(gap / weights)), constraints
+        return float(np.min(weighted_gap / weights)), constraints
     return constraints.approach, replace(constraints, approach=0.0)

@@ -86,14 +86,14 @@ class Convolution:
         spectrum *= self._transfer
         return irfft(spectrum, self._length)[: self.count]
 
-    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
         """Approximate inverse of `apply`, positive definite: division by the symbol.
 
         Of displacements on the ring, or on as many of its nodes as are given.
         """
-        spectrum = rfft(displacement, self.ring)
+        spectrum = rfft(weighted_displacement, self.ring)
         spectrum *= self.inverse_symbol
-        return irfft(spectrum, self.ring)[: len(displacement)]
+        return irfft(spectrum, self.ring)[: len(weighted_displacement)]
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).

@@ -52,7 +52,7 @@ class ModelOperator(ComplianceOperator, Protocol):
     periodic: bool
     ring: int | None
 
-    def precondition(self, displacement: np.ndarray) -> np.ndarray: ...
+    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray: ...
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None: ...
 
@@ -203,9 +203,9 @@ class DenseCompliance(DenseMatrix):
         ridge = RIDGE * np.max(np.diag(self.matrix)) * np.eye(self.count)
         self._factor = scipy.linalg.cho_factor(self.matrix + ridge)
 
-    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
         """The inverse but for a small ridge, close while every element is in contact."""
-        return scipy.linalg.cho_solve(self._factor, displacement)
+        return scipy.linalg.cho_solve(self._factor, weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).

@@ -167,9 +167,9 @@ class CoupledPair:
         """Weighted displacements (n,) [m^2] of pressures (n,) [Pa] and the tractions mu p."""
         return self.normal.apply(pressure) + self.tangential.apply(self.friction * pressure)
 
-    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
         """Approximate inverse of C, positive definite."""
-        return self.normal.precondition(displacement)
+        return self.normal.precondition(weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
@@ -223,9 +223,9 @@ class DenseCoupledCompliance(DenseMatrix):
         """The symmetric part; where every set of nodes can be eliminated nothing asks for it."""
         return DenseCompliance(self.matrix)
 
-    def precondition(self, displacement: np.ndarray) -> np.ndarray:
+    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
         """Approximate inverse, positive definite."""
-        return self.normal.precondition(displacement)
+        return self.normal.precondition(weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).

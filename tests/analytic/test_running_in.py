@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
 
 import analytic.running_in
@@ -28,7 +28,6 @@ A, P0 = HERTZ.half_width, HERTZ.peak_pressure
 CAPPED = Constraints(load=LOAD, hardness=1.25 * P0)
 WAVY = sinusoid(wavelength=0.2 * A, amplitude=0.15e-6, length=6.0 * A)
 PLACES = A * np.array([-0.53, 0.0, 0.41, 0.9])
-PROFILES = Path(__file__).parents[2] / "comparisons" / "scenes" / "profiles"
 
 
 def ran_in(profile: Profile = WAVY, positions=PLACES, constraints=CAPPED, **how) -> RunIn:

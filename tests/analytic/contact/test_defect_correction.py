@@ -8,7 +8,7 @@ from analytic.contact import defect_correction as defect
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import contact_residuals, solve_contact
+from analytic.contact.problem import assessed, solve_contact
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
@@ -332,7 +332,6 @@ def test_no_pressure_under_an_approach_that_closes_the_gap_is_no_solution():
     """In whatever unit of length."""
     for unit in (1.0, 1e-9):
         gap, weights = np.array([0.2, 0.0, 0.2]) * unit**2, np.ones(3) * unit
-        _, residuals = contact_residuals(
-            np.zeros(3), np.zeros(3), gap, weights, 0.1 * unit, Constraints(approach=0.1 * unit)
-        )
-        assert residuals.penetration == pytest.approx(1.0)
+        limits = Constraints(approach=0.1 * unit)
+        found = assessed(np.zeros(3), np.zeros(3), gap, weights, 0.1 * unit, limits, {})
+        assert found.residuals.penetration == pytest.approx(1.0)

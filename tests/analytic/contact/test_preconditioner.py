@@ -155,7 +155,7 @@ class TestIterations:
         active = ActiveSet(lower, np.zeros(count, dtype=bool))
         rest = problem.equilibrium(np.ones(count), active, 1e-8)
         touching = ~lower
-        assert np.abs(rest.gap[touching]).max() < 1e-5 * np.ptp(rest.gap)
+        assert np.abs(rest.weighted_gap[touching]).max() < 1e-5 * np.ptp(rest.weighted_gap)
         return spent["applications"]
 
     def test_their_number_hardly_grows_with_the_patches(self):

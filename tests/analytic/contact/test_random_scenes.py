@@ -1,4 +1,4 @@
-"""A thousand seeded scenes, from almost smooth to barely touching: every one must be solved.
+"""Two hundred seeded scenes, from almost smooth to barely touching: every one must be solved.
 
 The contact conditions are evaluated anew with a dense matrix, which the solver never forms; few
 nodes are also solved by bounded least squares. What a scene costs is bounded, so that a search
@@ -23,7 +23,7 @@ from analytic.operators.elements import hat_galerkin
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 
-BATCHES, SCENES = 20, 50
+SEEDS = range(3, 1000, 5)  # five is prime to the number of shapes: each comes as often
 FEW = 40  # nodes that bounded least squares solve quickly
 RESIDUAL = 1e-8
 APPLICATIONS = 300
@@ -245,47 +245,30 @@ def outcome(seed: int) -> Outcome:
     )
 
 
-def outcomes(batch: int) -> list[Outcome]:
-    return [outcome(seed) for seed in range(batch * SCENES, (batch + 1) * SCENES)]
-
-
-@pytest.mark.parametrize("batch", range(BATCHES))
-def test_every_scene_is_solved(batch):
-    failed = [
-        f"{found.label}: converged {found.converged}, {found.residuals}"
-        for found in outcomes(batch)
-        if not (found.converged and max(found.residuals.values()) <= 1e-8)
-    ]
-    assert not failed, "\n".join(failed)
-
-
-@pytest.mark.parametrize("batch", range(BATCHES))
-def test_no_scene_costs_out_of_proportion(batch):
-    dear = [
-        f"{found.label}: {found.iterations}"
-        for found in outcomes(batch)
-        if found.iterations["applications"] > APPLICATIONS
-    ]
-    assert not dear, "\n".join(dear)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_scene_is_solved_at_a_proportionate_cost(seed):
+    found = outcome(seed)
+    assert found.converged, found.label
+    assert max(found.residuals.values()) <= RESIDUAL, found
+    assert found.iterations["applications"] <= APPLICATIONS, found
 
 
 def test_few_nodes_agree_with_bounded_least_squares():
-    checked = [found for batch in range(BATCHES) for found in outcomes(batch)]
-    checked = [found for found in checked if found.departure is not None]
-    assert len(checked) > 200
+    checked = [found for found in map(outcome, SEEDS) if found.departure is not None]
+    assert len(checked) > 40
     wrong = [f"{f.label}: {f.departure:.1e}" for f in checked if not f.departure <= 1e-8]
     assert not wrong, "\n".join(wrong)
 
 
 def test_the_scenes_are_as_varied_as_they_claim():
-    found = [outcome(seed) for seed in range(BATCHES * SCENES)]
+    found = [outcome(seed) for seed in SEEDS]
     words = Counter(word for f in found for word in f.label.replace(",", "").split())
-    assert 350 < words["periodic"] < 450
-    assert 550 < words["load"] < 650
-    assert 280 < words["capped"] < 380
-    assert min(words[shape.__name__] for shape in SHAPES) > 80
+    assert 60 < words["periodic"] < 100
+    assert 100 < words["load"] < 140
+    assert 50 < words["capped"] < 85
+    assert min(words[shape.__name__] for shape in SHAPES) > 15
     assert min(f.touching for f in found if f.touching > 0.0) < 2e-3
-    assert sum(f.touching == 1.0 for f in found) > 50
+    assert sum(f.touching == 1.0 for f in found) > 10
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 7, 128, 129, 513])

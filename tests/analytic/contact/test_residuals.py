@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import (
-    Residuals,
-    contact_residuals,
-    solve_contact,
-)
+from analytic.contact.problem import Residuals, assessed, solve_contact
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 
@@ -21,14 +17,10 @@ def test_residuals_see_each_kind_of_error(roller):
     weighted_gap = grid.hat_integrals(roller.smooth())
 
     def residuals(pressure, approach=solution.approach, hardness=np.inf):
-        return contact_residuals(
-            operator.apply(pressure),
-            pressure,
-            weighted_gap,
-            grid.weights,
-            approach,
-            Constraints(load=roller.load, hardness=hardness),
-        )[1]
+        limits = Constraints(load=roller.load, hardness=hardness)
+        moved = operator.apply(pressure)
+        found = assessed(moved, pressure, weighted_gap, grid.weights, approach, limits, {})
+        return found.residuals
 
     assert residuals(solution.pressure).worst < 1e-10
     assert residuals(1.01 * solution.pressure).load_balance == pytest.approx(0.01)
@@ -48,11 +40,9 @@ def test_residuals_see_pressure_at_the_hardness_over_an_open_gap(roller):
     inner = pressure == 0.0
     approach = np.min(((weighted_gap + displacement) / grid.weights)[inner])
     constraints = Constraints(load=grid.weights @ pressure, hardness=hardness)
-    gap, residuals = contact_residuals(
-        displacement, pressure, weighted_gap, grid.weights, approach, constraints
-    )
-    assert gap[~inner].max() > 1e-8
-    assert residuals.complementarity > 0.01
+    found = assessed(displacement, pressure, weighted_gap, grid.weights, approach, constraints, {})
+    assert found.gap[~inner].max() > 1e-8
+    assert found.residuals.complementarity > 0.01
 
 
 def test_a_residual_that_is_no_number_does_not_count_as_met():

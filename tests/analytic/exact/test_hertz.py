@@ -1,10 +1,10 @@
 """Smooth line contact against high-precision values, quadrature and its own limits."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 from scipy.integrate import trapezoid
 from scipy.optimize import minimize
 
@@ -16,7 +16,7 @@ from analytic.exact.hertz import (
     hertz_stress,
 )
 
-REFERENCE = json.loads((Path(__file__).parents[2] / "data/a_hertz_field.json").read_text())
+REFERENCE = json.loads((DATA / "a_hertz_field.json").read_text())
 UNIT = HertzContact(1.0, 1.0, np.pi / 2.0, 1.0, 2.0)
 POINTS = REFERENCE["points"] + REFERENCE["surface_points"]
 

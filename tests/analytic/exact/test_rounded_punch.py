@@ -1,10 +1,10 @@
 """Punch with rounded corners against high-precision values, quadrature, limits and the solver."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 from scipy.integrate import quad
 
 from analytic.contact.equilibrium import Constraints
@@ -15,8 +15,7 @@ from analytic.exact.rounded_punch import RoundedPunch, rounded_punch_from_half_w
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 
-DATA = Path(__file__).parents[2] / "data/f_rounded_punch_and_sliding.json"
-CASES = json.loads(DATA.read_text())["rounded_punch"]
+CASES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["rounded_punch"]
 
 GAUSS, WEIGHT = np.polynomial.legendre.leggauss(300)
 

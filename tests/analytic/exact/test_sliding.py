@@ -1,10 +1,10 @@
 """Sliding with coupling against high-precision values, its integral equation and quadrature."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 from scipy.integrate import quad
 from scipy.linalg import toeplitz
 from scipy.special import roots_jacobi
@@ -15,8 +15,7 @@ from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress.points import stress_at
 
-DATA = Path(__file__).parents[2] / "data/f_rounded_punch_and_sliding.json"
-CASES = json.loads(DATA.read_text())["sliding_cylinder"]
+CASES = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["sliding_cylinder"]
 NAMES = ("sx", "sz", "txz")
 
 

@@ -1,10 +1,10 @@
 """Sinusoidal contact against high-precision values, quadrature, sums over images and its limits."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 from scipy.integrate import quad
 
 from analytic.exact.hertz import hertz_from_load, hertz_stress
@@ -15,7 +15,7 @@ from analytic.exact.westergaard import (
     westergaard_stress,
 )
 
-CASES = json.loads((Path(__file__).parents[2] / "data/d_westergaard.json").read_text())["cases"]
+CASES = json.loads((DATA / "d_westergaard.json").read_text())["cases"]
 NAMES = ("sx", "sz", "txz")
 
 

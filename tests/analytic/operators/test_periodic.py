@@ -1,10 +1,10 @@
 """The periodic half-plane: its images, Westergaard's contact, full contact, coarser grids."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 from scipy.linalg import circulant
 from scipy.special import zeta
 
@@ -14,7 +14,7 @@ from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases, strip_aliases
 
-WESTERGAARD = json.loads((Path(__file__).parents[2] / "data" / "d_westergaard.json").read_text())
+WESTERGAARD = json.loads((DATA / "d_westergaard.json").read_text())
 PITCH, MODULUS = 0.7e-6, 115e9
 COUNTS = (128, 256, 512, 1024, 2048)
 

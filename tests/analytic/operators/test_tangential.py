@@ -2,11 +2,11 @@
 
 import json
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
+from scenes import DATA
 from scipy.integrate import quad
 from scipy.linalg import circulant, toeplitz
 
@@ -19,7 +19,6 @@ from analytic.operators.tangential import (
     hat_sign,
 )
 
-DATA = Path(__file__).resolve().parents[2] / "data"
 PITCH, MODULUS, BETA = 0.7e-6, 115e9, 2.0 / 7.0
 
 

@@ -1,15 +1,14 @@
 """Stresses of one strip and of one hat against high-precision values, near and far."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import DATA
 
 from analytic.stress.elements import FrictionStress, hat_stress, strip_stress
 from analytic.stress.potential import hat_multipoles
 
-DATA = Path(__file__).parents[2] / "data"
 STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]
 HAT = json.loads((DATA / "hat_stress.json").read_text())["points"]
 

@@ -1,18 +1,16 @@
 """Roughness figures against integrals done by hand."""
 
 from math import inf, pi, sqrt
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import MEASURED, PROFILES
 
 from analytic.profile import Profile
 from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import self_affine, sinusoid
 
-SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/library/profiles"
-MEASURED = Path(__file__).parents[3].parent / "shared/profiles"
 UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
 
 
@@ -183,7 +181,7 @@ STATED = {
 
 @pytest.mark.parametrize("name", STATED)
 def test_profiles_of_the_project_have_their_stated_figures(name):
-    profile = read_profile(SHIPPED / f"{name}.csv", x_scale=1e-6, height_scale=1e-6).profile
+    profile = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6).profile
     found = roughness(profile)
     ra, rq, rsk, slope, cut_off = STATED[name]
     np.testing.assert_allclose([1e6 * found.ra, 1e6 * found.rq], [ra, rq], atol=0.5e-3)

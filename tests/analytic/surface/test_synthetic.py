@@ -1,9 +1,8 @@
 """Computed profiles: exact shapes, spectra as ordered, the same again from the same seed."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
 
 from analytic.profile import MAX_SAMPLES, surface
@@ -11,7 +10,6 @@ from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import ground_texture, self_affine, sinusoid, smooth
 
-SHIPPED = Path(__file__).parents[3] / "comparisons/scenes/library/profiles"
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
 GROUND = {
     "rms_height": 0.4608e-6,
@@ -150,7 +148,7 @@ def test_self_affine_scales_with_its_units():
 
 
 def test_ground_texture_repeats_the_unrun_profile_of_the_project():
-    shipped = read_profile(SHIPPED / "ground_unrun.csv", x_scale=1e-6, height_scale=1e-6).profile
+    shipped = read_profile(PROFILES / "ground_unrun.csv", x_scale=1e-6, height_scale=1e-6).profile
     made = ground_texture(**GROUND)
     np.testing.assert_allclose(made.x, shipped.x - 1118e-6, atol=1e-15)
     decimals = np.round(1e6 * made.height, 5)
@@ -158,7 +156,7 @@ def test_ground_texture_repeats_the_unrun_profile_of_the_project():
 
 
 def test_ground_texture_smoothed_repeats_the_polished_profile_of_the_project():
-    path = SHIPPED / "ground_polished.csv"
+    path = PROFILES / "ground_polished.csv"
     shipped = read_profile(path, x_scale=1e-6, height_scale=1e-6).profile
     ground = ground_texture(**(GROUND | {"seed": 5, "rms_height": 0.47e-6}))
     polished = 0.45 * gaussian_filter1d(ground.height, 5.0, mode="nearest")

@@ -1,16 +1,14 @@
 """Profiles read back from every dialect that they may be written in."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenes import PROFILES
 
 from analytic.surface.readers.columns import read_profile
 from analytic.surface.readers.text import ProfileError
 
-SHIPPED = Path(__file__).parents[4] / "comparisons/scenes/library/profiles"
 X = [0.0, 0.5, 1.5, 2.0, 4.25]
 HEIGHT = [0.125, -3.0, 2.5, 0.0, -0.75]
 
@@ -108,7 +106,7 @@ def test_heights_are_scaled_but_not_moved(tmp_path):
 
 @pytest.mark.parametrize("name", ["ground_unrun", "ground_run_in", "ground_polished"])
 def test_profiles_of_the_project_are_read(name):
-    read = read_profile(SHIPPED / f"{name}.csv", x_scale=1e-6, height_scale=1e-6)
+    read = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6)
     assert read.header == ("x_um,height_um",)
     assert len(read.profile.x) == 2237
     assert read.profile.length == pytest.approx(2236e-6, rel=1e-12)
