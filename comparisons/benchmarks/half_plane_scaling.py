@@ -45,7 +45,7 @@ STEEPEST = 1.2  # slope of log time over log n
 OVERHEAD = 2.0  # largest time over that of the transforms alone
 UNEVEN = 1.3  # largest ratio of memory per node between sizes
 JUDGED = 65536  # nodes; below, the interpreter's own time and memory are not negligible
-COLUMNS = ("surface", "n", "time [ms]", "exchanges", "finest", "pairs", "pair [ms]", "overhead")
+COLUMNS = ("surface", "n", "time [ms]", "exchanges", "pairs", "pair [ms]", "overhead", "bytes/n")
 
 
 @dataclass(frozen=True)
@@ -68,8 +68,7 @@ class Growth:
 
     seconds    processor time
     exchanges  of the active set
-    finest     pairs on the finest grid
-    pairs      all, in pairs of the finest grid
+    pairs      of transforms, in pairs of the finest grid
     pair       seconds of one such pair
     memory     peak [bytes]
     """
@@ -77,7 +76,6 @@ class Growth:
     count: int
     seconds: float
     exchanges: int
-    finest: float
     pairs: float
     pair: float
     memory: int
@@ -109,30 +107,29 @@ def cylinder(count: int) -> ScaledProblem:
 
 
 class TransformCounter:
-    """An operator that notes the length of every transform, on its own grid, with its cropped
-    parts, and on coarser grids."""
+    """An operator that notes the lengths of its transforms, and of those on coarser grids."""
 
-    def __init__(self, operator: Convolution, own: list[int], coarser: list[int]) -> None:
-        self._operator, self._own, self._coarser = operator, own, coarser
+    def __init__(self, operator: Convolution, lengths: list[int]) -> None:
+        self._operator, self._lengths = operator, lengths
 
     def __getattr__(self, name: str):
         return getattr(self._operator, name)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        self._own.append(_transform_length(self._operator))
+        self._lengths.append(_transform_length(self._operator))
         return self._operator.apply(pressure)
 
     def precondition(self, displacement: np.ndarray) -> np.ndarray:
-        self._own.append(self._operator.ring)
+        self._lengths.append(self._operator.ring)
         return self._operator.precondition(displacement)
 
     def cropped(self, span: int) -> "TransformCounter | None":
         part = self._operator.cropped(span)
-        return None if part is None else TransformCounter(part, self._own, self._coarser)
+        return None if part is None else TransformCounter(part, self._lengths)
 
     def coarsened(self) -> "TransformCounter | None":
         coarse = self._operator.coarsened()
-        return None if coarse is None else TransformCounter(coarse, self._coarser, self._coarser)
+        return None if coarse is None else TransformCounter(coarse, self._lengths)
 
 
 def _transform_length(operator: Convolution) -> int:
@@ -142,11 +139,10 @@ def _transform_length(operator: Convolution) -> int:
 def growth(make: Callable[[int], ScaledProblem], count: int, repeats: int) -> Growth:
     """Time the problem `repeats` times or while BUDGET lasts; count and measure memory once."""
     problem = make(count)
-    finest: list[int] = []
-    coarser: list[int] = []
+    lengths: list[int] = []
     operator = problem.operator()
     longest = _transform_length(operator)
-    solution = problem.solved(TransformCounter(operator, finest, coarser))
+    solution = problem.solved(TransformCounter(operator, lengths))
     if not solution.converged:
         raise ArithmeticError(f"{problem.count} nodes: {solution.residuals}")
     wave = np.random.default_rng(SEED).random(longest)
@@ -157,8 +153,7 @@ def growth(make: Callable[[int], ScaledProblem], count: int, repeats: int) -> Gr
         count=problem.count,
         seconds=timed(lambda: problem.solved(problem.operator()), repeats, BUDGET)[0],
         exchanges=solution.iterations["exchanges"],
-        finest=sum(finest) / longest,
-        pairs=(sum(finest) + sum(coarser)) / longest,
+        pairs=sum(lengths) / longest,
         pair=timed(lambda: irfft(rfft(wave), longest), PAIRS)[0],
         memory=memory,
     )
@@ -212,7 +207,7 @@ def main(arguments: list[str] | None = None) -> int:
         rows = [growth(make, count, options.repeats) for count in sorted(options.sizes)]
         found += demands(title, rows)
         cells += [(title, *_cells(row)) for row in rows]
-    print_table("One solution", (*COLUMNS, "bytes/n"), cells)
+    print_table("One solution", COLUMNS, cells)
     return print_demands(found)
 
 
@@ -221,7 +216,6 @@ def _cells(row: Growth) -> list[str]:
         str(row.count),
         f"{1e3 * row.seconds:.4g}",
         str(row.exchanges),
-        f"{row.finest:.1f}",
         f"{row.pairs:.1f}",
         f"{1e3 * row.pair:.4g}",
         f"{row.overhead:.2f}",

@@ -14,13 +14,12 @@ the stresses, and not the loading of libraries. Exit status 0 only if the demand
 """
 
 import argparse
-import resource
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from scipy.interpolate import interp1d
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
@@ -29,7 +28,13 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.benchmarks.harness import Demand, print_demands, print_table, run_on_one_thread
+from comparisons.benchmarks.harness import (
+    Demand,
+    print_demands,
+    print_table,
+    processor_seconds,
+    run_on_one_thread,
+)
 from comparisons.models.finite_element.adaptive import (
     GROWTH,
     Pressing,
@@ -101,7 +106,7 @@ def equal_edges(
     growth: float | None = None,
 ) -> HertzRun:
     """Equal edges all over the contact, each under one hat or more; `growth` that does not fall."""
-    start = _processor_seconds()
+    start = processor_seconds()
     edge = 1.0 / (per_half + BETWEEN)
     edges = per_half + BEYOND
     grid = HatGrid.within(-edges * edge, edges * edge, edge / hats_per_edge)
@@ -128,16 +133,11 @@ def equal_edges(
 
 def adapted(tolerance: float, degree: int = 2) -> HertzRun:
     """Meshes and hats that the contact chooses, until its error estimate meets the tolerance."""
-    start = _processor_seconds()
+    start = processor_seconds()
     pressing = Pressing(_gap, HERTZ.load_per_length, BODY, (-1.5, 1.5), degree=degree)
     contact = adapted_contact(pressing, tolerance)
     (patch,) = contact.patches
     return _assessed(tolerance, contact.compliance, contact.solution.pressure, patch, start)
-
-
-def _processor_seconds() -> float:
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + children.ru_utime + children.ru_stime
 
 
 def _gap(x: np.ndarray) -> np.ndarray:
@@ -151,7 +151,7 @@ def _assessed(
     patch: Patch,
     start: float,
 ) -> HertzRun:
-    seconds = _processor_seconds() - start
+    seconds = processor_seconds() - start
     hats, body = compliance.hats, compliance.body
     nodal = nodal_stress(body, compliance.displacement(pressure), hats, pressure)
     shear = maximum(body, nodal, lambda stress: stress.tau1).value
@@ -185,19 +185,19 @@ def distance(
 def all_series(finest: int, tolerances: list[float]) -> dict[str, Series]:
     """Runs of all methods by their names; equal edges up to `finest` on half of the contact."""
     counts = [count for count in EDGES if count <= finest]
-    methods: dict[str, tuple[Callable[[float], HertzRun], list]] = {
-        f"degree {degree}": (partial(equal_edges, degree=degree), counts) for degree in (1, 2, 3)
-    }
+    methods = {f"degree {degree}": partial(equal_edges, degree=degree) for degree in (1, 2, 3)}
     for degree, hats in ((2, 2), (3, 2), (3, 3)):
         run = partial(equal_edges, degree=degree, hats_per_edge=hats)
-        methods[f"degree {degree}, {hats} hats an edge"] = run, counts[:-1]
-    methods["degree 2, block of 400 a"] = partial(equal_edges, far_field=False), counts
-    methods[FEWEST] = partial(equal_edges, growth=GROWTH), counts
-    for degree in (2, 3):
-        sizes = sorted(tolerances, reverse=True)
-        methods[f"degree {degree}, adapted"] = partial(adapted, degree=degree), sizes
+        methods[f"degree {degree}, {hats} hats an edge"] = run
+    methods["degree 2, block of 400 a"] = partial(equal_edges, far_field=False)
+    methods[FEWEST] = partial(equal_edges, growth=GROWTH)
+    for degree in (1, 2, 3):
         equal_edges(counts[0], degree)  # loads libraries
-    return {name: tuple(map(run, sizes)) for name, (run, sizes) in methods.items()}
+    found = {name: tuple(map(run, counts)) for name, run in methods.items()}
+    for degree in (2, 3):
+        runs = (adapted(tolerance, degree) for tolerance in sorted(tolerances, reverse=True))
+        found[f"degree {degree}, adapted"] = tuple(runs)
+    return found
 
 
 def order(series: Series, size: str, error: str) -> float:
@@ -219,18 +219,11 @@ def cheapest(series: Series, wanted: float) -> HertzRun | None:
 def unknowns_ratio(equal: Series, other: Series) -> list[tuple[float, float]]:
     """For each run of `other` its L2 error, and how many times its unknowns `equal` needs for it.
 
-    On straight lines between the logarithms of the runs of `equal`, and beyond by the last one.
+    Linear between the logarithms of the runs of `equal`, extrapolated beyond them.
     """
-    errors = np.log([run.hats for run in equal])
-    unknowns = np.log([run.unknowns for run in equal])
-    found = []
-    for run in other:
-        at = np.log(run.hats)
-        k = int(np.clip(np.searchsorted(-errors, -at) - 1, 0, len(errors) - 2))
-        share = (at - errors[k]) / (errors[k + 1] - errors[k])
-        needed = np.exp(unknowns[k] + share * (unknowns[k + 1] - unknowns[k]))
-        found.append((run.hats, float(needed / run.unknowns)))
-    return found
+    known = np.log([(run.hats, run.unknowns) for run in equal]).T
+    needed = interp1d(*known, fill_value="extrapolate")
+    return [(run.hats, float(np.exp(needed(np.log(run.hats))) / run.unknowns)) for run in other]
 
 
 def demands(found: dict[str, Series]) -> list[Demand]:

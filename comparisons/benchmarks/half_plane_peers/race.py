@@ -17,7 +17,7 @@ import argparse
 import statistics
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from comparisons.benchmarks.half_plane_peers.cases import LineCase, cylinder, rough, sinusoid
@@ -62,17 +62,6 @@ class LineResult:
     @property
     def meets(self) -> bool:
         return not self.over and self.residuals.worst <= TOLERANCE
-
-
-@dataclass(frozen=True)
-class _Trial:
-    answer: LineAnswer
-    seconds: float
-    residuals: ContactResiduals
-
-    @property
-    def meets(self) -> bool:
-        return self.residuals.worst <= TOLERANCE
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -122,32 +111,28 @@ def race(
     first    by code, the index of the tolerance to try first; others start with the loosest
     """
     most = {code.name: _most_steps(code, case, limit) for code in codes}
-    chosen = {}
+    trials = []
     for code in codes:
 
-        def trial(index: int, code: LineCode = code) -> _Trial:
+        def trial(index: int, code: LineCode = code) -> LineResult:
             answer, seconds = _timed(code, case, code.tolerances[index], most[code.name])
-            return _Trial(answer, seconds, measure(case, answer.pressure, code.element))
+            residuals = measure(case, answer.pressure, code.element)
+            over = residuals.worst > TOLERANCE and seconds > 0.8 * limit
+            return LineResult(code.name, seconds, over, index, answer.steps, residuals)
 
-        chosen[code.name] = _loosest(trial, first.get(code.name, 0), len(code.tolerances))
-    times: dict[str, list[float]] = {code.name: [] for code in codes}
+        trials.append(_loosest(trial, first.get(code.name, 0), len(code.tolerances)))
+    times: list[list[float]] = [[] for _ in codes]
     for turn in range(repeats):
-        for code in codes:
-            index, trial = chosen[code.name]
+        for code, trial, spent in zip(codes, trials, times, strict=True):
             wanted = max(FEWEST, int(BUDGET / max(trial.seconds, 1e-6)))
             if trial.meets and trial.seconds <= SLOW and turn < wanted:
                 calls = 1 + int(BURST / max(trial.seconds, 1e-6))
-                spent = _timed(code, case, code.tolerances[index], most[code.name], calls)[1]
-                times[code.name].append(spent)
-    results = []
-    for code in codes:
-        index, trial = chosen[code.name]
-        over = not trial.meets and trial.seconds > 0.8 * limit
-        seconds = limit if over else statistics.median(times[code.name] or [trial.seconds])
-        results.append(
-            LineResult(code.name, seconds, over, index, trial.answer.steps, trial.residuals)
-        )
-    return results
+                tolerance = code.tolerances[trial.tolerance]
+                spent.append(_timed(code, case, tolerance, most[code.name], calls)[1])
+    return [
+        replace(trial, seconds=limit if trial.over else statistics.median(spent or [trial.seconds]))
+        for trial, spent in zip(trials, times, strict=True)
+    ]
 
 
 def _timed(
@@ -170,20 +155,22 @@ def _most_steps(code: LineCode, case: LineCase, limit: float) -> int:
     return max(more, int(limit / each))
 
 
-def _loosest(trial: Callable[[int], _Trial], first: int, count: int) -> tuple[int, _Trial]:
-    """Index of the loosest of `count` tolerances that meets the yardstick, and the trial with it;
-    where none does, the last one tried."""
-    index, found = first, trial(first)
+def _loosest(trial: Callable[[int], LineResult], first: int, count: int) -> LineResult:
+    """The trial with the loosest of `count` tolerances that meets the yardstick; where none does,
+    the last trial."""
+    found = trial(first)
     if found.meets:
-        while index > 0 and (looser := trial(index - 1)).meets:
-            index, found = index - 1, looser
-        return index, found
-    while not found.meets and index + 1 < count:
-        tighter = trial(index + 1)
-        if not tighter.meets and tighter.seconds >= 0.999 * found.seconds > 1.0:
-            return index + 1, tighter  # stopped by the limit, as all tighter ones would be
-        index, found = index + 1, tighter
-    return index, found
+        for index in range(first - 1, -1, -1):
+            looser = trial(index)
+            if not looser.meets:
+                break
+            found = looser
+        return found
+    for index in range(first + 1, count):
+        before, found = found, trial(index)
+        if found.meets or found.seconds >= 0.999 * before.seconds > 1.0:
+            break  # or stopped by the limit, as with all tighter ones
+    return found
 
 
 def demands(title: str, count: int, ours: LineResult, peers: list[LineResult]) -> list[Demand]:

@@ -9,7 +9,7 @@ from comparisons.benchmarks.half_plane_scaling import Growth, demands, main
 
 def grown(count, power=1.0, overhead=1.5, memory=200.0):
     pair = 1e-9 * count**power
-    return Growth(count, 40.0 * overhead * pair, 9, 30.0, 40.0, pair, int(memory * count))
+    return Growth(count, 40.0 * overhead * pair, 9, 40.0, pair, int(memory * count))
 
 
 @pytest.mark.parametrize(
