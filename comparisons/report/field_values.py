@@ -64,7 +64,7 @@ def field_explorer(outcome: Outcome) -> FieldExplorer | None:
     }
     return FieldExplorer(
         components=tuple((component.symbol, component.words) for component in COMPONENTS),
-        frictions=tuple(plain(friction) for friction in frictions),
+        frictions=tuple(map(plain, frictions)),
         fields=Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),
     )
 

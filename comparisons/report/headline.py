@@ -7,14 +7,9 @@ from typing import Literal
 
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
-from comparisons.common.numbers import (
-    given_percent,
-    percent,
-    plain,
-    significant,
-    with_unit,
-)
+from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.report.tables.text import error_text
 from comparisons.results.outcome import Outcome
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -40,42 +35,35 @@ def headline(outcome: Outcome) -> Headline:
         return Headline("not compared", _one_model(outcome))
     checks = outcome.budget.tolerance_checks(outcome.problem.scene.tolerance)
     verdict, _ = validity_verdict(checks)
-    if not checks:
-        return Headline(
-            "inconclusive", "The half-plane cannot be judged here: no figure has a tolerance."
-        )
     several = len(outcome.problem.scene.friction) > 1
     if verdict == "holds":
-        return Headline(
-            "holds",
-            f"The half-plane holds here: {_all_judged(checks)}; nearest to its tolerance, "
-            f"{_said(_nearest(checks), several)}.",
+        said = (
+            f"{_all_judged(checks)}; nearest to its tolerance, {_said(_nearest(checks), several)}"
         )
+        return Headline("holds", f"The half-plane holds here: {said}.")
     if verdict == "fails":
-        outside = [s for s in checks if s.is_outside]
-        more = len(outside) - 1
+        outside = [check for check in checks if check.is_outside]
+        worst, more = _nearest(outside), len(outside) - 1
         are = "are" if more > 1 else "is"
         others = f"; {more} more of {len(checks)} judged errors {are} outside" if more else ""
-        return Headline(
-            "fails",
-            f"The half-plane fails here: {_said(_nearest(outside), several)}"
-            f"{_made_of(outcome, _nearest(outside))}{others}.",
-        )
-    unclear = [s for s in checks if not s.is_inside]
-    numerical = [s for s in unclear if s.is_unresolved]
+        said = f"{_said(worst, several)}{_dominant(outcome, worst)}{others}"
+        return Headline("fails", f"The half-plane fails here: {said}.")
+    said = _inconclusive(checks, several) if checks else "no figure has a tolerance"
+    return Headline("inconclusive", f"The half-plane cannot be judged here: {said}.")
+
+
+def _inconclusive(checks: list[ToleranceCheck], several: bool) -> str:
+    """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
+    unclear = [check for check in checks if not check.is_inside]
+    numerical = [check for check in unclear if check.is_unresolved]
     worst = _nearest(numerical or unclear)
     if numerical:
-        return Headline(
-            "inconclusive",
-            f"The half-plane cannot be judged here: {_said(worst, several)}, an uncertainty that "
-            "reaches across the tolerance.",
-        )
-    missing = max(worst.not_modelled, key=lambda name: worst.not_modelled[name])
-    return Headline(
-        "inconclusive",
-        f"The half-plane cannot be judged here: {_said(worst, several)}, but what no model of this "
-        f"run contains may move it by {percent(math.hypot(*worst.not_modelled.values()))}, "
-        f"{EFFECTS[missing].label} most.",
+        return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
+    estimates = worst.not_modelled
+    return (
+        f"{_said(worst, several)}, but effects that are not modelled may change it by "
+        f"{percent(math.hypot(*estimates.values()))} (estimate), "
+        f"{EFFECTS[max(estimates, key=estimates.get)].label} most"
     )
 
 
@@ -93,24 +81,23 @@ def _nearest(checks: Iterable[ToleranceCheck]) -> ToleranceCheck:
 
 def _said(check: ToleranceCheck, several: bool) -> str:
     """An error of the half-plane as a clause: what, how much, tolerance, uncertainty."""
-    quantity = QUANTITIES[check.quantity]
-    where = f" at friction {plain(check.friction)}" if several and quantity.needs_stress else ""
-    doubt = check.uncertainty
-    size = percent(check.value, signed=not quantity.of_pair, uncertainty=doubt)
+    stress = QUANTITIES[check.quantity].needs_stress
+    where = f" at friction {plain(check.friction)}" if several and stress else ""
     return (
-        f"its own error in the {label(check.quantity)}{where} is {size} "
-        f"(tolerance {given_percent(check.tolerance)}, uncertainty {percent(doubt)})"
+        f"its model error in the {label(check.quantity)}{where} is "
+        f"{error_text(check.quantity, check.value, check.uncertainty)} (tolerance "
+        f"{given_percent(check.tolerance)}, uncertainty {percent(check.uncertainty)})"
     )
 
 
-def _made_of(outcome: Outcome, check: ToleranceCheck) -> str:
-    """The effect that makes most of an error, if one makes more than half."""
+def _dominant(outcome: Outcome, check: ToleranceCheck) -> str:
+    """The effect that makes more than half of an error, if there is one."""
     own = outcome.budget.of(check.quantity, check.friction)
     if not own.effects:
         return ""
     name = max(own.effects, key=lambda name: abs(own.effects[name].value))
     made = abs(own.effects[name].value)
-    return f", most of it {EFFECTS[name].label}" if made > 0.5 * abs(own.value) else ""
+    return f", dominated by {EFFECTS[name].label}" if made > 0.5 * abs(own.value) else ""
 
 
 def _one_model(outcome: Outcome) -> str:
@@ -131,7 +118,7 @@ def _unconverged(outcome: Outcome) -> str:
         if not level.solution.converged
     ]
     found += [
-        f"half-plane with surfaces moved by friction {plain(coupling.friction)}"
+        f"half-plane with normal-tangential coupling, friction {plain(coupling.friction)}"
         for coupling in outcome.couplings
         if not coupling.converged
     ]

@@ -4,18 +4,26 @@ from dataclasses import dataclass
 
 from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
+from comparisons.report.figures.cost import cost_picture
+from comparisons.report.figures.fields import field_pictures, near_surface_pictures
+from comparisons.report.figures.mesh import mesh_pictures
+from comparisons.report.figures.model_error import model_error_picture
+from comparisons.report.figures.pressures import close_up_picture, pressure_picture
+from comparisons.report.figures.problem import problem_picture
+from comparisons.report.figures.running_in import running_in_picture
+from comparisons.report.figures.sections import section_pictures
 from comparisons.report.figures.style import Picture, drawing
+from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
-from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_rows
-from comparisons.report.tables.model_error import budget_rows
+from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_table
+from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.report.tables.verification import (
     check_table,
     commands,
     convergence_tables,
     cost_table,
-    effects_table,
     operator_note,
     operator_table,
     record_rows,
@@ -37,7 +45,7 @@ class Pictures:
     near: list[Picture]
     sections: list[Picture]
     mesh: list[Picture]
-    budget: Picture | None
+    model_error: Picture | None
     cost: Picture
 
 
@@ -48,20 +56,20 @@ def render(outcome: Outcome) -> str:
         "page.html.j2",
         script=script,
         policy=policy,
-        look=field_explorer(outcome),
+        explorer=field_explorer(outcome),
         scene=outcome.problem.scene,
         headline=headline(outcome),
         models=[HYPHENATED[name] for name in outcome.runs],
         comparisons=comparison_rows(outcome),
-        figures=[] if outcome.plan.compares else figure_rows(outcome),
+        figure_table=None if outcome.plan.compares else figure_table(outcome),
         sheet=problem_sheet(outcome),
         assumptions=outcome.plan.assumptions,
-        skipped=outcome.plan.skipped,
+        skipped=[(item.step, item.because) for item in outcome.plan.skipped],
         refinement=refinement_text(outcome),
         convergence=convergence_tables(outcome),
         domain=outcome.plan.domain_check,
         coupling=coupling_table(outcome),
-        budget=budget_rows(outcome) if outcome.budget is not None else [],
+        model_errors=[] if outcome.budget is None else model_error_rows(outcome),
         effects=effects_table(outcome),
         checks=check_table(outcome),
         operator=operator_table(outcome),
@@ -75,16 +83,6 @@ def render(outcome: Outcome) -> str:
 
 def draw(outcome: Outcome) -> Pictures:
     """Draw what applies to the run."""
-    from comparisons.report.figures.cost import cost_picture
-    from comparisons.report.figures.fields import field_pictures, near_surface_pictures
-    from comparisons.report.figures.mesh import mesh_pictures
-    from comparisons.report.figures.model_error import budget_picture
-    from comparisons.report.figures.pressures import close_up_picture, pressure_picture
-    from comparisons.report.figures.problem import problem_picture
-    from comparisons.report.figures.running_in import running_in_picture
-    from comparisons.report.figures.sections import section_pictures
-    from comparisons.report.figures.surfaces import surface_picture
-
     with drawing():
         return Pictures(
             problem=problem_picture(outcome),
@@ -96,6 +94,6 @@ def draw(outcome: Outcome) -> Pictures:
             near=near_surface_pictures(outcome),
             sections=section_pictures(outcome),
             mesh=mesh_pictures(outcome),
+            model_error=model_error_picture(outcome),
             cost=cost_picture(outcome),
-            budget=budget_picture(outcome),
         )

@@ -76,9 +76,9 @@ class Plots:
 
     def budget(self) -> "list[Axes]":
         """What the differences consist of, beside their tolerances."""
-        from comparisons.report.figures.model_error import budget_picture
+        from comparisons.report.figures.model_error import model_error_picture
 
-        return self._axes(budget_picture)
+        return self._axes(model_error_picture)
 
     def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
         """A field of a model on its own points in VTK, x to the right, z down; `.show()` shows it.

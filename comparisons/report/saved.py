@@ -1,4 +1,4 @@
-"""report.npz: what the report shows and no other file of a run holds, so that it can be drawn anew.
+"""report.npz: what the report shows and no other file of a run holds, so that it can be redrawn.
 
 Two stress components on the common window and the figures of all levels, exact. The mesh comes
 from mesh.msh, figures and record from their own files; nothing is solved or meshed.
@@ -19,11 +19,10 @@ from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
 from comparisons.results.recorded_run import check_schema, read_table
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
-from comparisons.scenes.scene import ResolvedScene
 
 FILE = "report.npz"
 SCHEMA = 1
-_REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
+REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
 MESH = Path("finite_element") / "mesh.msh"
 # Of an outcome: in files of its own, or not shown.
 ELSEWHERE = ("problem", "result", "record", "directory")
@@ -39,7 +38,7 @@ class ShownField:
     txz: np.ndarray
 
 
-def keep_shown(path: Path, outcome: Outcome) -> None:
+def save_shown(path: Path, outcome: Outcome) -> None:
     """Write report.npz."""
     arrays: dict[str, np.ndarray] = {}
     shown = _shown(outcome)
@@ -62,17 +61,17 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
     check_schema(folder / "result.json", result, RESULT_SCHEMA)
     parts = _read(folder / FILE)
     try:
-        kept = parts.pop("problem")
-        scene = kept["scene"]
+        given = parts.pop("problem")
+        scene = given["scene"]
         curve = None if scene.profile is None else surface(scene.profile)
         problem = Problem(
-            **kept,
+            **given,
             gap=roller_gap(scene.roller_radius, curve),
             knots=None if scene.profile is None else scene.profile.x,
         )
         outcome = Outcome(**parts, problem=problem, result=result, record=record, directory=folder)
     except (AttributeError, KeyError, TypeError) as error:
-        raise InputError(f"{folder / FILE}: {error}; {_REMEDY}") from None
+        raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(outcome, folder / MESH) if with_mesh else outcome
 
 
@@ -83,44 +82,33 @@ def _read(path: Path) -> dict:
             if outline["schema"] == SCHEMA:
                 return decoded(outline["outcome"], arrays, kinds_of(Outcome, ShownField))
     except FileNotFoundError:
-        raise InputError(f"{path.parent}: holds no {path.name}; {_REMEDY}") from None
+        raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
     except DAMAGED as error:
-        raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
-    raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {_REMEDY}")
+        raise InputError(f"{path}: cannot be read: {error}; {REMEDY}") from None
+    raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {REMEDY}")
 
 
 def _shown(outcome: Outcome) -> Outcome:
     """The outcome without what no picture and no table shows."""
-    runs = {
-        name: ModelRun(
-            name,
-            (*map(_without_fields, run.levels[:-1]), _with_shown_fields(run.finest)),
-            None if run.far_boundary_check is None else _without_fields(run.far_boundary_check),
-        )
-        for name, run in outcome.runs.items()
-    }
-    problem = replace(outcome.problem, scene=_without_trace(outcome.problem.scene))
-    return replace(outcome, problem=problem, runs=runs)
+    runs = {}
+    for name, run in outcome.runs.items():
+        levels = (*map(_reduced, run.levels[:-1]), _reduced(run.finest, with_fields=True))
+        check = None if run.far_boundary_check is None else _reduced(run.far_boundary_check)
+        runs[name] = ModelRun(name, levels, check)
+    scene = outcome.problem.scene
+    if scene.profile_info is not None:
+        # the trace as read stands in record.json; the file that it came from is not everybody's
+        scene = replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
+    return replace(outcome, problem=replace(outcome.problem, scene=scene), runs=runs)
 
 
-def _without_trace(scene: ResolvedScene) -> ResolvedScene:
-    """The trace as read stands in record.json; the file that it came from is not everybody's."""
-    if scene.profile_info is None:
-        return scene
-    return replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
-
-
-def _without_fields(level: Level) -> Level:
-    stresses = tuple(replace(stress, field=None) for stress in level.stresses)
-    return replace(level, stresses=stresses, mesh=None, mesh_field=None)
-
-
-def _with_shown_fields(level: Level) -> Level:
-    stresses = tuple(
-        replace(stress, field=ShownField(stress.field.tau1, stress.field.txz))
-        for stress in level.stresses
-    )
-    return replace(level, stresses=stresses, mesh=None, mesh_field=None)
+def _reduced(level: Level, with_fields: bool = False) -> Level:
+    """A level without its mesh, and without fields or with those that are shown."""
+    stresses = []
+    for stress in level.stresses:
+        field = ShownField(stress.field.tau1, stress.field.txz) if with_fields else None
+        stresses.append(replace(stress, field=field))
+    return replace(level, stresses=tuple(stresses), mesh=None, mesh_field=None)
 
 
 def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
@@ -133,9 +121,9 @@ def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
     try:
         mesh = read_msh(path)
     except FileNotFoundError:
-        raise InputError(f"{path}: is missing; {_REMEDY}") from None
+        raise InputError(f"{path}: is missing; {REMEDY}") from None
     except Exception as error:  # of a file that was cut short meshio may say anything
-        raise InputError(f"{path}: cannot be read: {error}; {_REMEDY}") from None
+        raise InputError(f"{path}: cannot be read: {error}; {REMEDY}") from None
     finest = replace(run.finest, mesh=mesh)
     run = replace(run, levels=(*run.levels[:-1], finest))
     return replace(outcome, runs={**outcome.runs, run.name: run})

@@ -11,6 +11,7 @@ from comparisons.common.quantities import LABELS, QUANTITIES, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.problem import GROUPS
+from comparisons.report.tables.text import error_text
 from comparisons.results.outcome import Outcome
 
 FIGURES = ("peak_pressure", "contact_length", "tau1_max")
@@ -57,7 +58,12 @@ def summary_row(outcome: Outcome) -> SummaryRow:
         report=outcome.directory / "report.html",
         kind=said.kind,
         sentence=said.sentence,
-        cells={**_groups(outcome), **_figures(outcome), **_own(outcome), **_times(outcome)},
+        cells={
+            **_groups(outcome),
+            **_figures(outcome),
+            **_model_errors(outcome),
+            **_times(outcome),
+        },
     )
 
 
@@ -105,23 +111,19 @@ def _figures(outcome: Outcome) -> dict[str, Cell]:
     return found
 
 
-def _own(outcome: Outcome) -> dict[str, Cell]:
+def _model_errors(outcome: Outcome) -> dict[str, Cell]:
     """Of what is judged, at the friction where it stands worst."""
     if outcome.budget is None:
         return {}
     found: dict[str, Cell] = {}
     for name, tolerance in outcome.problem.scene.tolerance.items():
-        errors = [own for own in outcome.budget.model_errors if own.quantity == name]
+        errors = [error for error in outcome.budget.model_errors if error.quantity == name]
         if not errors:
             continue
-        worst = max(errors, key=lambda own: abs(own.value) + own.uncertainty)
-        size = percent(
-            worst.value, signed=not QUANTITIES[name].of_pair, uncertainty=worst.uncertainty
-        )
-        doubt = percent(worst.uncertainty)
-        found[f"model_error_{name}"] = Cell(
-            size, abs(worst.value), f"± {doubt}, tolerance {given_percent(tolerance)}"
-        )
+        worst = max(errors, key=lambda error: abs(error.value) + error.uncertainty)
+        note = f"± {percent(worst.uncertainty)}, tolerance {given_percent(tolerance)}"
+        text = error_text(name, worst.value, worst.uncertainty)
+        found[f"model_error_{name}"] = Cell(text, abs(worst.value), note)
     return found
 
 

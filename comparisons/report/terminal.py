@@ -9,7 +9,7 @@ from comparisons.common.quantities import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
-from comparisons.report.tables.model_error import budget_rows, left_out_line
+from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
@@ -43,18 +43,8 @@ LISTED = 2  # effects in the terminal; the report has them all
 ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 # Any terminal shows these.
 PLAIN = str.maketrans(
-    {
-        "µ": "u",
-        "²": "2",
-        "−": "-",
-        "–": "-",
-        "₀": "0",
-        "₁": "1",
-        "×": "x",
-        "τ": "tau",
-        "ν": "nu",
-        "β": "beta",
-    }
+    {"µ": "u", "²": "2", "−": "-", "–": "-", "₀": "0", "₁": "1", "×": "x"}
+    | {"τ": "tau", "ν": "nu", "β": "beta"}
 )
 
 
@@ -64,22 +54,23 @@ def summary(outcome: Outcome) -> "RenderableType":
     from rich.text import Text
 
     said = headline(outcome)
-    verdict = Text()
-    verdict.append(said.kind.upper(), style=STYLES.get(said.kind, "bold"))
-    verdict.append(f"  {said.sentence.translate(PLAIN)}")
+    stamp = said.kind.upper(), STYLES.get(said.kind, "bold")
+    verdict = Text.assemble(stamp, f"  {said.sentence.translate(PLAIN)}")
     title = Text(outcome.problem.scene.title, style="bold")
-    if not outcome.comparisons:
-        return Group(title, "", _figures(outcome), "", verdict, "", _facts(outcome))
-    tables = [_comparison(outcome), ""]
-    if outcome.problem.scene.tolerance:
-        tables += [_own_errors(outcome), ""]
-    return Group(title, "", *tables, verdict, "", _facts(outcome))
+    tables = [_comparison(outcome)] if outcome.comparisons else [_figures(outcome)]
+    if outcome.comparisons and outcome.problem.scene.tolerance:
+        tables += ["", _model_errors(outcome)]
+    return Group(title, "", *tables, "", verdict, "", _facts(outcome))
 
 
 def _comparison(outcome: Outcome) -> "Table":
     table = _table("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%")
     table.add_column("verdict", overflow="fold")
-    for row in comparison_rows(outcome):
+    table.caption = "difference: (half-plane - finite elements) / finite elements"
+    rows = comparison_rows(outcome)
+    if any(row.verdict == "inconclusive" for row in rows):
+        table.padding = 0  # the longest verdict fits into 80 columns
+    for row in rows:
         cells = (
             f"{SHORT[row.quantity]}\n{row.note}".strip(),
             row.friction,
@@ -93,23 +84,23 @@ def _comparison(outcome: Outcome) -> "Table":
     return table
 
 
-def _own_errors(outcome: Outcome) -> "Table":
+def _model_errors(outcome: Outcome) -> "Table":
     """Of the half-plane in what is judged, and what it is made of."""
-    table = _table("mu", "own\nerror %", "uncert.\n%", "tol.\n%")
-    table.columns[0].header = "half-plane alone"
-    table.add_column("most of it, %", overflow="fold")
-    for row in budget_rows(outcome, judged=True):
-        cells = (SHORT[row.quantity], row.friction, row.own, row.uncertainty, row.tolerance)
-        largest = "\n".join(row.parts[:LISTED]).replace(" %", "")
+    table = _table("mu", "error\n%", "uncert.\n%", "tol.\n%")
+    table.add_column("dominant\ncontributions, %", overflow="fold")
+    table.title = "model error of the half-plane"
+    table.caption = "minus: the half-plane's figure is too low"
+    for row in model_error_rows(outcome, judged=True):
+        cells = (SHORT[row.quantity], row.friction, row.error, row.uncertainty, row.tolerance)
+        largest = "\n".join(row.contributions[:LISTED]).replace(" %", "")
         table.add_row(*map(_cell, cells), _cell(largest))
     return table
 
 
 def _figures(outcome: Outcome) -> "Table":
     table = _table("mu", "value", "of Hertz", "uncert.\n%")
-    for row in figure_rows(outcome):
-        cells = (SHORT[row.quantity], row.friction, row.value, row.in_hertz, row.uncertainty)
-        table.add_row(*map(_cell, cells))
+    for quantity, *cells in figure_rows(outcome):
+        table.add_row(SHORT[quantity], *map(_cell, cells))
     return table
 
 
@@ -118,7 +109,16 @@ def _table(*columns: str) -> "Table":
     from rich import box
     from rich.table import Table
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        pad_edge=False,
+        show_edge=False,
+        title_justify="left",
+        title_style="default",
+        caption_justify="left",
+        caption_style="default",
+    )
     # where a terminal is too narrow, cells break: cut short they would be other numbers
     table.add_column("quantity", overflow="fold")
     for column in columns:
@@ -142,7 +142,7 @@ def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
 
 
 def run_in_text(outcome: Outcome) -> str:
-    """How the surface was run in, whether it shook down, and whether that held."""
+    """How the surface was run in, whether it settled, and whether that held."""
     run_in = outcome.problem.scene.run_in
     return (
         f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
@@ -158,7 +158,7 @@ def above_hardness(outcome: Outcome) -> str:
     peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
     if peak <= ABOVE * hardness:
         return ""
-    return f"; pressed then, up to {peak / hardness:.2f} times its hardness"
+    return f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
 
 
 def _facts(outcome: Outcome) -> "Table":
@@ -166,12 +166,12 @@ def _facts(outcome: Outcome) -> "Table":
     from rich.text import Text
 
     times = ", ".join(
-        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3).translate(PLAIN)}"
+        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
         for name, run in outcome.runs.items()
     )
     if outcome.budget is not None and outcome.budget.seconds:
         seconds = with_unit(outcome.budget.seconds, "s", 3)
-        times += f", error budget {seconds} of all cores together".translate(PLAIN)
+        times += f", error budget {seconds} of all cores together"
     facts = Table.grid(padding=(0, 2))
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
@@ -182,11 +182,12 @@ def _facts(outcome: Outcome) -> "Table":
     if scene.run_in is not None:
         facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
     if outcome.budget is not None:
-        facts.add_row("left out", Text(left_out_line(outcome).translate(PLAIN).replace(" %", "%")))
+        estimates = not_modelled_line(outcome).translate(PLAIN).replace(" %", "%")
+        facts.add_row("not modelled", Text(estimates))
     moved = coupling_line(outcome)
     if moved is not None:
         facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))
-    facts.add_row("time", times)
+    facts.add_row("time", times.translate(PLAIN))
     if outcome.directory is None:
         return facts
     facts.add_row("report", Text(str(outcome.directory / "report.html")))

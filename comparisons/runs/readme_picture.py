@@ -11,14 +11,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from comparisons.common.numbers import Scale, percent, plain, significant, with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.common.numbers import Scale, percent, plain, significant
+from comparisons.common.quantities import MODELS
 from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
-from comparisons.report.figures.style import DIFFERENCE, LINES, REFERENCE, drawing, figure
+from comparisons.report.figures.pressures import draw_difference, draw_pressures
+from comparisons.report.figures.style import drawing, figure, stacked
 from comparisons.report.figures.surfaces import draw_surfaces
-from comparisons.report.tables.problem import load_text
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -37,83 +35,38 @@ REACH = 1.15  # half-widths to either side
 def overview(outcome: Outcome) -> "Figure":
     """The picture of a run of both models with [stress]; to be called inside `drawing()`."""
     half_width, window = outcome.problem.hertz.half_width, outcome.window
-    wide, height = WIDTH - LEFT - RIGHT, FOOT + sum(map(sum, PANELS))
-    drawn, edge, panels = figure(WIDTH, height), height, []
-    for above, tall in PANELS:
-        edge -= above + tall
-        box = (LEFT / WIDTH, edge / height, wide / WIDTH, tall / height)
-        panels.append(drawn.add_axes(box))
-    pressures, differences, surfaces, shear, bar = panels
-    _pressures(pressures, outcome)
-    _differences(differences, outcome)
-    across = (-REACH * half_width, REACH * half_width)
-    draw_surfaces(surfaces, outcome, across, Scale(half_width, "a"))
+    drawn = figure(WIDTH, FOOT + sum(map(sum, PANELS)))
+    *panels, bar = stacked(drawn, PANELS, LEFT, RIGHT)
+    pressures, differences, surfaces, shear = panels
+    given = outcome, (-REACH * half_width, REACH * half_width), Scale(half_width, "a")
+    draw_pressures(pressures, *given)
+    pressures.set_ylim(0.0, 1.2 * pressures.dataLim.y1)
+    look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
+    pressures.legend(loc="upper right", ncols=3, **look)
+    draw_difference(differences, *given)
+    norm = next(row for row in outcome.comparisons if row.quantity == "pressure_l2")
+    words = f"half-plane − finite elements: {percent(norm.difference)} (relative L2 norm)"
+    differences.text(0.008, 0.93, words, transform=differences.transAxes, va="top")
+    draw_surfaces(surfaces, *given)
     _shear(shear, bar, outcome)
-    for panel in panels[:-1]:
+    for panel in panels:
         panel.set_xlim(-REACH, REACH)
-        panel.yaxis.set_label_coords(-0.8 * LEFT / wide, 0.5)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (WIDTH - LEFT - RIGHT), 0.5)
         panel.tick_params(labelbottom=panel is shear)
     shear.set_xlabel("x/a")
     shear.set_ylim(window.z[-1] / half_width, 0.0)
     return drawn
 
 
-def save(outcome: Outcome, path: Path) -> None:
-    """Write the picture of a finished run as PNG."""
-    with drawing():
-        overview(outcome).savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
-
-
 def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
     """Run a scene and write its picture."""
-    from comparisons.common.quantities import MODELS
     from comparisons.runs.run import run
     from comparisons.scenes.resolve import load_scene
 
     with TemporaryDirectory() as folder:
-        save(run(load_scene(scene), Path(folder) / "out", MODELS), path)
-
-
-def _curve(outcome: Outcome, model: str) -> tuple[np.ndarray, np.ndarray]:
-    """x/a and p/p0 of a model's nodes."""
-    level, hertz = outcome.runs[model].finest, outcome.problem.hertz
-    return level.grid.x / hertz.half_width, level.solution.pressure / hertz.peak_pressure
-
-
-def _pressures(axes: "Axes", outcome: Outcome) -> None:
-    hertz = outcome.problem.hertz
-    for model in outcome.runs:
-        axes.plot(*_curve(outcome, model), label=LABELS[model], **LINES[model])
-    x = np.linspace(-1.0, 1.0, 401)
-    smooth = hertz.pressure(x * hertz.half_width) / hertz.peak_pressure
-    axes.plot(x, smooth, label="Hertz, smooth", **REFERENCE)
-    axes.set_ylim(0.0, 1.2 * axes.dataLim.y1)
-    axes.set_ylabel("p/p₀")
-    load = (
-        f"P = {load_text(outcome.problem)},  p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  "
-        f"a = {with_unit(hertz.half_width, 'm')}"
-    )
-    axes.text(0.008, 0.97, load, transform=axes.transAxes, va="top")
-    axes.legend(loc="upper right", ncols=3, borderaxespad=0.1, columnspacing=1.0, handletextpad=0.5)
-
-
-def _differences(axes: "Axes", outcome: Outcome) -> None:
-    """Half-plane less finite elements: both have the same nodes."""
-    x, one = _curve(outcome, "half_plane")
-    other = _curve(outcome, "finite_element")[1]
-    axes.plot(x, one - other, **DIFFERENCE)
-    largest = 1.25 * np.max(np.abs(one - other))
-    axes.set_ylim(-largest, largest)
-    axes.set_ylabel("Δp/p₀")
-    axes.locator_params(axis="y", nbins=3)
-    norm = next(row for row in outcome.comparisons if row.quantity == "pressure_l2")
-    axes.text(
-        0.008,
-        0.93,
-        f"half-plane − finite elements: {percent(norm.difference)} (relative L2 norm)",
-        transform=axes.transAxes,
-        va="top",
-    )
+        outcome = run(load_scene(scene), Path(folder) / "out", MODELS)
+    with drawing():
+        overview(outcome).savefig(path, dpi=PIXELS, pil_kwargs={"optimize": True})
 
 
 def _shear(axes: "Axes", bar: "Axes", outcome: Outcome) -> None:

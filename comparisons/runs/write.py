@@ -39,9 +39,9 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
         (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
         callback("drawing the report")
         from comparisons.report.page import render
-        from comparisons.report.saved import FILE, keep_shown
+        from comparisons.report.saved import FILE, save_shown
 
-        keep_shown(folder / FILE, outcome)
+        save_shown(folder / FILE, outcome)
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
 
 

@@ -4,7 +4,15 @@ import numpy as np
 
 from comparisons.common.numbers import with_unit
 from comparisons.common.quantities import LABELS
-from comparisons.report.figures.style import COLUMN, LINES, Picture, data_uri, figure
+from comparisons.report.figures.style import (
+    COLUMN,
+    LINES,
+    Picture,
+    data_uri,
+    figure,
+    horizontal_bars,
+    stacked,
+)
 from comparisons.results.outcome import Outcome
 
 HATCHES = {"half_plane": "", "finite_element": "////"}
@@ -17,9 +25,8 @@ def cost_picture(outcome: Outcome) -> Picture:
     for name, run in outcome.runs.items():
         rows.append((name, f"{LABELS[name]}, in all", sum(run.seconds.values())))
         rows += [(name, stage, seconds) for stage, seconds in run.seconds.items()]
-    height = 0.24 * len(rows) + 0.7
-    drawn = figure(COLUMN, height)
-    axes = drawn.add_axes((0.29, 0.5 / height, 0.59, 1.0 - 0.62 / height))
+    drawn = figure(COLUMN, 0.24 * len(rows) + 0.7)
+    [axes] = stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
     place = -np.arange(len(rows), dtype=float)
     shown = np.maximum([seconds for _, _, seconds in rows], SHORTEST)
     first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
@@ -44,11 +51,8 @@ def cost_picture(outcome: Outcome) -> Picture:
     ticks = 10.0 ** np.arange(np.log10(first).round(), np.log10(last).round() + 1.0)
     axes.set_xticks(ticks, [with_unit(tick, "s", 1) for tick in ticks])
     axes.minorticks_off()
-    axes.set_ylim(place[-1] - 0.6, 0.6)
-    axes.set_yticks(place, [label for _, label, _ in rows])
-    axes.tick_params(axis="y", length=0.0)
+    horizontal_bars(axes, place, [label for _, label, _ in rows])
     axes.set_xlabel("time, logarithmic")
-    axes.grid(False, axis="y")
     totals = "; ".join(
         f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
         for name, run in outcome.runs.items()

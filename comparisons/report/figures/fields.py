@@ -10,7 +10,7 @@ import numpy as np
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.common.quantities import LABELS
-from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
+from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, stacked
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
     from matplotlib.figure import Figure
 
-
-WIDTH = COLUMN - 0.85  # inches, of a field
+LEFT, WIDTH = 0.62, COLUMN - 0.85  # inches, of a field
+TITLE, FOOT, BAR, BAR_LABEL, INSET = 0.28, 0.42, 0.1, 0.34, 0.36  # inches
 BANDS = 16  # of colour on the whole scale, about
 COVERED = 99.5  # per cent of a field's points that its scale covers at least
 NOTHING = 1e-12  # p0: a difference below it is none
@@ -56,32 +56,19 @@ def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]
 
     The models stand above one bar; with two models their difference follows, above another.
     """
-    comparing = models > 1
-    title, bar, label, foot = 0.28, 0.1, 0.34, 0.42
-    block = title + height
-    total = models * block + foot + bar + label + (block + foot + bar + label if comparing else 0.0)
-    drawn = figure(COLUMN, total)
-    places, bars = [], []
-    edge = total
-
-    def axes(low: float, tall: float, inset: float = 0.0) -> "Axes":
-        return drawn.add_axes(
-            ((0.62 + inset) / COLUMN, low / total, (WIDTH - inset) / COLUMN, tall / total)
-        )
-
-    for _ in range(models):
-        edge -= block
-        places.append(axes(edge, height))
-    edge -= foot + bar
-    bars.append(axes(edge, bar, inset=0.36))
-    edge -= label
-    if comparing:
-        edge -= block
-        places.append(axes(edge, height))
-        edge -= foot + bar
-        bars.append(axes(edge, bar, inset=0.36))
-    for place in places[: models - 1]:
-        place.tick_params(labelbottom=False)
+    block, bar = (TITLE, height), (FOOT, BAR)
+    panels = [block] * models + [bar]
+    if models > 1:
+        panels += [(BAR_LABEL + TITLE, height), bar]
+    drawn = figure(COLUMN, sum(map(sum, panels)) + BAR_LABEL)
+    places = stacked(drawn, panels, LEFT, COLUMN - LEFT - WIDTH)
+    bars = places[models::2]
+    places = places[:models] + places[models + 1 :: 2]
+    for axes in bars:
+        box, inset = axes.get_position(), INSET / COLUMN
+        axes.set_position((box.x0 + inset, box.y0, box.width - inset, box.height))
+    for axes in places[: models - 1]:
+        axes.tick_params(labelbottom=False)
     places[models - 1].set_xlabel("x/a")
     return drawn, places, bars
 
@@ -105,11 +92,8 @@ def fill(
     colour_map = matplotlib.colormaps[colours]
     norm = BoundaryNorm(bands, colour_map.N, extend="both" if signed else "max")
     pixels = _pixels(axes, x, z, values)
-    placed = {
-        "interpolation": "none",
-        "aspect": "auto",
-        "extent": (x[0], x[-1], z[-1], z[0]),
-    }
+    extent = (x[0], x[-1], z[-1], z[0])
+    placed = {"interpolation": "none", "aspect": "auto", "extent": extent}
     shown = axes.imshow(pixels, cmap=colour_map, norm=norm, **placed)
     if signed:
         axes.imshow(_stripes(pixels < bands[bands < 0.0][-1]), **placed)

@@ -1,4 +1,4 @@
-"""The finite-element mesh: the whole block, the ground under the contact, the highest peak.
+"""The finite-element mesh: the whole block, under the contact, under the highest pressure.
 
 Elements smaller than the picture can show are drawn as what they would look like: a dark patch.
 """
@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import integer, scale_of, with_unit
-from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
+from comparisons.report.figures.pressures import peak_position
+from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, stacked
 from comparisons.results.outcome import Outcome
 from meshes.block import real_points
 
@@ -31,19 +32,19 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
     mesh = level.mesh
     points, corners = real_points(mesh), mesh.triangles[:, :3]
     half, depth, edge = mesh.spec.half_width, mesh.spec.depth, mesh.spec.surface_size
-    peak = float(level.grid.x[level.solution.pressure.argmax()])
+    peak = peak_position(level)
     reach = min(CONTACT * hertz.half_width, half)
     fine = PEAK_EDGES * edge
-    views = {
-        "the whole block": (-half, half, depth),
-        "the ground under the contact": (-reach, reach, min(reach, depth)),
-        "the ground under the highest pressure": (peak - fine, peak + fine, min(fine, depth)),
-    }
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
-    captions = (
-        f"Mesh of the whole block: {count}.",
-        f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long.",
-        "Under the highest pressure.",
+    under = f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long."
+    views = (
+        ("the whole block", (-half, half, depth), f"Mesh of the whole block: {count}."),
+        ("the body under the contact", (-reach, reach, min(reach, depth)), under),
+        (
+            "the body under the highest pressure",
+            (peak - fine, peak + fine, min(fine, depth)),
+            "Under the highest pressure.",
+        ),
     )
     return [
         Picture(
@@ -51,7 +52,7 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
             alternative=f"Finite-element mesh of {words}: {count}.",
             caption=caption,
         )
-        for (words, view), caption in zip(views.items(), captions, strict=True)
+        for words, view, caption in views
     ]
 
 
@@ -60,9 +61,8 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
     unit = scale_of([low, high, depth], "m")
     width = COLUMN - 0.8
     height = float(np.clip(width * depth / (high - low), 0.8, 4.2))
-    total = height + 0.6
-    drawn = figure(COLUMN, total)
-    axes = drawn.add_axes((0.68 / COLUMN, 0.46 / total, width / COLUMN, height / total))
+    drawn = figure(COLUMN, height + 0.6)
+    [axes] = stacked(drawn, [(0.14, height)], 0.68)
     points = points / unit.factor
     top = points[:, 1].min()
     bounds = low / unit.factor, high / unit.factor, depth / unit.factor

@@ -1,8 +1,8 @@
 """Pressures over the profile, in the manner of Bailey and Sayles (1991), figure 1.
 
-Above the pressures of both models over the Hertz curve, below them on the same x the deformed
-surfaces; once over the whole contact, once around the highest peak or the edge, where the nodes
-of the piecewise-linear pressures can be told apart.
+Above the pressures of both models over the Hertz curve, then their difference, below them on the
+same x the deformed surfaces; once over the whole contact, once around the highest peak or the edge,
+where the nodes of the piecewise-linear pressures can be told apart.
 """
 
 from typing import TYPE_CHECKING
@@ -12,7 +12,6 @@ import numpy as np
 from comparisons.common.numbers import Scale, percent, scale_of, significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level
-from comparisons.models.problem import Problem
 from comparisons.report.figures.style import (
     COLUMN,
     DIFFERENCE,
@@ -22,16 +21,19 @@ from comparisons.report.figures.style import (
     Picture,
     data_uri,
     figure,
+    near,
+    stacked,
+    symmetric,
 )
 from comparisons.report.figures.surfaces import draw_surfaces
-from comparisons.report.tables.problem import load_text
+from comparisons.report.tables.problem import hertz_text
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LEFT = 0.8  # inches left of the panels
+LEFT, RIGHT, TOP, BETWEEN, FOOT = 0.8, 0.12, 0.24, 0.16, 0.46  # inches around the panels
 FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the curves
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
@@ -44,15 +46,20 @@ def reference_level(outcome: Outcome) -> Level:
     return list(outcome.runs.values())[-1].finest
 
 
+def peak_position(level: Level) -> float:
+    """Place [m] of a level's highest pressure."""
+    return float(level.grid.x[level.solution.pressure.argmax()])
+
+
 def pressure_picture(outcome: Outcome) -> Picture:
     """The whole contact."""
-    x = reference_level(outcome).grid.x
-    across = (min(x[0], -1.05 * outcome.problem.hertz.half_width), max(x[-1], 0.0))
-    across = (across[0], max(across[1], 1.05 * outcome.problem.hertz.half_width))
-    p0 = outcome.problem.hertz.peak_pressure
+    x, hertz = reference_level(outcome).grid.x, outcome.problem.hertz
+    beyond = 1.05 * hertz.half_width
+    across = min(x[0], -beyond), max(x[-1], beyond)
     peaks = ", ".join(
-        f"{LABELS[name]} {significant(run.finest.solution.pressure.max() / p0)} p₀ at x = "
-        f"{with_unit(_peak_position(run.finest), 'm')}"
+        f"{LABELS[name]} "
+        f"{significant(run.finest.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
+        f"{with_unit(peak_position(run.finest), 'm')}"
         for name, run in outcome.runs.items()
     )
     return Picture(
@@ -69,13 +76,13 @@ def pressure_picture(outcome: Outcome) -> Picture:
 
 
 def close_up_picture(outcome: Outcome) -> Picture:
-    """The ground around the highest pressure; of a smooth body, the contact's edge."""
+    """Around the highest pressure; of a smooth body, around the contact's edge."""
     level = reference_level(outcome)
     pitch = level.grid.pitch
     if outcome.problem.scene.profile is None:
         centre, reach, place = level.patches[-1, 1], CLOSE_HATS * pitch, "the right-hand edge"
     else:
-        centre, place = _peak_position(level), "the highest peak"
+        centre, place = peak_position(level), "the highest peak"
         holding = (level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)
         most = max(CLOSE_REACH * outcome.problem.hertz.half_width, CLOSE_HATS * pitch)
         reach = np.clip(0.75 * np.ptp(level.patches[holding]), CLOSE_HATS * pitch, most)
@@ -91,10 +98,6 @@ def close_up_picture(outcome: Outcome) -> Picture:
     )
 
 
-def _peak_position(level: Level) -> float:
-    return float(level.grid.x[level.solution.pressure.argmax()])
-
-
 def _norm(outcome: Outcome) -> str:
     row = next((c for c in outcome.comparisons if c.quantity == "pressure_l2"), None)
     if row is None or row.difference is None:
@@ -107,27 +110,24 @@ def _drawn(
     outcome: Outcome, across: tuple[float, float], width: float, height: float, nodes: bool = False
 ) -> "Figure":
     """Pressures, their difference where there are two models, and surfaces."""
-    drawn = figure(width, height)
-    left, right = LEFT / width, 1.0 - 0.12 / width
     comparing = len(outcome.runs) > 1
-    heights = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
-    bottom, top, space = 0.46 / height, 1.0 - 0.24 / height, 0.16 / height
-    room = top - bottom - space * (len(heights) - 1)
-    panels, edge = [], top
-    for share in heights:
-        edge -= share * room
-        panels.append(drawn.add_axes((left, edge, right - left, share * room)))
-        edge -= space
+    shares = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
+    room = height - FOOT - TOP - BETWEEN * (len(shares) - 1)
+    drawn = figure(width, height)
+    above = (TOP, *[BETWEEN] * (len(shares) - 1))
+    panels = stacked(
+        drawn, [(a, share * room) for a, share in zip(above, shares, strict=True)], LEFT, RIGHT
+    )
     unit = scale_of(np.abs(across), "m")
-    _pressures(panels[0], outcome, across, unit, nodes)
+    draw_pressures(panels[0], outcome, across, unit, nodes)
+    _cap_and_legend(panels[0], outcome)
     if comparing:
-        _difference(panels[1], outcome, across, unit)
+        draw_difference(panels[1], outcome, across, unit)
     draw_surfaces(panels[-1], outcome, across, unit)
     for panel in panels:
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (width * (right - left)), 0.5)
+        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
-    for panel in panels[:-1]:
-        panel.tick_params(labelbottom=False)
+        panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel(f"x [{unit.name}]")
     _second_axis(panels[0], outcome.problem.hertz.half_width / unit.factor)
     return drawn
@@ -149,52 +149,47 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
     axes.annotate("x/a", (0.0, 1.0), (-22, 4), "axes fraction", "offset points", ha="right")
 
 
-def _pressures(
-    axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale, nodes: bool
+def draw_pressures(
+    axes: "Axes",
+    outcome: Outcome,
+    across: tuple[float, float],
+    unit: Scale,
+    nodes: bool = False,
 ) -> None:
-    problem = outcome.problem
-    p0 = problem.hertz.peak_pressure
-    smooth = np.linspace(*across, 600)
-    smooth = np.union1d(
-        smooth, np.clip([-problem.hertz.half_width, problem.hertz.half_width], *across)
-    )
+    """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words.
+
+    nodes  whether the nodes of the pressures are marked
+    """
+    hertz = outcome.problem.hertz
     for name, run in outcome.runs.items():
-        level = run.finest
-        x, pressure = _closed(level)
-        near = (x >= across[0] - level.grid.pitch) & (x <= across[1] + level.grid.pitch)
-        marker = {"half_plane": "o", "finite_element": "x"}[name] if nodes else None
+        x, pressure = _closed(run.finest)
+        shown = near(x, across, run.finest.grid.pitch)
         axes.plot(
-            x[near] / unit.factor,
-            pressure[near] / p0,
+            x[shown] / unit.factor,
+            pressure[shown] / hertz.peak_pressure,
             label=LABELS[name],
-            marker=marker,
+            marker={"half_plane": "o", "finite_element": "x"}[name] if nodes else None,
             markersize=3.2,
             markerfacecolor="none",
             **LINES[name],
         )
-    axes.plot(
-        smooth / unit.factor,
-        problem.hertz.pressure(smooth) / p0,
-        label="Hertz, smooth",
-        **REFERENCE,
-    )
+    ends = np.clip([-hertz.half_width, hertz.half_width], *across)
+    x = np.union1d(np.linspace(*across, 600), ends)
+    smooth = hertz.pressure(x) / hertz.peak_pressure
+    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **REFERENCE)
+    axes.set_ylabel("p/p₀")
+    axes.text(0.008, 0.97, hertz_text(outcome.problem), transform=axes.transAxes, va="top")
+
+
+def _cap_and_legend(axes: "Axes", outcome: Outcome) -> None:
+    """The hardness, if it is near; the lines' names above the curves, in two rows if narrow."""
+    hardness, p0 = outcome.problem.scene.hardness, outcome.problem.hertz.peak_pressure
     peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
-    cap = np.inf if problem.scene.hardness is None else problem.scene.hardness / p0
-    if cap < FARTHEST_CAP * peak / p0:
-        axes.axhline(cap, color="#777777", linestyle="-.", linewidth=0.9, label="hardness")
-    _legend(axes, problem)
-
-
-def _legend(axes: "Axes", problem: Problem) -> None:
-    """The load and the lines' names, above the curves; on a narrow picture in two rows."""
+    if hardness is not None and hardness < FARTHEST_CAP * peak:
+        look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
+        axes.axhline(hardness / p0, label="hardness", **look)
     narrow = axes.figure.get_figwidth() < 0.75 * WIDE
     axes.set_ylim(0.0, (1.34 if narrow else 1.17) * axes.dataLim.y1)
-    axes.set_ylabel("p/p₀")
-    load = (
-        f"P = {load_text(problem)},  p₀ = {with_unit(problem.hertz.peak_pressure, 'Pa')},  "
-        f"a = {with_unit(problem.hertz.half_width, 'm')}"
-    )
-    axes.text(0.008, 0.97, load, transform=axes.transAxes, va="top")
     axes.legend(
         loc="upper left" if narrow else "upper right",
         bbox_to_anchor=(0.0, 0.91) if narrow else (1.0, 1.02),
@@ -215,14 +210,15 @@ def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
     )
 
 
-def _difference(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
+def draw_difference(
+    axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale
+) -> None:
+    """Pressures of the half-plane less those of the finite elements, at the nodes of the latter."""
     one, other = outcome.runs["half_plane"].finest, outcome.runs["finite_element"].finest
     x, reference = _closed(other)
     difference = np.interp(x, *_closed(one)) - reference
     difference /= outcome.problem.hertz.peak_pressure
-    near = (x >= across[0] - other.grid.pitch) & (x <= across[1] + other.grid.pitch)
-    axes.plot(x[near] / unit.factor, difference[near], **DIFFERENCE)
-    largest = np.max(np.abs(difference[near]), initial=0.0) or 1.0
-    axes.set_ylim(-1.25 * largest, 1.25 * largest)
+    shown = near(x, across, other.grid.pitch)
+    axes.plot(x[shown] / unit.factor, difference[shown], **DIFFERENCE)
+    symmetric(axes, difference[shown])
     axes.set_ylabel("Δp/p₀")
-    axes.locator_params(axis="y", nbins=3)

@@ -1,4 +1,4 @@
-"""The problem drawn from the scene itself: bodies to scale, and the contact's ground close up."""
+"""The problem drawn from the scene itself: bodies to scale, and the contact close up."""
 
 from typing import TYPE_CHECKING
 
@@ -13,8 +13,11 @@ from comparisons.report.figures.style import (
     Picture,
     data_uri,
     figure,
+    fill_bodies,
+    stacked,
 )
 from comparisons.report.tables.problem import coating_text, elastic_text, load_text, yielding_text
+from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
 
@@ -24,33 +27,32 @@ if TYPE_CHECKING:
 VIEW = 1.15  # radii to either side in the drawing to scale
 LAYERS_IN_VIEW = 5.0  # of a thin body instead
 CLOSE_UP = 1.15, 2.0  # half-widths to either side in the close-up, at least and at most
-RISE = 6.0  # of the roller over the close-up, in reliefs of the ground
+RISE = 6.0  # of the roller over the close-up, in reliefs of the surface
 ARROW = {"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "shrinkA": 0.0, "shrinkB": 0.0}
 FORCE = "#B3001B"
 LINE = 0.11  # of the view: height of a line of words
 POINTS = 800
+EDGE = {"edgecolor": OUTLINE["color"], "linewidth": OUTLINE["linewidth"]}
 
 
 def problem_picture(outcome: Outcome) -> Picture:
     """Roller, body, load and sliding; above to scale, below with the heights stretched."""
     scene = outcome.problem.scene
     drawn = figure(COLUMN, 5.9)
-    to_scale = drawn.add_axes((0.125, 0.475, 0.85, 0.495))
+    to_scale, close_up = stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
     _to_scale(to_scale, outcome)
-    close_up = drawn.add_axes((0.125, 0.085, 0.85, 0.265))
     stretch = _close_up(close_up, outcome)
-    ground = "the rough body" if scene.profile is not None else "the smooth body"
-    friction = _friction(scene)
+    body = "the rough body" if scene.profile is not None else "the smooth body"
+    sliding = f", sliding with friction {listed(scene.friction)}" if any(scene.friction) else ""
     return Picture(
         source=data_uri(drawn),
         alternative=(
-            f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {ground} by "
+            f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {body} by "
             f"{load_text(outcome.problem)}"
-            f"{', sliding with friction ' + friction if friction else ''}; "
-            f"{'; '.join([_body_in_words(scene), *_more_of_body(scene)])}."
+            f"{sliding}; {'; '.join(_body_in_words(scene))}."
         ),
         caption=(
-            "The problem. Above: to scale. Below: roller and ground where they first touch, "
+            "The problem. Above: to scale. Below: roller and body where they first touch, "
             f"before loading, heights stretched {plain(float(f'{stretch:.2g}'))} times; the bar "
             "is the width 2a of the Hertz contact under the same load."
         ),
@@ -71,8 +73,8 @@ def _to_scale(axes: "Axes", outcome: Outcome) -> None:
     depth = np.inf if scene.thickness is None else scene.thickness / unit.factor
     below = min(depth, 0.42 * view)
     height = 0.73 * view  # the picture's, above the body
-    axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **ROLLER))
-    axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, fill=False, **_edge()))
+    for look in (ROLLER, {"fill": False, **EDGE}):
+        axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
     across = np.linspace(-half, half, 200)
     torn = depth > below  # the drawing ends before the body does
     bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
@@ -87,15 +89,18 @@ def _to_scale(axes: "Axes", outcome: Outcome) -> None:
     note = {"fontsize": 9.0, "va": "center", "linespacing": 1.35}
     load = f"P = {load_text(outcome.problem)}"
     axes.text(0.03 * view, 0.42 * view, load, color=FORCE, **note)
-    axes.text(-0.03 * view, 0.42 * view, _roller_in_words(scene), ha="right", **note)
+    material = "rigid" if scene.roller is None else elastic_text(scene.roller)
+    roller = f"roller\nR = {given(radius, 'm')}\n{material}"
+    axes.text(-0.03 * view, 0.42 * view, roller, ha="right", **note)
     # words stand in the body where it is large, else under it
     roomy = torn and half == view
-    said = _material_of_body(scene)
+    rough = "rough body" if scene.profile is not None else "body"
+    said = "\n".join([f"{rough}, {elastic_text(scene.body)}", *_body_in_words(scene)])
     tall = LINE * view * (1 + said.count("\n"))
     words = -0.5 * below if roomy else -1.2 * below - 0.03 * view - 0.5 * tall
     axes.text(-0.97 * view, words, said, **note)
     if any(scene.friction):
-        traction = f"q = µ p,  µ = {_friction(scene)}"
+        traction = f"q = µ p,  µ = {listed(scene.friction)}"
         start, end = (0.71, 0.97) if roomy else (0.08, 0.34)
         _arrow(axes, (start * half, -0.32 * below), (end * half, -0.32 * below))
         above = -0.55 * below if roomy else words + 0.5 * (tall - LINE * view)
@@ -115,23 +120,11 @@ def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
     thick = 0.1 * below
     gap = 0.06 * below if frictionless else 0.0
     if frictionless:
-        count = 24
-        axes.plot(
-            np.linspace(-half, half, count + 1)[1:-1],
-            np.full(count - 1, -below - 0.5 * gap),
-            linestyle="",
-            marker="o",
-            markersize=2.2,
-            color=OUTLINE["color"],
-        )
-    axes.fill_between(
-        [-half, half],
-        -below - gap - thick,
-        -below - gap,
-        facecolor="none",
-        hatch="/////",
-        **_edge(),
-    )
+        places = np.linspace(-half, half, 25)[1:-1]
+        look = {"linestyle": "", "marker": "o", "markersize": 2.2, "color": OUTLINE["color"]}
+        axes.plot(places, np.full(len(places), -below - 0.5 * gap), **look)
+    hatched = {"facecolor": "none", "hatch": "/////", **EDGE}
+    axes.fill_between([-half, half], -below - gap - thick, -below - gap, **hatched)
 
 
 def _close_up(axes: "Axes", outcome: Outcome) -> float:
@@ -147,84 +140,51 @@ def _close_up(axes: "Axes", outcome: Outcome) -> float:
     if scene.width is not None:
         low, high = max(low, -0.5 * scene.width), min(high, 0.5 * scene.width)
     x = np.linspace(low, high, POINTS)
-    ground = np.zeros_like(x) if scene.profile is None else scene.profile.spline()(x)
+    body = np.zeros_like(x) if scene.profile is None else scene.profile.spline()(x)
     parabola = x**2 / (2.0 * scene.roller_radius)
-    roller = parabola + np.max(ground - parabola)
-    along, up = scale_of([high], "m"), scale_of([np.max(roller), np.ptp(ground)], "m")
-    bottom = ground.min() - 0.35 * (roller.max() - ground.min())
-    top = roller.max()
+    roller = parabola + np.max(body - parabola)
+    along, up = scale_of([high], "m"), scale_of([np.max(roller), np.ptp(body)], "m")
+    bottom, top = body.min() - 0.35 * (roller.max() - body.min()), roller.max()
     position = x / along.factor
-    axes.fill_between(position, roller / up.factor, top / up.factor, **ROLLER)
+    ends = bottom / up.factor, top / up.factor
+    fill_bodies(axes, position, body / up.factor, roller / up.factor, *ends)
     axes.plot(position, roller / up.factor, **OUTLINE)
-    axes.fill_between(position, bottom / up.factor, ground / up.factor, **BODY)
-    axes.plot(position, ground / up.factor, **{**OUTLINE, "linewidth": 0.7})
-    at = 0.5 * (bottom + ground.min()) / up.factor
+    axes.plot(position, body / up.factor, **{**OUTLINE, "linewidth": 0.7})
+    at = 0.5 * (bottom + body.min()) / up.factor
     reach = half_width / along.factor
     axes.plot([-reach, reach], [at, at], color="black", marker="|", markersize=8, linewidth=1.2)
-    axes.text(
-        0.0,
-        at,
-        f"2a = {with_unit(2.0 * half_width, 'm')}",
-        ha="center",
-        va="center",
-        bbox={"facecolor": BODY["facecolor"], "edgecolor": "none", "pad": 1.5},
-    )
+    clear = {"facecolor": BODY["facecolor"], "edgecolor": "none", "pad": 1.5}
+    words = f"2a = {with_unit(2.0 * half_width, 'm')}"
+    axes.text(0.0, at, words, ha="center", va="center", bbox=clear)
     axes.set(
         xlim=(position[0], position[-1]),
-        ylim=(bottom / up.factor, top / up.factor),
         xlabel=f"x [{along.name}]",
         ylabel=f"height [{up.name}]",
     )
-    axes.grid(False)
     box = axes.get_position()
     wide, tall = axes.figure.get_size_inches() * (box.width, box.height)
     return (tall / (top - bottom)) / (wide / (high - low))
-
-
-def _edge() -> dict:
-    return {"edgecolor": OUTLINE["color"], "linewidth": OUTLINE["linewidth"]}
 
 
 def _arrow(axes: "Axes", tail: tuple[float, float], tip: tuple[float, float]) -> None:
     axes.annotate("", tip, tail, arrowprops={**ARROW, "color": FORCE, "linewidth": 1.8})
 
 
-def _friction(scene: ResolvedScene) -> str:
-    return ", ".join(plain(mu) for mu in scene.friction) if any(scene.friction) else ""
-
-
-def _roller_in_words(scene: ResolvedScene) -> str:
-    radius = f"roller\nR = {given(scene.roller_radius, 'm')}"
-    if scene.roller is None:
-        return f"{radius}\nrigid"
-    return f"{radius}\n{elastic_text(scene.roller)}"
-
-
-def _material_of_body(scene: ResolvedScene) -> str:
-    rough = "rough body" if scene.profile is not None else "body"
-    lines = [f"{rough}, {elastic_text(scene.body)}", _body_in_words(scene), *_more_of_body(scene)]
-    return "\n".join(lines)
-
-
-def _more_of_body(scene: ResolvedScene) -> list[str]:
-    """What the finite elements' body has besides."""
-    found = []
+def _body_in_words(scene: ResolvedScene) -> list[str]:
+    """Its size and support, and what the finite elements' body has besides."""
+    size = []
+    if scene.thickness is not None:
+        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.base]
+        size.append(f"{given(scene.thickness, 'm')} thick, {base} a rigid base")
+    elif scene.width is None:
+        size.append("unbounded (half-plane)")
+    else:
+        size.append("unbounded in depth")
+    if scene.width is not None:
+        size.append(f"{given(scene.width, 'm')} wide")
+    found = [", ".join(size)]
     if scene.coating is not None:
         found.append(f"coating {coating_text(scene.coating)}")
     if scene.yielding is not None:
         found.append(f"yields {yielding_text(scene.yielding)}")
     return found
-
-
-def _body_in_words(scene: ResolvedScene) -> str:
-    if scene.thickness is None and scene.width is None:
-        return "unbounded (half-plane)"
-    parts = []
-    if scene.thickness is not None:
-        base = {"bonded": "bonded to", "frictionless": "sliding freely on"}[scene.base]
-        parts.append(f"{given(scene.thickness, 'm')} thick, {base} a rigid base")
-    else:
-        parts.append("unbounded in depth")
-    if scene.width is not None:
-        parts.append(f"{given(scene.width, 'm')} wide")
-    return ", ".join(parts)

@@ -6,7 +6,16 @@ import numpy as np
 
 from comparisons.common.numbers import given, scale_of, significant, with_unit
 from comparisons.models.running_in import ended
-from comparisons.report.figures.style import COLUMN, LINES, OUTLINE, WIDE, Picture, data_uri, figure
+from comparisons.report.figures.style import (
+    COLUMN,
+    LINES,
+    OUTLINE,
+    WIDE,
+    Picture,
+    data_uri,
+    figure,
+    stacked,
+)
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
 
@@ -63,8 +72,7 @@ def _drawn(outcome: Outcome, width: float) -> "Figure":
     before, after = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
     drawn = figure(width, 3.2)
-    left = 0.8 / width
-    axes = drawn.add_axes((left, 0.16, 0.98 - left, 0.73))
+    [axes] = stacked(drawn, [(0.35, 2.34)], 0.8, 0.02 * width)
     axes.plot(x / along.factor, before / up.factor, label="before running-in", **BEFORE)
     axes.plot(x / along.factor, after / up.factor, label="after", **AFTER)
     axes.set(

@@ -7,7 +7,7 @@ import numpy as np
 from analytic.exact.hertz import hertz_stress
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.common.quantities import LABELS
-from comparisons.report.figures.pressures import reference_level
+from comparisons.report.figures.pressures import peak_position, reference_level
 from comparisons.report.figures.style import (
     COLUMN,
     LINES,
@@ -15,6 +15,7 @@ from comparisons.report.figures.style import (
     Picture,
     data_uri,
     figure,
+    stacked,
 )
 from comparisons.results.outcome import Outcome
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 NEAR = 0.1  # half-widths: depth of the enlarged part of a rough section
+TOP, TITLE, TALL, FOOT = 0.06, 0.3, 1.85, 0.46  # inches
+LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
 def section_pictures(outcome: Outcome) -> list[Picture]:
@@ -31,47 +34,41 @@ def section_pictures(outcome: Outcome) -> list[Picture]:
     """
     if outcome.window is None:
         return []
-    level, hertz = reference_level(outcome), outcome.problem.hertz
-    peak = float(level.grid.x[level.solution.pressure.argmax()])
-    rough = outcome.problem.scene.profile is not None
     wanted = {
-        "the highest pressure": peak,
-        "the edge of the smooth contact, x = +a": hertz.half_width,
+        "the highest pressure": peak_position(reference_level(outcome)),
+        "the edge of the smooth contact, x = +a": outcome.problem.hertz.half_width,
     }
     x = outcome.window.x
     spacing = x[1] - x[0]
     return [
-        _picture(outcome, int(np.argmin(np.abs(x - place))), words, rough)
+        _picture(outcome, int(np.argmin(np.abs(x - place))), words)
         for words, place in wanted.items()
         if x[0] - spacing <= place <= x[-1] + spacing
     ]
 
 
-def _picture(outcome: Outcome, column: int, words: str, rough: bool) -> Picture:
-    frictions = outcome.problem.scene.friction
-    hertz = outcome.problem.hertz
-    row, foot, top = 2.15, 0.46, 0.06
-    total = foot + top + row * len(frictions)
-    drawn = figure(COLUMN, total)
+def _picture(outcome: Outcome, column: int, words: str) -> Picture:
+    frictions, hertz = outcome.problem.scene.friction, outcome.problem.hertz
+    drawn = figure(COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
     depths = [outcome.window.z[-1] / hertz.half_width]
-    if rough and depths[0] > 2.0 * NEAR:
+    if outcome.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
-    for place, friction in enumerate(frictions):
-        low = (total - top - row * (place + 1)) / total
-        tall = (row - 0.3) / total
-        panels = []
-        for side, depth in enumerate(depths):
-            share = 0.87 / len(depths)
-            panel = drawn.add_axes((0.11 + side * share, low, share - 0.05, tall))
+    share = ROOM / len(depths)
+    rows = [(TITLE + TOP * (place == 0), TALL) for place in range(len(frictions))]
+    columns = []
+    for side in range(len(depths)):
+        left = LEFT + side * share
+        columns.append(stacked(drawn, rows, left, COLUMN - left - share + BETWEEN))
+    for friction, panels in zip(frictions, zip(*columns, strict=True), strict=True):
+        for panel, depth in zip(panels, depths, strict=True):
             _section(panel, outcome, column, friction, depth)
-            panel.tick_params(labelbottom=place == len(frictions) - 1)
-            panels.append(panel)
+            panel.tick_params(labelbottom=friction == frictions[-1], labelleft=panel is panels[0])
         for panel in panels:
             panel.set_ylim(0.0, max(p.dataLim.y1 for p in panels) * 1.08)
-        for panel in panels[1:]:
-            panel.tick_params(labelleft=False)
         panels[0].set_ylabel("τ₁/p₀")
         panels[0].set_title(f"friction {plain(friction)}")
+    for panels in columns:
+        panels[-1].set_xlabel("z/a")
     drawn.legend(
         *drawn.axes[0].get_legend_handles_labels(),
         loc="upper right",
@@ -80,8 +77,6 @@ def _picture(outcome: Outcome, column: int, words: str, rough: bool) -> Picture:
         borderaxespad=0.1,
         columnspacing=1.2,
     )
-    for panel in drawn.axes[-len(depths) :]:
-        panel.set_xlabel("z/a")
     at = decimal(outcome.window.x[column] / hertz.half_width)
     largest = "; ".join(
         f"friction {plain(mu)}: "

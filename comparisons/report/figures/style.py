@@ -7,18 +7,20 @@ with each, so that the pictures survive a grey printer.
 import base64
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 COLUMN = 5.6  # inches: two such pictures stand side by side on a desk, one on a telephone
 WIDE = 11.4  # inches: a picture across the page
-
 
 LINES = {
     "half_plane": {"color": "#0072B2", "linestyle": "-", "linewidth": 1.5},
@@ -117,6 +119,53 @@ def figure(width: float, height: float) -> "Figure":
 
     others.append(pyplot.figure(figsize=(width, height)))
     return others[-1]
+
+
+def stacked(
+    drawn: "Figure", panels: Sequence[tuple[float, float]], left: float, right: float = 0.12
+) -> "list[Axes]":
+    """Axes under each other from the top, all in inches.
+
+    panels  space above each and its height
+    left, right  space beside them
+    """
+    width, height = drawn.get_size_inches()
+    across = (width - left - right) / width
+    edge, made = height, []
+    for above, tall in panels:
+        edge -= above + tall
+        made.append(drawn.add_axes((left / width, edge / height, across, tall / height)))
+    return made
+
+
+def near(x: np.ndarray, across: tuple[float, float], margin: float) -> np.ndarray:
+    """Which places lie between two ends, or at most `margin` beyond them."""
+    return (x >= across[0] - margin) & (x <= across[1] + margin)
+
+
+def fill_bodies(
+    axes: "Axes", x: np.ndarray, body: np.ndarray, roller: np.ndarray, low: float, high: float
+) -> None:
+    """Fill the body down to `low` and the roller up to `high`."""
+    axes.fill_between(x, low, body, **BODY)
+    axes.fill_between(x, roller, high, **ROLLER)
+    axes.set_ylim(low, high)
+    axes.grid(False)
+
+
+def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
+    """Axes of bars that lie under each other at `places`, which descend from 0."""
+    axes.set_ylim(places[-1] - 0.6, 0.6)
+    axes.set_yticks(places, names)
+    axes.tick_params(axis="y", length=0.0)
+    axes.grid(False, axis="y")
+
+
+def symmetric(axes: "Axes", values: np.ndarray) -> None:
+    """Limits of a difference's axis: zero in the middle, few ticks."""
+    largest = 1.25 * (np.max(np.abs(values), initial=0.0) or 1.0)
+    axes.set_ylim(-largest, largest)
+    axes.locator_params(axis="y", nbins=3)
 
 
 def svg(drawn: "Figure") -> str:

@@ -1,18 +1,20 @@
 """The comparison as rows of text, for the page and for the terminal."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.normal_tangential_coupling import SHIFT, Change, Coupling
+from comparisons.assessment.normal_tangential_coupling import SHIFT, Change
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
-from comparisons.common.quantities import QUANTITIES, label
+from comparisons.common.quantities import HYPHENATED, QUANTITIES, label
 from comparisons.models.problem import Problem
-from comparisons.report.tables.text import TextTable
+from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
 SAME_PROBLEM = "the same problem"
+SHIFT_LABEL = "shift of the pressure's centroid"
+UNCHANGED = "contact_ratio"  # it changes as the contact length does
 AT_HARDNESS = 1e-9  # relative: a pressure so close to the hardness is held there
 
 
@@ -38,33 +40,18 @@ class ComparisonRow:
     uncertainty: str
     tolerance: str
     verdict: str
-    reference: str = ""
-    note: str = ""
-
-
-@dataclass(frozen=True)
-class FigureRow:
-    """A figure of the only model, with unit, in units of Hertz's, and its uncertainty."""
-
-    quantity: str
-    label: str
-    friction: str
-    value: str
-    in_hertz: str
-    uncertainty: str
+    reference: str
+    note: str
 
 
 def comparison_rows(outcome: Outcome) -> list[ComparisonRow]:
     """In the order of quantities, then of friction coefficients."""
     rows = []
     for name in QUANTITIES:
-        alike: dict[tuple, list[Comparison]] = {}
-        for row in outcome.comparisons:
-            if row.quantity == name:
-                alike.setdefault(_figures(row), []).append(row)
-        rows += [
-            _row(outcome.problem, same, reference_of(outcome, name)) for same in alike.values()
-        ]
+        found = [row for row in outcome.comparisons if row.quantity == name]
+        for same in grouped(found, lambda row: replace(row, friction=0.0)):
+            frictions = listed(row.friction for row in same)
+            rows.append(_row(outcome, same[0], frictions))
     return rows
 
 
@@ -80,64 +67,49 @@ def reference_of(outcome: Outcome, quantity: str) -> str:
     return ", ".join(named) or SAME_PROBLEM
 
 
-def figure_rows(outcome: Outcome) -> list[FigureRow]:
-    """Figures of the only model of a run."""
+def figure_rows(outcome: Outcome) -> list[tuple[str, ...]]:
+    """Figures of the only model: quantity's name, friction, figure with unit, the same over
+    Hertz's, uncertainty."""
     [run] = outcome.runs.values()
-    problem = outcome.problem
-    alike: dict[tuple, list[float]] = {}
+    problem, found = outcome.problem, []
     for friction in problem.scene.friction:
         doubts = uncertainties(run, problem, friction)
         for name, value in figures(run.finest, problem, friction).items():
-            alike.setdefault((name, value, doubts[name].total), []).append(friction)
-    order = list(QUANTITIES)
+            found.append((friction, name, value, doubts[name].total))
+    found.sort(key=lambda entry: list(QUANTITIES).index(entry[1]))
     rows = []
-    for (name, value, doubt), frictions in sorted(
-        alike.items(), key=lambda i: order.index(i[0][0])
-    ):
-        rows.append(
-            FigureRow(
-                quantity=name,
-                label=label(name),
-                friction=_listed(frictions),
-                value=scale_of([value], QUANTITIES[name].unit).text(value),
-                in_hertz=_in_hertz(problem, name, value),
-                uncertainty=percent(doubt),
-            )
-        )
+    for same in grouped(found, lambda entry: entry[1:]):
+        _, name, value, doubt = same[0]
+        size = scale_of([value], QUANTITIES[name].unit).text(value)
+        frictions = listed(entry[0] for entry in same)
+        rows.append((name, frictions, size, _in_hertz(problem, name, value), percent(doubt)))
     return rows
 
 
-def _figures(row: Comparison) -> tuple:
-    return (
-        row.half_plane,
-        row.finite_element,
-        row.difference,
-        row.uncertainty,
-        row.tolerance,
-        row.verdict,
-    )
+def figure_table(outcome: Outcome) -> TextTable:
+    """The same for the page."""
+    [model] = outcome.runs
+    head = ("quantity", "friction", f"{HYPHENATED[model]} model", "over Hertz", "uncertainty")
+    rows = ((label(name), *cells) for name, *cells in figure_rows(outcome))
+    return TextTable("", head, tuple(rows))
 
 
-def _row(problem: Problem, same: list[Comparison], reference: str) -> ComparisonRow:
-    row, quantity = same[0], QUANTITIES[same[0].quantity]
-    scale = scale_of([row.half_plane, row.finite_element], quantity.unit)
+def _row(outcome: Outcome, row: Comparison, frictions: str) -> ComparisonRow:
+    problem, values = outcome.problem, (row.half_plane, row.finite_element)
+    scale = scale_of(values, QUANTITIES[row.quantity].unit)
+    half_plane, finite_element = ("" if v is None else scale.text(v) for v in values)
     return ComparisonRow(
         quantity=row.quantity,
         label=label(row.quantity),
-        friction=_listed([r.friction for r in same]),
-        half_plane=_value(scale, row.half_plane),
-        finite_element=_value(scale, row.finite_element),
-        in_hertz=(
-            _in_hertz(problem, row.quantity, row.half_plane),
-            _in_hertz(problem, row.quantity, row.finite_element),
-        ),
-        difference=percent(
-            row.difference, signed=not quantity.of_pair, uncertainty=row.uncertainty
-        ),
+        friction=frictions,
+        half_plane=half_plane,
+        finite_element=finite_element,
+        in_hertz=tuple(_in_hertz(problem, row.quantity, value) for value in values),
+        difference=error_text(row.quantity, row.difference, row.uncertainty),
         uncertainty=percent(row.uncertainty),
         tolerance="" if row.tolerance is None else given_percent(row.tolerance),
         verdict=row.verdict or "",
-        reference=reference,
+        reference=reference_of(outcome, row.quantity),
         note="capped in both" if _capped(problem, row) else "",
     )
 
@@ -148,14 +120,6 @@ def _capped(problem: Problem, row: Comparison) -> bool:
         return False
     lowest = min(row.half_plane, row.finite_element)
     return lowest >= (1.0 - AT_HARDNESS) * problem.scene.hardness
-
-
-def _value(scale: Scale, value: float | None) -> str:
-    return "" if value is None else scale.text(value)
-
-
-def _listed(frictions: list[float]) -> str:
-    return ", ".join(plain(friction) for friction in frictions)
 
 
 def _in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
@@ -171,25 +135,18 @@ def _in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
     return "" if value is None or quantity not in units else units[quantity].text(value)
 
 
-SHIFT_LABEL = "shift of the pressure's centroid"
-UNCHANGED = "contact_ratio"  # it changes as the contact length does
-
-
 def coupling_table(outcome: Outcome) -> TextTable | None:
     """Figures with the surfaces moved, and the change; None where friction moves nothing."""
     shown = [coupling for coupling in outcome.couplings if coupling.changes]
     if not shown:
         return None
-    names = [SHIFT, *(name for name in QUANTITIES if name != UNCHANGED)]
+    names = {SHIFT: SHIFT_LABEL} | {name: label(name) for name in QUANTITIES if name != UNCHANGED}
     rows = []
-    for name in names:
-        given = [coupling.changes[name] for coupling in shown if name in coupling.changes]
-        if given:
-            cells = [cell for change in given for cell in _cells(name, change)]
-            rows.append((_label(name), *cells))
-    head = [
-        text for coupling in shown for text in (f"friction {plain(coupling.friction)}", "change")
-    ]
+    for name, words in names.items():
+        changes = [coupling.changes[name] for coupling in shown if name in coupling.changes]
+        if changes:
+            rows.append((words, *(cell for change in changes for cell in _cells(name, change))))
+    head = [cell for c in shown for cell in (f"friction {plain(c.friction)}", "change")]
     return TextTable("Half-plane, surfaces moved by friction", ("", *head), tuple(rows))
 
 
@@ -200,33 +157,21 @@ def coupling_line(outcome: Outcome) -> str | None:
     coupling = max(outcome.couplings, key=lambda coupling: abs(coupling.friction))
     if not coupling.changes:
         return f"not known: {coupling.why}"
-    contained = "contained" if outcome.problem.scene.coupled else "left out"
+    contained = "contained" if outcome.problem.scene.coupled else "not modelled"
+    changed = {name: _cells(name, change) for name, change in coupling.changes.items()}
+    shift, of_a = with_unit(coupling.changes[SHIFT].value, "m", 3), changed[SHIFT][1]
     return (
         f"friction {plain(coupling.friction)} moves the surfaces ({contained}): the contact by "
-        f"{_shift(coupling)}, peak pressure {_change(coupling, 'peak_pressure')}, "
-        f"contact length {_change(coupling, 'contact_length')}"
+        f"{shift} ({of_a}), peak pressure {changed['peak_pressure'][1]}, "
+        f"contact length {changed['contact_length'][1]}"
     )
-
-
-def _shift(coupling: Coupling) -> str:
-    shift = coupling.changes[SHIFT]
-    return f"{with_unit(shift.value, 'm', 3)} ({percent(shift.difference, signed=True)} of a)"
-
-
-def _change(coupling: Coupling, name: str) -> str:
-    return percent(coupling.changes[name].difference, signed=True)
 
 
 def _cells(name: str, change: Change) -> tuple[str, str]:
     """The figure and its change, in percent; of a shift, of the Hertz half-width."""
     if change.value is None:
         return "", percent(change.difference)
-    unit = "m" if name == SHIFT else QUANTITIES[name].unit
     moved = percent(change.difference, signed=True)
-    return scale_of([change.value], unit).text(change.value), (
-        f"{moved} of a" if name == SHIFT else moved
-    )
-
-
-def _label(name: str) -> str:
-    return SHIFT_LABEL if name == SHIFT else label(name)
+    if name == SHIFT:
+        return with_unit(change.value, "m"), f"{moved} of a"
+    return with_unit(change.value, QUANTITIES[name].unit), moved

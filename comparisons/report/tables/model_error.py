@@ -1,90 +1,110 @@
-"""The error budget as rows of text, for the page and for the terminal."""
+"""The half-plane's model error as rows of text, for the page and for the terminal."""
 
 from dataclasses import dataclass
 
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.model_error import ModelError
-from comparisons.common.numbers import given_percent, percent, plain
+from comparisons.common.numbers import given_percent, percent
 from comparisons.common.quantities import QUANTITIES, label
+from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
 
 
 @dataclass(frozen=True)
-class BudgetRow:
-    """The half-plane's own error in a quantity, at one friction coefficient or several alike.
+class ModelErrorRow:
+    """The half-plane's model error in a quantity, at one friction coefficient or several alike.
 
-    parts  what makes it up, the largest first, each with its sign
+    contributions  what makes it up, the largest first, each with its sign
     """
 
     quantity: str
     label: str
     friction: str
-    own: str
+    error: str
     uncertainty: str
     tolerance: str
-    parts: tuple[str, ...]
+    contributions: tuple[str, ...]
 
 
-def budget_rows(outcome: Outcome, judged: bool = False) -> list[BudgetRow]:
-    """In the order of quantities, then of friction coefficients; `judged` ones alone, if asked."""
+def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorRow]:
+    """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
     tolerance = outcome.problem.scene.tolerance
     rows = []
     for name in QUANTITIES:
-        alike: dict[tuple, list[float]] = {}
-        for own in outcome.budget.model_errors:
-            if own.quantity == name and (name in tolerance or not judged):
-                alike.setdefault(_figures(own), []).append(own.friction)
-        for (value, doubt, parts), frictions in alike.items():
+        errors = [e for e in outcome.budget.model_errors if e.quantity == name]
+        if judged and name not in tolerance:
+            continue
+        for same in grouped(errors, _shown):
+            error, uncertainty, contributions = _shown(same[0])
             rows.append(
-                BudgetRow(
+                ModelErrorRow(
                     quantity=name,
                     label=label(name),
-                    friction=", ".join(plain(friction) for friction in frictions),
-                    own=value,
-                    uncertainty=doubt,
+                    friction=listed(error.friction for error in same),
+                    error=error,
+                    uncertainty=uncertainty,
                     tolerance=given_percent(tolerance[name]) if name in tolerance else "",
-                    parts=parts,
+                    contributions=contributions,
                 )
             )
     return rows
 
 
-def _figures(own: ModelError) -> tuple[str, str, tuple[str, ...]]:
-    signed = not QUANTITIES[own.quantity].of_pair
-    return (
-        percent(own.value, signed=signed, uncertainty=own.uncertainty),
-        percent(own.uncertainty),
-        parts_in_words(own),
-    )
+def _shown(error: ModelError) -> tuple[str, str, tuple[str, ...]]:
+    size = error_text(error.quantity, error.value, error.uncertainty)
+    return size, percent(error.uncertainty), contributions_in_words(error)
 
 
-def parts_in_words(own: ModelError) -> tuple[str, ...]:
-    """What the half-plane lacks, as shares of its error: an effect that raises the finite
-    elements' figure makes the half-plane's too low. Norms have no sign."""
-    signed = not QUANTITIES[own.quantity].of_pair
-    sizes = {EFFECTS[name].label: -share.value for name, share in own.effects.items()}
-    sizes["interaction"] = -own.interaction
-    least = max(SHOWN, 0.1 * abs(own.value))
-    by_size = sorted(sizes.items(), key=lambda item: -abs(item[1]))
+def contributions_in_words(error: ModelError) -> tuple[str, ...]:
+    """What the half-plane does not model, as shares of its error, the largest first.
+
+    An effect that raises the finite elements' figure makes the half-plane's too low. Norms have no
+    sign.
+    """
+    sizes = {EFFECTS[name].label: -effect.value for name, effect in error.effects.items()}
+    sizes["interaction"] = -error.interaction
+    least = max(SHOWN, 0.1 * abs(error.value))
+    is_norm = QUANTITIES[error.quantity].of_pair
     return tuple(
-        f"{name} {percent(value if signed else abs(value), signed=signed)}"
-        for name, value in by_size
-        if abs(value) >= least
+        f"{name} {error_text(error.quantity, abs(size) if is_norm else size)}"
+        for name, size in sorted(sizes.items(), key=lambda item: -abs(item[1]))
+        if abs(size) >= least
     )
 
 
-def left_out_line(outcome: Outcome) -> str:
-    """The effects that no model of the run has, each with its largest estimate on what is judged,
-    or on anything where nothing is; those that one reason keeps out stand together."""
+def not_modelled_line(outcome: Outcome) -> str:
+    """The effects that no model of the run has, each with its largest estimate; those that have
+    one reason stand together."""
     selection = outcome.budget.selection
-    judged = set(outcome.problem.scene.tolerance)
-    alike: dict[str, list[str]] = {}
-    for name in (*selection.impossible, *selection.negligible):
-        sizes = selection.estimates[name]
-        largest = max((sizes[q] for q in judged & set(sizes)), default=max(sizes.values()))
-        why = selection.impossible.get(name, "")
-        alike.setdefault(why, []).append(f"{EFFECTS[name].label} (at most {percent(largest)})")
-    parts = [", ".join(named) + (f": {why}" if why else "") for why, named in alike.items()]
+    effects = (*selection.impossible, *selection.negligible)
+    parts = []
+    for same in grouped(effects, lambda name: selection.impossible.get(name, "")):
+        sizes = [percent(_largest(outcome, selection.estimates[name])) for name in same]
+        named = ", ".join(
+            f"{EFFECTS[name].label} (at most {size})"
+            for name, size in zip(same, sizes, strict=True)
+        )
+        parts.append(": ".join(filter(None, (named, selection.impossible.get(same[0])))))
     return "; ".join(parts) or "nothing"
+
+
+def effects_table(outcome: Outcome) -> TextTable | None:
+    """What became of each effect that the half-plane does not model; None with one model."""
+    if outcome.budget is None:
+        return None
+    rows = []
+    for name, found in outcome.result["error_budget"]["effects"].items():
+        if found["status"] != "does not apply":
+            effect, estimate = EFFECTS[name], found["estimate"]
+            largest = "" if estimate is None else percent(_largest(outcome, estimate))
+            rows.append((effect.label, effect.words, found["status"], largest, found["because"]))
+    head = ("effect", "not modelled by the half-plane", "status", "estimate, at most", "because")
+    return TextTable("", head, tuple(rows)) if rows else None
+
+
+def _largest(outcome: Outcome, estimate: dict[str, float]) -> float:
+    """Of the estimates of an effect on what is judged, or on anything where nothing is."""
+    judged = set(outcome.problem.scene.tolerance) & set(estimate)
+    return max(estimate[name] for name in judged or estimate)

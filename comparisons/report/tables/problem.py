@@ -3,6 +3,7 @@
 from analytic.material import Material
 from comparisons.common.numbers import decimal, given, plain, significant, with_unit
 from comparisons.models.problem import Problem
+from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import Coated, ProfileInfo, ResolvedScene, Yielding
 
@@ -71,7 +72,7 @@ def _profile(info: ProfileInfo) -> Rows:
     if info.place:
         rows.insert(1, ("line of the map", info.place))
     if info.bridged or info.trimmed:
-        lost = f"{info.bridged} bridged, {info.trimmed} at the ends left out"
+        lost = f"{info.bridged} bridged, {info.trimmed} cut off at the ends"
         rows.append(("lost samples", lost))
     return rows
 
@@ -154,7 +155,7 @@ def _load(outcome: Outcome) -> Rows:
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))
     return [
         *rows,
-        ("friction coefficient µ", ", ".join(plain(mu) for mu in scene.friction)),
+        ("friction coefficient µ", listed(scene.friction)),
         ("Hertz half-width a", with_unit(hertz.half_width, "m")),
         ("Hertz peak pressure p₀", with_unit(hertz.peak_pressure, "Pa")),
         (
@@ -168,6 +169,15 @@ def load_text(problem: Problem) -> str:
     """Load per length, in the digits of the scene where the scene gives it."""
     write = given if problem.scene.load.kind == "load_per_length" else with_unit
     return write(problem.hertz.load_per_length, "N/m")
+
+
+def hertz_text(problem: Problem) -> str:
+    """The load, and peak pressure and half-width of the smooth contact under it."""
+    hertz = problem.hertz
+    return (
+        f"P = {load_text(problem)},  p₀ = {with_unit(hertz.peak_pressure, 'Pa')},  "
+        f"a = {with_unit(hertz.half_width, 'm')}"
+    )
 
 
 def _groups(outcome: Outcome) -> Rows:

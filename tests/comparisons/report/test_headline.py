@@ -59,10 +59,10 @@ def test_failure_names_what_is_farthest_outside_and_what_makes_most_of_it(smooth
     said = headline(judged(smooth_outcome, *errors))
     assert said.kind == "fails"
     assert "contact length is −70 %" in said.sentence
-    assert "most of it finite thickness or width" in said.sentence
+    assert "dominated by finite thickness or width" in said.sentence
     assert "1 more of 3 judged errors is outside" in said.sentence
     shared = own("contact_length", -0.7, 1e-3, finite_size=0.3, exact_circle=0.3)
-    assert "most of it" not in headline(judged(smooth_outcome, shared)).sentence
+    assert "dominated" not in headline(judged(smooth_outcome, shared)).sentence
 
 
 def test_a_norm_has_no_sign(smooth_outcome: Outcome):
@@ -86,10 +86,10 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
     )
     said = headline(judged(smooth_outcome, own("contact_length", 1e-3, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
-    assert "may move it by 10 %, plastic flow most" in said.sentence
+    assert "may change it by 10 % (estimate), plastic flow most" in said.sentence
     said = headline(judged(smooth_outcome, own("contact_length", 0.05, 1e-4), selection=missing))
     assert said.kind == "inconclusive"
-    assert "may move it by 10 %, plastic flow most" in said.sentence
+    assert "may change it by 10 % (estimate), plastic flow most" in said.sentence
 
 
 def test_nothing_judged_is_no_verdict(smooth_outcome: Outcome):

@@ -91,7 +91,7 @@ def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
     assert wavy_page.sections == [
         "problem",
         "comparison",
-        "budget",
+        "model-error",
         "contact",
         "stresses",
         "convergence",
@@ -149,7 +149,7 @@ def test_fields_of_one_model_stand_without_a_difference(
 
 
 def test_words_never_carry_the_names_of_result_files(wavy_page):
-    assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Left out")[0])
+    assert not re.search(r"tau1|txz|_max|_l2", wavy_page.text.partition("Skipped steps")[0])
 
 
 def test_what_scrolls_sideways_can_be_reached_by_keyboard(wavy_page):

@@ -12,7 +12,7 @@ import pytest
 
 from comparisons.cli import main
 from comparisons.common.progress import no_progress
-from comparisons.report.saved import FILE, kinds, read_outcome
+from comparisons.report.saved import FILE, read_outcome
 from comparisons.results.outcome import Outcome
 from comparisons.runs.write import write_files
 
@@ -84,12 +84,6 @@ def test_what_is_kept_is_exact_and_small(written, wavy_outcome: Outcome):
     points = wavy_outcome.window.x.size * wavy_outcome.window.z.size
     fields = 2 * 2 * len(wavy_outcome.problem.scene.friction) * points * 8  # bytes
     assert (folder / FILE).stat().st_size < fields + 200_000
-
-
-def test_every_kind_has_a_name_of_its_own():
-    found = kinds()
-    assert {"ResolvedScene", "ErrorBudget", "RunIn", "ComplianceCheck", "ShownField"} <= set(found)
-    assert all(name == kind.__name__ for name, kind in found.items())
 
 
 def spoil(folder: Path, what: str) -> None:

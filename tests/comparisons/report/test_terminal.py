@@ -28,7 +28,7 @@ def printed(outcome: Outcome, width: int = 80, encoding: str = "utf-8") -> str:
 def rows(text: str) -> dict[tuple[str, str], str]:
     """Lines of the first table by the quantity's short name and its friction."""
     found = {}
-    for line in text.partition("half-plane alone")[0].splitlines():
+    for line in text.partition("difference: ")[0].splitlines():
         name = next((s for s in sorted(SHORT.values(), key=len)[::-1] if line.startswith(s)), None)
         if name and "L2 " not in line[: len(name)]:
             rest = line[len(name) :].replace("|", " ").split()

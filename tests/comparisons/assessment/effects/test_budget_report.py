@@ -12,10 +12,14 @@ from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import EffectSelection
-from comparisons.report.figures.model_error import LOOKS, budget_bars, budget_picture
+from comparisons.report.figures.model_error import (
+    NOT_MODELLED,
+    PART_LOOKS,
+    error_bars,
+    model_error_picture,
+)
 from comparisons.report.figures.style import drawing
-from comparisons.report.tables.model_error import budget_rows, left_out_line
-from comparisons.report.tables.verification import effects_table
+from comparisons.report.tables.model_error import effects_table, model_error_rows, not_modelled_line
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
 from comparisons.results.result_json import error_budget_content, model_error_content
@@ -62,25 +66,25 @@ def split(wavy_outcome: Outcome) -> Outcome:
 
 
 def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
-    peak, norm = budget_rows(split)
+    peak, norm = model_error_rows(split)
     assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
-    assert (peak.own, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
+    assert (peak.error, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
     # an effect that raises the finite elements' figure makes the half-plane's too low
-    assert peak.parts == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
+    assert peak.contributions == ("finite thickness or width −4.0 %", "deformed gap +1.2 %")
     assert (
-        norm.own == "5.0 %" and "finite thickness or width 4.0 %" in norm.parts
+        norm.error == "5.0 %" and "finite thickness or width 4.0 %" in norm.contributions
     )  # norms have no sign
-    assert [row.quantity for row in budget_rows(split, judged=True)] == ["peak_pressure"]
+    assert [row.quantity for row in model_error_rows(split, judged=True)] == ["peak_pressure"]
 
 
 def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
-    assert left_out_line(split) == (
+    assert not_modelled_line(split) == (
         "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
     )
     why = dict.fromkeys(("exact_circle", "plastic_flow"), "not asked for")
     selection = replace(split.budget.selection, impossible=why, negligible=())
     both = replace(split, budget=replace(split.budget, selection=selection))
-    assert left_out_line(both) == (
+    assert not_modelled_line(both) == (
         "exact circle (at most 0.15 %), plastic flow (at most 8.0 %): not asked for"
     )
 
@@ -105,32 +109,32 @@ def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: 
     assert outcome.budget is None and outcome.result["error_budget"] is None
     assert effects_table(outcome) is None
     with drawing():
-        assert budget_picture(outcome) is None
+        assert model_error_picture(outcome) is None
 
 
 class TestBars:
     def test_they_are_as_long_as_their_parts(self, split: Outcome):
-        peak = next(bar for bar in budget_bars(split) if bar.parts["sampling"])
+        peak = next(bar for bar in error_bars(split) if bar.parts["sampling"])
         assert peak.parts["finite_size"] == 0.04 and peak.parts["deformed_gap"] == 0.012
         assert peak.parts["interaction"] == 0.002 and peak.parts["sampling"] == 0.003
-        assert peak.parts["estimated only"] == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
+        assert peak.parts[NOT_MODELLED] == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
         numerical = split.result["error_budget"]["quantities"]["peak_pressure"][0]["numerical"]
         for model, name in (
             ("half_plane", "half-plane's discretisation"),
             ("finite_element", "finite elements' discretisation"),
         ):
             assert peak.parts[name] == numerical[model]["discretisation"]
-        assert (peak.own, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
+        assert (peak.error, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
 
     def test_every_part_has_a_look_of_its_own(self, split: Outcome):
-        for bar in budget_bars(split):
-            assert set(bar.parts) <= set(LOOKS)
-        assert set(EFFECTS) <= set(LOOKS)
-        assert len(set(LOOKS.values())) == len(LOOKS)
+        for bar in error_bars(split):
+            assert set(bar.parts) <= set(PART_LOOKS)
+        assert set(EFFECTS) <= set(PART_LOOKS)
+        assert len(set(PART_LOOKS.values())) == len(PART_LOOKS)
 
     def test_the_picture_says_what_is_judged(self, split: Outcome):
         with drawing():
-            picture = budget_picture(split)
+            picture = model_error_picture(split)
         assert "peak pressure" in picture.alternative and "−3.1 %" in picture.alternative
         assert picture.source.startswith("data:image/svg+xml;base64,")
 
@@ -144,4 +148,4 @@ def test_the_terminal_shows_it_in_80_columns(split: Outcome):
     assert re.search(
         r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 deformed gap", flat
     )
-    assert "left out plastic flow (at most 8.0%" in flat
+    assert "not modelled plastic flow (at most 8.0%" in flat

@@ -89,7 +89,7 @@ class TestTelling:
         softer = replace(run_in.constraints, hardness=peak / 1.8)
         scene = replace(outcome.problem.scene, run_in=replace(run_in, constraints=softer))
         sharp = replace(outcome, problem=replace(outcome.problem, scene=scene))
-        assert run_in_text(sharp).endswith("; pressed then, up to 1.80 times its hardness")
+        assert run_in_text(sharp).endswith("; pressed afterwards by up to 1.80 times its hardness")
         assert "times its hardness" not in row
         [surface] = [line for line in shown if line.startswith("surface")]
         assert "before running-in " in surface or "at the cut-off" not in surface
