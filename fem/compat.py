@@ -1,7 +1,7 @@
-"""The one place that knows which dolfinx is installed: 0.5, 0.9 or 0.11.
+"""The only module that depends on the version of dolfinx: 0.5, 0.9 or 0.11.
 
-Each function hides one difference and says which. Everything else in this package is written
-against these functions, numpy, and the part of PETSc and UFL that all three share.
+Each function hides one difference and names it. The rest of this package uses these functions,
+numpy, and the parts of PETSc and UFL that all three share.
 """
 
 import inspect
@@ -25,8 +25,7 @@ _COMPILED: dict[tuple, tuple] = {}  # by 0.5's compiler, in this process
 def quiet_compiler() -> None:
     """Keep the just-in-time compiler's progress off the terminal.
 
-    On 0.5 the build tools beneath it put a handler on the root logger at the first cold compile
-    and report there at level INFO; a root level of WARNING set beforehand silences them.
+    On 0.5 its build tools log to the root logger at level INFO; a level of WARNING silences them.
     """
     root = logging.getLogger()
     if root.level < logging.WARNING:
@@ -39,10 +38,9 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
     """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2.
 
     `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
-    basix element. On 0.5 the element is declared equispaced from the start: the first form that
-    is compiled would otherwise rewrite it so, and every later process would compile again. And
-    there the cells go in as an adjacency list: an array is refused in a message that prints all
-    of it, then made one, which for a small mesh takes as long as all else.
+    basix element. On 0.5 the first compiled form rewrites the element as equispaced, and later
+    processes would compile again: it is declared so from the start. An adjacency list of cells
+    avoids 0.5's slow conversion from an array.
     """
     from dolfinx.mesh import create_mesh
 
@@ -61,7 +59,7 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
 
 
 def _equispaced(degree: int):
-    """basix's element of two components with evenly spaced nodes; not on 0.5."""
+    """basix's element of two components with evenly spaced nodes, for 0.9 and later."""
     import basix
     import basix.ufl
 
@@ -72,8 +70,8 @@ def _equispaced(degree: int):
 def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
     """Continuous vector space of evenly spaced nodes.
 
-    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly unless
-    told otherwise. 0.5 looks up the compiled element on disk each time; here once a process.
+    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by default.
+    0.5 looks up the compiled element on disk each time; here once a process.
     """
     from dolfinx import fem
 
@@ -92,7 +90,7 @@ def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
 
 
 def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tuple:
-    """What 0.5's compiler makes of the UFL object of that name: compiled parts, module, code."""
+    """What 0.5's compiler makes of a named UFL object: compiled parts, module, code."""
     from dolfinx import jit
 
     if name not in _COMPILED:
@@ -101,12 +99,12 @@ def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tup
 
 
 def _address(module, part):
-    """Where the compiled part of a module is, as 0.5's C++ takes it."""
+    """Address of the compiled part of a module, as 0.5's C++ takes it."""
     return module.ffi.cast("uintptr_t", module.ffi.addressof(part))
 
 
 def cell_nodes(space: "FunctionSpace") -> np.ndarray:
-    """Node numbers (m, k) of the space's cells. 0.5 hands out an adjacency list."""
+    """Node numbers (m, k) of the space's cells. 0.5 has an adjacency list."""
     nodes = space.dofmap.list
     if hasattr(nodes, "array"):
         return nodes.array.reshape(nodes.num_nodes, -1)
@@ -116,8 +114,8 @@ def cell_nodes(space: "FunctionSpace") -> np.ndarray:
 def node_order(degree: int) -> np.ndarray:
     """Barycentric coordinates (k, 3), times the degree, of the nodes of a cell in dolfinx's order.
 
-    The vertices, the edges opposite to each of them from the lower local vertex to the other, the
-    inside. The same in all releases, and another one than gmsh's.
+    The vertices, then the edges opposite to each, from the lower local vertex to the other, then
+    the inside, in all releases. gmsh has another order.
     """
     vertices = np.eye(3, dtype=int)
     edges = [
@@ -190,10 +188,10 @@ def compile_form(bilinear: "ufl.Form") -> "Form":
 def compile_bilinear(
     name: tuple, make: Callable[[], "ufl.Form"], space: "FunctionSpace", values: list
 ) -> "Form":
-    """The compiled form that `make` gives, on a space; one name stands for one form on any mesh.
+    """The compiled form that `make` gives, on a space; a name stands for one form on any mesh.
 
     `values` are all its constants, or all its functions, in the order in which they were made. 0.5
-    goes through the whole of the form to find it on disk; here that is done once a process.
+    processes the whole form to find it on disk; here once a process.
     """
     from dolfinx import fem
 
@@ -216,9 +214,9 @@ def compile_bilinear(
 
 
 def conditioned(space: "FunctionSpace") -> object:
-    """A space as conditions take it.
+    """A space as boundary conditions take it.
 
-    0.5 tries them with the Python one first, and prints all their nodes into the error.
+    0.5 tries the Python space first, and prints all nodes into the error.
     """
     from dolfinx import fem
 
@@ -235,7 +233,7 @@ def petsc_matrix(bilinear: "Form", conditions: list) -> "Mat":
 
 
 def real_number(value: float) -> np.floating:
-    """`value` in PETSc's own scalar type, which all three ask for in constants and conditions."""
+    """`value` in PETSc's scalar type, which constants and conditions need."""
     from petsc4py import PETSc
 
     return PETSc.ScalarType(value)
@@ -244,8 +242,7 @@ def real_number(value: float) -> np.floating:
 def assembled_vector(linear: "Form") -> np.ndarray:
     """Values of a compiled linear form at the components that this process knows.
 
-    The vector of 0.5 is a metaclass' product, later ones have a class of their own; all have an
-    array, of which dolfinx itself lets go with the vector.
+    All releases' vectors have an array, which dolfinx frees with the vector.
     """
     from dolfinx import fem
 

@@ -1,15 +1,13 @@
 """Builds the flat, graded, second-order mesh of a BlockSpec with gmsh in a separate process."""
 
-import io
-import json
 import os
+import pickle
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -54,14 +52,12 @@ def field_in_units(sizes: SizeField, unit: float) -> SizeField:
     )
 
 
-def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
-    """Arrays that the gmsh process returns for the arrays of task.
+def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
 
     Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
     ends with this call, whatever happens.
     """
-    archive = io.BytesIO()
-    np.savez(archive, **task)
     environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
     root = str(Path(__file__).resolve().parents[1])
     paths = [root, *filter(None, [environment.get("PYTHONPATH")])]
@@ -74,7 +70,7 @@ def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndar
         env=environment,
     ) as process:
         try:
-            output, complaint = process.communicate(archive.getvalue(), timeout=timeout)
+            output, complaint = process.communicate(pickle.dumps(task), timeout=timeout)
         except subprocess.TimeoutExpired as error:
             raise MeshError(f"gmsh was stopped: not done after {timeout:g} s") from error
         finally:
@@ -82,9 +78,8 @@ def run_worker(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndar
     if process.returncode != 0:
         raise MeshError(explain_failure(process.returncode, complaint.decode(errors="replace")))
     try:
-        with np.load(io.BytesIO(output)) as result:
-            return dict(result)
-    except (ValueError, EOFError, OSError, BadZipFile) as error:
+        return pickle.loads(output)
+    except Exception as error:  # incomplete output raises errors of many kinds
         raise MeshError("gmsh ended without a mesh") from error
 
 
@@ -143,24 +138,11 @@ def build_block(
     scaled = outline(small, field).points
     if scaled.shape != given.points.shape:
         scaled = given.points / unit
-    task = {
-        "points": np.round(scaled, UNIT_DECIMALS),
-        "lines": np.concatenate(given.lines),
-        "line_lengths": np.array([len(line) for line in given.lines]),
-        "regions": np.concatenate(given.regions),
-        "region_lengths": np.array([len(region) for region in given.regions]),
-        "spec": np.array(json.dumps(asdict(small), default=np.ndarray.tolist)),
-    }
-    if field is not None:
-        task |= {
-            "size_vertices": field.vertices,
-            "size_triangles": field.triangles,
-            "sizes": field.size,
-        }
-    result = run_worker(task, timeout)
-    vertices = result["vertices"] * unit
+    points = np.round(scaled, UNIT_DECIMALS)
+    vertices, triangles = run_worker((points, given.lines, given.regions, small, field), timeout)
+    vertices = vertices * unit
     vertices[: len(given.points)] = given.points
-    vertices, triangles = with_layers(vertices, result["triangles"], spec.interface, given.beside)
+    vertices, triangles = with_layers(vertices, triangles, spec.interface, given.beside)
     refuse_unfilled(vertices, triangles, 2.0 * spec.half_width * spec.depth)
     points, triangles = add_midpoints(vertices, triangles)
     mesh = BlockMesh(points, triangles, np.zeros_like(points), spec)

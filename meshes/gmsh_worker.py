@@ -1,12 +1,12 @@
 """Runs gmsh, which can crash its process, in a separate one: `python -m meshes.gmsh_worker`.
 
-Reads one npz archive from standard input, writes one to standard output, errors to standard error.
+Reads the arguments of `fill` from standard input and writes its results to standard output, both
+pickled, and errors to standard error.
 """
 
 import ctypes
-import io
-import json
 import os
+import pickle
 import signal
 import sys
 from types import ModuleType
@@ -48,8 +48,8 @@ def die_with_parent() -> None:
 
 def fill(
     points: np.ndarray,
-    lines: list[np.ndarray],
-    regions: list[list[int]],
+    lines: tuple[np.ndarray, ...],
+    regions: tuple[tuple[int, ...], ...],
     spec: BlockSpec,
     sizes: SizeField | None,
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -114,33 +114,17 @@ def show_sizes(gmsh: ModuleType, sizes: SizeField) -> None:
     gmsh.model.mesh.field.setAsBackgroundMesh(field)
 
 
-def read_task(
-    archive: bytes,
-) -> tuple[np.ndarray, list[np.ndarray], list[list[int]], BlockSpec, SizeField | None]:
-    """Arguments of `fill` from what `meshes.build` sends."""
-    with np.load(io.BytesIO(archive)) as task:
-        spec = BlockSpec(**json.loads(str(task["spec"])))
-        lines = np.split(task["lines"], np.cumsum(task["line_lengths"])[:-1])
-        regions = np.split(task["regions"], np.cumsum(task["region_lengths"])[:-1])
-        sizes = None
-        if "sizes" in task:
-            sizes = SizeField(task["size_vertices"], task["size_triangles"], task["sizes"])
-        return task["points"], lines, [region.tolist() for region in regions], spec, sizes
-
-
 def main() -> int:
     die_with_parent()
     result = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what gmsh prints must not get into the archive
+    os.dup2(2, 1)  # what gmsh prints must not get into the results
     try:
-        vertices, triangles = fill(*read_task(sys.stdin.buffer.read()))
+        filled = fill(*pickle.load(sys.stdin.buffer))
     except Exception as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
         return 1
     with result:
-        archive = io.BytesIO()
-        np.savez(archive, vertices=vertices, triangles=triangles)
-        result.write(archive.getvalue())
+        pickle.dump(filled, result)
     return 0
 
 

@@ -7,7 +7,7 @@ with empty extents of the entities.
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -47,11 +47,10 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
         np.full(len(block), tag)
         for (_, block), tag in zip(cells, [*SIDES.values(), BODY[1]], strict=True)
     ]
-    points = real_points(mesh)
     content = meshio.Mesh(
-        _three_components(points),
+        np.pad(real_points(mesh), ((0, 0), (0, 1))),
         cells,
-        point_data={SHIFT: _three_components(mesh.shift)},
+        point_data={SHIFT: np.pad(mesh.shift, ((0, 0), (0, 1)))},
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
         field_data={name: np.array([tag, 1]) for name, tag in SIDES.items()}
         | {BODY[0]: np.array([BODY[1], 2])},
@@ -93,12 +92,7 @@ def read_msh(path: str | Path) -> BlockMesh:
     points = content.points[:, :2] - shift
     triangles = content.cells_dict["triangle6"].astype(np.int64)
     mesh = BlockMesh(points, triangles, shift, spec)
-    return BlockMesh(points, triangles, shift, spec, quality_of(mesh))
-
-
-def _three_components(vectors: np.ndarray) -> np.ndarray:
-    """Vectors (n, 2) with a zero for the direction across the plane."""
-    return np.column_stack([vectors, np.zeros(len(vectors))])
+    return replace(mesh, quality=quality_of(mesh))
 
 
 def read_spec(path: Path) -> BlockSpec:

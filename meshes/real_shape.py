@@ -122,7 +122,7 @@ def refuse_inverted(points: np.ndarray, triangles: np.ndarray, top: np.ndarray) 
     slope = np.abs(np.diff(profile[:, 1]) / np.diff(profile[:, 0]))
     at = np.clip(np.searchsorted(profile[:, 0], x) - 1, 0, len(slope) - 1)
     raise MeshError(
-        f"the rough boundary turns {np.count_nonzero(inverted)} elements inside out, the worst at "
+        f"the rough boundary inverts {np.count_nonzero(inverted)} elements, the worst at "
         f"x = {x:g} m, z = {z:g} m, where the profile's slope is {slope[at]:.2g} (steepest of all "
         f"{slope.max():.2g}): refine the surface there or smooth the profile"
     )

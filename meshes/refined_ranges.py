@@ -1,8 +1,8 @@
 """Ranges of the surface to refine, from the patches of predicted contact.
 
-Their ends lie on a grid origin + n * surface_size, so that a pressure grid of the same origin finds
-mesh vertices there. Where the finite-element contact reaches beyond them, that contact is added to
-the patches, and the body is meshed and solved again.
+Their ends lie on the grid n * surface_size, so that a pressure grid finds mesh vertices there.
+Where the finite-element contact reaches beyond them, that contact is added to the patches, and the
+body is meshed and solved again.
 """
 
 import numpy as np
@@ -35,14 +35,13 @@ def refined_ranges(
     *,
     margin: float,
     half_width: float,
-    origin: float = 0.0,
 ) -> np.ndarray:
     """Ranges (k, 2) of the surface [m] to refine, for a BlockSpec of that surface_size.
 
     patches (n, 2) [m] is the predicted contact, in any order, overlapping or of no length. Each is
-    widened by margin [m] on both sides, extended to the grid origin + n * surface_size, cut off at
-    the sides of the body |x| = half_width [m], and joined with others fewer than MERGE_EDGES edges
-    away. Raises MeshError if a patch lies outside the body or no edge fits into it.
+    widened by margin [m] on both sides, extended to the grid n * surface_size, cut off at the sides
+    of the body |x| = half_width [m], and joined with others fewer than MERGE_EDGES edges away.
+    Raises MeshError if a patch lies outside the body or no edge fits into it.
     """
     patches = np.asarray(patches, dtype=float).reshape(-1, 2)
     if len(patches) == 0:
@@ -54,18 +53,17 @@ def refined_ranges(
             f"contact predicted from {worst[0]:g} to {worst[1]:g} m is not on the body, "
             f"|x| <= {half_width:g} m"
         )
-    ends = (patches + margin * np.array([-1.0, 1.0]) - origin) / surface_size
+    ends = (patches + margin * np.array([-1.0, 1.0])) / surface_size
     edges = np.column_stack([np.floor(ends[:, 0] + ON_GRID), np.ceil(ends[:, 1] - ON_GRID)])
     edges[:, 1] = np.maximum(edges[:, 1], edges[:, 0] + 1)
-    lowest = -last_grid_point((half_width + origin) / surface_size)
-    highest = last_grid_point((half_width - origin) / surface_size)
-    if highest <= lowest:
+    last = last_grid_point(half_width / surface_size)
+    if last <= 0.0:
         raise MeshError(
             f"no surface edge of {surface_size:g} m fits into a body {2 * half_width:g} m wide"
         )
-    edges[:, 0] = np.clip(edges[:, 0], lowest, highest - 1)
-    edges[:, 1] = np.clip(edges[:, 1], lowest + 1, highest)
-    return origin + surface_size * merge(edges, gap=MERGE_EDGES - 0.5)
+    edges[:, 0] = np.clip(edges[:, 0], -last, last - 1)
+    edges[:, 1] = np.clip(edges[:, 1], 1 - last, last)
+    return surface_size * merge(edges, gap=MERGE_EDGES - 0.5) + 0.0  # never -0
 
 
 def last_grid_point(edges_to_side: float) -> float:

@@ -3,6 +3,8 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from comparisons.models.problem import Problem
     from comparisons.scenes.scene import ResolvedScene
@@ -41,3 +43,8 @@ def problem(tables: dict) -> "Problem":
     from comparisons.models.problem import problem_of
 
     return problem_of(resolved(tables))
+
+
+def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
+    """x (count + 2,) [m] of the nodes of equal hats at x0 + i pitch, with their outer feet."""
+    return x0 + pitch * np.arange(-1, count + 1)

@@ -1,4 +1,4 @@
-"""A layer of another material on a body: its triangles, and the elastic constants of each."""
+"""A coating on a body: its triangles, and the elastic constants of all triangles."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from meshes.block import BlockMesh
 
 @dataclass(frozen=True)
 class Coating:
-    """A layer of another `material` on the body, as thick [m] as the flat block's mesh has it."""
+    """A layer of another `material` on the body; `thickness` [m] as in the flat block's mesh."""
 
     material: Material
     thickness: float
@@ -39,7 +39,7 @@ def coated_triangles(mesh: BlockMesh, coating: Coating | None) -> np.ndarray:
 def relative_constants(
     material: Material, coating: Coating | None, coated: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Lame's constants mu and lambda (m,) of each triangle, by Young's modulus of the body."""
+    """Lame's constants mu and lambda (m,) of each triangle over Young's modulus of the body."""
     constants = np.tile(np.reshape(_lame(material, 1.0), (2, 1)), len(coated))
     if coating is not None:
         ratio = coating.material.youngs_modulus / material.youngs_modulus
@@ -48,6 +48,6 @@ def relative_constants(
 
 
 def _lame(material: Material, modulus: float) -> tuple[float, float]:
-    """mu and lambda of a material with this Young's modulus instead of its own."""
+    """mu and lambda of a material with Young's modulus replaced by `modulus`."""
     nu = material.poissons_ratio
     return modulus * 0.5 / (1.0 + nu), modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))

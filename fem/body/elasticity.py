@@ -1,17 +1,14 @@
 """Plane-strain elasticity of a block: displacements of degree 1, 2 or 3, one factorisation.
 
-Displacements and loads are arrays (n, 2), x and z components, in the numbering of `fem.body.nodes`,
-for quadratic displacements that of the mesh's own points; dolfinx's numbering stays inside. Under
-MPI every process holds the whole array and its own part of the matrix, so that what is computed
-from a displacement is the same on each.
+Displacements and loads are arrays (n, 2), x and z components, in the numbering of `fem.body.nodes`.
+Under MPI every process holds the whole array and its own part of the matrix.
 
 The stiffness is assembled for Young's modulus 1 of the body, a coating's relative to it, and the
-displacement divided by the modulus: the factor depends on the ratio of moduli, Poisson's ratios
-and the shape only, and results scale exactly.
+displacement divided by the modulus, so that results scale exactly.
 
-Which degree: quadratic, unless the material is nearly incompressible, then cubic; a mixed element
-is not needed. A pressure's work on its displacement is too small by (bonded layer, contact four
-times as wide as it is thick, n square cells of two triangles across the thickness)
+Degree: quadratic, unless the material is nearly incompressible, then cubic; a mixed element is not
+needed. Relative error of a pressure's work on its displacement, always too small (bonded layer,
+contact four times as wide as it is thick, n square cells of two triangles across the thickness):
 
     nu         n    linear    quadratic   cubic     mixed (Taylor and Hood)
     0.3        4    4e-3      1.0e-5      1.9e-8    6e-6
@@ -21,19 +18,18 @@ times as wide as it is thick, n square cells of two triangles across the thickne
     0.499999   8    1.0       2e-3        3e-7      4e-6
     0.499999   16   1.0       4e-4        2e-8      6e-7
 
-Near nu = 0.5 quadratic displacements lose two orders there: a thin bonded layer takes eight
-elements across for 2e-3 (on unstructured meshes 2e-4 with four, 3e-5 with eight), cubic ones take
-two for 1e-4. In a large block with 16 edges to a half-width the surface's slopes are off by 4e-2,
-7e-4 and 2e-4 with nu = 0.3, by all, 6e-3 and 5e-4 with nu = 0.499999. Linear displacements are for
-rough work with nu <= 0.3.
+Near nu = 0.5 quadratic displacements lose two orders in a thin bonded layer: 2e-3 takes eight
+elements across it (on unstructured meshes four give 2e-4, eight 3e-5); cubic ones need two for
+1e-4. In a large block with 16 edges to a half-width the errors of the surface's slopes are 4e-2,
+7e-4 and 2e-4 with nu = 0.3 and degrees 1, 2, 3; 1, 6e-3 and 5e-4 with nu = 0.499999.
 
-On the same mesh cubic displacements have 2.2 times the unknowns of quadratic ones, their factor
-takes 2.5 times the memory and 2.2 to 3.3 times the time. Under a rough surface, whose edges are
-parabolas whatever the degree and whose pressures have kinks, an error costs the same with both:
-1e-4 of the displacement with 17 000 quadratic unknowns or 10 000 cubic ones, 1.4e-5 with 66 000 or
-37 000.
+On the same mesh cubic displacements have 2.2 times the unknowns of quadratic ones; their factor
+takes 2.5 times the memory and 2.2 to 3.3 times the time. Under a rough surface the same error costs
+about the same: 1e-4 of the displacement needs 17 000 quadratic unknowns or 10 000 cubic ones,
+1.4e-5 needs 66 000 or 37 000.
 """
 
+from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -57,59 +53,54 @@ from meshes.quality import corner_jacobians
 if TYPE_CHECKING:
     import ufl
     from dolfinx.fem import FunctionSpace
+    from petsc4py.PETSc import Mat
 
 # A body that can slide is refused a net horizontal load above this part of the whole load.
 HORIZONTAL_BALANCE = 1e-6
 
 
+@dataclass(eq=False)
 class ElasticBody:
     """An assembled body; factored at the first solution. Make one by `elastic_body`.
 
-    mesh, material, support   as given
-    coating                   as given; None without
-    coated                    (m,) whether a triangle belongs to the coating
-    degree                    of the displacement's polynomials
-    nodes                     (n, 2) [m] of the real body, where displacements are known
-    elements                  (m, 3, 6 or 10) nodes of each triangle, in the order of
-                              `fem.body.triangle`
-    held                      (n, 2) components that the support holds
-    surface                   the top side's nodes in order
-    sides                     mesh points on the four sides
-    top                       the top side's mesh points in order
-    points                    (k, 2) [m] mesh points of the real body, roughness included
-    curved                    whether elements have curved edges
-    space                     dolfinx's space of displacements
-    owned                     our number of each node of it that this process owns
-    matrix                    PETSc stiffness for Young's modulus 1, held rows made the identity's
-    assembly_seconds          what mesh transfer and assembly took
-    locator                   finds the element that holds a point
-    factor                    the factorisation: its seconds, bytes and number of solves
+    coated             (m,) whether a triangle belongs to the coating
+    held               (n, 2) components that the support holds
+    space              dolfinx's space of displacements
+    owned              our number of each node of it that this process owns
+    matrix             PETSc stiffness for Young's modulus 1; held rows are those of the identity
+    assembly_seconds   time of mesh transfer and assembly
     """
 
-    def __init__(
-        self,
-        mesh: BlockMesh,
-        material: Material,
-        support: Support,
-        coating: Coating | None,
-        coated: np.ndarray,
-        numbering: Nodes,
-        held: np.ndarray,
-        owned: np.ndarray,
-        space,
-        matrix,
-        assembly_seconds: float,
-    ) -> None:
-        self.mesh, self.material, self.support = mesh, material, support
-        self.coating, self.coated, self.held = coating, coated, held
-        self._numbering, self.degree = numbering, numbering.degree
-        self.nodes, self.elements = numbering.real, numbering.elements
-        self.matrix, self.owned = matrix, owned
-        release_with(self, matrix)
-        # The matrix lives in the communicator of the space: from dolfinx 0.9 on it does not
-        # survive it.
-        self.space = space
-        self.assembly_seconds = assembly_seconds
+    mesh: BlockMesh
+    material: Material
+    support: Support
+    coating: Coating | None
+    coated: np.ndarray
+    numbering: Nodes
+    held: np.ndarray
+    owned: np.ndarray
+    matrix: "Mat"
+    # After the matrix, which uses its communicator: from dolfinx 0.9 on it must be freed later.
+    space: "FunctionSpace"
+    assembly_seconds: float
+
+    def __post_init__(self) -> None:
+        release_with(self, self.matrix)
+
+    @property
+    def degree(self) -> int:
+        """Degree of the displacement's polynomials."""
+        return self.numbering.degree
+
+    @property
+    def nodes(self) -> np.ndarray:
+        """(n, 2) [m] of the displacement, in the real body."""
+        return self.numbering.real
+
+    @property
+    def elements(self) -> np.ndarray:
+        """(m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`."""
+        return self.numbering.elements
 
     @property
     def unknowns(self) -> int:
@@ -118,6 +109,7 @@ class ElasticBody:
 
     @property
     def curved(self) -> bool:
+        """Whether elements have curved edges."""
         return bool(np.any(self.mesh.shift))
 
     @property
@@ -140,19 +132,29 @@ class ElasticBody:
         )
 
     @cached_property
+    def lame(self) -> np.ndarray:
+        """Lame's lambda (m,) [Pa] of each triangle."""
+        nu = self.poissons_ratio
+        return 2.0 * self.shear_modulus * nu / (1.0 - 2.0 * nu)
+
+    @cached_property
     def points(self) -> np.ndarray:
+        """(k, 2) [m] mesh points of the real body."""
         return real_points(self.mesh)
 
     @cached_property
     def sides(self) -> BoundaryPoints:
+        """Mesh points on the four sides."""
         return boundary_points(self.mesh.points, self.mesh.spec)
 
     @cached_property
     def surface(self) -> Surface:
-        return surface_of(self.mesh, self._numbering)
+        """The top side's nodes in order."""
+        return surface_of(self.mesh, self.numbering)
 
     @cached_property
     def top(self) -> Surface:
+        """The top side's mesh points in order."""
         return surface_of(self.mesh, nodes_of(self.mesh, 2))
 
     @cached_property
@@ -166,8 +168,8 @@ class ElasticBody:
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once.
 
-        Forces on held components are borne by the support. Raises ValueError if the body can
-        slide and the load has a horizontal resultant, FemError if the factorisation fails.
+        The support bears forces on held components. Raises ValueError if the body can slide and
+        the load has a horizontal resultant, FemError if the factorisation fails.
         """
         if self.support.can_slide:
             net = np.abs(load[..., 0].sum(axis=-1))
@@ -182,7 +184,7 @@ class ElasticBody:
 
     def at_points(self, displacement: np.ndarray) -> np.ndarray:
         """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
-        return at_points(self._numbering, self.mesh, displacement)
+        return at_points(self.numbering, self.mesh, displacement)
 
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only.
@@ -190,7 +192,7 @@ class ElasticBody:
         Rows and columns of held components are those of the identity times Young's modulus.
         """
         if self.matrix.comm.size > 1:
-            raise FemError("the stiffness as one matrix is to be had on one process only")
+            raise FemError("the stiffness as one matrix is available on one process only")
         start, column, value = self.matrix.getValuesCSR()
         component = (2 * self.owned[:, None] + np.arange(2)).ravel()
         row = np.repeat(component, np.diff(start))
@@ -219,10 +221,10 @@ def elastic_body(
 ) -> ElasticBody:
     """Assemble the stiffness of a block, with displacements of `degree` 1, 2 or 3.
 
-    A shape of its own (`mesh.shift`) gives elements with quadratic edges, whatever the degree.
-    Edges must follow the lower side of a `coating`.
+    Elements of a mesh with a `shift` have quadratic edges, whatever the degree. Edges must follow
+    the lower side of a `coating`.
 
-    Raises FemError if an element is turned over, ValueError if one crosses the interface.
+    Raises FemError if an element is inverted, ValueError if one crosses the interface.
     """
     load_dolfinx()
     from dolfinx import fem
@@ -232,14 +234,14 @@ def elastic_body(
     held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
     folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
     if folded.any():
-        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are turned over")
+        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are inverted")
     coated = coated_triangles(mesh, coating)
     curved = bool(np.any(mesh.shift))
     domain, number = domain_of(communicator(), mesh, 2 if curved else 1)
     space = compiled(lambda: compat.displacement_space(domain, degree))
     cell, node = own_numbers(mesh, domain, number, space, numbering)
 
-    # a form keeps no constant's value: it is compiled once for all bodies, and once for coated ones
+    # compiled once for all plain bodies and once for all coated ones
     constants = relative_constants(material, coating, coated)
     if coating is None:
         shear, lame = (fem.Constant(domain, compat.real_number(value[0])) for value in constants)
@@ -257,7 +259,7 @@ def elastic_body(
     owned = node[: space.dofmap.index_map.size_local]
     seconds = perf_counter() - start
     return ElasticBody(
-        mesh, material, support, coating, coated, numbering, held, owned, space, matrix, seconds
+        mesh, material, support, coating, coated, numbering, held, owned, matrix, space, seconds
     )
 
 
@@ -273,11 +275,10 @@ def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
 
 
 def quadrature_degree(degree: int, curved: bool) -> int:
-    """Degree of the polynomials that the stiffness' quadrature integrates exactly.
+    """Degree of the polynomials that the stiffness's quadrature integrates exactly.
 
-    On straight triangles that of the product of two strains, and exact. On curved ones the product
-    with the two slopes of the element's map, which is divided by its determinant: a constant stress
-    does exact work, and the order is that of straight ones. Two degrees less keep the order too,
-    but leave 1 to 5 % more error where the boundary has slope 0.8.
+    On straight triangles the product of two strains: exact. On curved ones its product with the
+    slopes of the element's map: exact for a constant stress, and of the same order. Two degrees
+    less keep the order, but add 1 to 5 % of error where the boundary has slope 0.8.
     """
     return max(1, 2 * degree if curved else 2 * degree - 2)

@@ -16,14 +16,14 @@ class Support:
     """How the block is held.
 
     base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
-    sides   "free", "rollers": no horizontal displacement; "fixed": no displacement
-    within  (x, z) [m]: points with |x| or z beyond are held altogether, which makes a smaller
-            body of the same mesh; infinite where the block goes on to its own boundary
+    sides   "free"; "rollers": no horizontal displacement; "fixed": no displacement
+    within  (x, z) [m]: points with |x| or z beyond are fixed, which makes a smaller body of the
+            same mesh
 
-    As a stand-in for a half-plane a square block bonded and fixed all round is the best of its
-    size: Hertz's largest shear stress comes out 0.22 % high at a depth of 400 half-widths and
-    0.9 % at 100. With rollers it is 0.38 and 1.5 %, with free sides 0.41 and 1.6 %, and 0.31 and
-    1.2 % if such a block is twice as wide. The pressure changes by 1e-4.
+    Of square blocks in place of a half-plane the one bonded and fixed all round is the best:
+    Hertz's largest shear stress is 0.22 % high at a depth of 400 half-widths and 0.9 % at 100. With
+    rollers it is 0.38 and 1.5 %, with free sides 0.41 and 1.6 %, and 0.31 and 1.2 % for a block
+    twice as wide. The pressure changes by 1e-4.
 
     With a frictionless base and free sides the bottom point nearest to the middle is held
     horizontally; a load with a horizontal resultant has no equilibrium then.
@@ -48,7 +48,7 @@ class Support:
 
 
 def held_components(flat: np.ndarray, support: Support, sides: BoundaryPoints) -> np.ndarray:
-    """(n, 2) whether the support holds a component, of nodes at `flat` (n, 2) in the flat block."""
+    """(n, 2) whether the support holds a component of nodes at `flat` (n, 2) in the flat block."""
     held = np.zeros(flat.shape, dtype=bool)
     held[sides.bottom, 1] = True
     if support.base == "bonded":

@@ -19,13 +19,12 @@ from fem.body.nodes import Nodes
 from fem.body.triangle import edge_shapes
 from meshes.block import BlockMesh, BlockSpec
 
-# Closer than this part of the block, or of the edge or hat in question, is in the same place. The
-# smallest elements of a block are 1e-6 of it.
+# Points closer than this part of the block, edge or hat are the same. The smallest elements of a
+# block are 1e-6 of it.
 SAME_POINT = 1e-9
 
-# A direction that varies along the surface is integrated with it. On edges whose middle is in the
-# middle the integrand has degree 5 with cubic displacements and a linear direction, 3 more where
-# the mesh is bent along x: five Gauss points integrate both exactly.
+# On edges with a central midpoint the integrand has degree 5 with cubic displacements and a linear
+# direction, 3 more where the mesh is bent along x: five Gauss points integrate both exactly.
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(5)
 
 Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -58,7 +57,7 @@ class BoundaryPoints:
 
 
 def boundary_points(flat: np.ndarray, spec: BlockSpec) -> BoundaryPoints:
-    """Points (n, 2) on the flat block's four sides; a corner belongs to both of its sides."""
+    """Points of (n, 2) on the flat block's four sides; a corner belongs to both of its sides."""
     x, z = flat.T
 
     def side(distance: np.ndarray, extent: float) -> np.ndarray:
@@ -73,7 +72,7 @@ def boundary_points(flat: np.ndarray, spec: BlockSpec) -> BoundaryPoints:
 
 
 def surface_of(mesh: BlockMesh, nodes: Nodes) -> Surface:
-    """Nodes on the top side, in the order they have on the flat block.
+    """Nodes on the top side, ordered along the flat block.
 
     Raises ValueError if the mesh's points there are not vertices and their midpoints in turn, or
     if the real surface overhangs.
@@ -93,18 +92,13 @@ def surface_of(mesh: BlockMesh, nodes: Nodes) -> Surface:
     return Surface(nodes.real[point, 0], point, edges, nodes.degree)
 
 
-def hat_nodes(x0: float, pitch: float, count: int) -> np.ndarray:
-    """x (count + 2,) [m] of the nodes of equal hats at x0 + i pitch, with their outer feet."""
-    return x0 + pitch * np.arange(-1, count + 1)
-
-
 def straight_down(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(d_x, d_z) = (0, 1): the normal of a flat surface, into the body."""
     return np.zeros_like(x), np.ones_like(x)
 
 
 def tangent_of(direction: Direction) -> Direction:
-    """Direction of the sliding traction: `direction` turned by a right angle, towards +x."""
+    """Direction of the sliding traction: `direction` rotated by a right angle, towards +x."""
 
     def tangent(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         along, down = direction(x)
@@ -120,8 +114,8 @@ class HatPoints:
     x         (e, g) [m]
     weight    (e, g) [m]
     shape     (a, e, g) shape functions of the piece's edge, and `node` (a, e) their surface nodes
-    hat       (2, e, g) the two hats over the piece, and `column` (2, e) their numbers; one that is
-              not among the hats, -1 or their count, bears no pressure
+    hat       (2, e, g) the two hats over the piece, and `column` (2, e) their numbers, where -1 and
+              count are the outer feet, without pressure
     """
 
     x: np.ndarray
@@ -133,7 +127,7 @@ class HatPoints:
 
 
 def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
-    """Where integrals over `hats` (count + 2,) [m], with their outer feet, are evaluated.
+    """Gauss points under `hats` (count + 2,) [m], with their outer feet.
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
     """
@@ -175,13 +169,11 @@ def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
 def hat_forces(
     surface: Surface, hats: np.ndarray, direction: Direction = straight_down
 ) -> csr_matrix:
-    """Nodal forces B (2k, count) [m] of unit hat pressures, exact.
+    """Nodal forces B (2k, count) [m] of unit hat pressures.
 
-    `hats` (count + 2,) [m] are the hats' nodes, ascending, and the feet of the outer two, where
-    the pressure is zero. A pressure is a force per length of x, not of arc. Rows 2a and 2a+1 are
-    the x and z force at surface node a. The integrals run over the pieces between element vertices
-    and hat nodes, on which the integrand is a polynomial. With a `direction` that varies they are
-    exact up to its linear part on each piece.
+    `hats` (count + 2,) [m] are the hats' nodes, ascending, with the outer feet. A pressure is a
+    force per length of x, not of arc. Rows 2a and 2a+1 are the x and z force at surface node a. The
+    integrals are exact for a `direction` linear on each piece between vertices and hat nodes.
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
     """

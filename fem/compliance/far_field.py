@@ -1,8 +1,8 @@
 """A block that reproduces the half-plane: its outer boundary gets the half-plane's displacement.
 
-Far from tractions on a short stretch of a half-plane's surface the displacement is a series in
-their moments. Prescribed on the sides and the bottom of a block it leaves the discretisation as
-the only error, whatever the block's size. With K0 the stiffness of the block held all round
+Far from tractions on a short range of a half-plane's surface the displacement is a series in their
+moments. Prescribed on the sides and the bottom of a block of any size, it leaves the discretisation
+as the only error. With K0 the stiffness of the block held all round
 
     u = K0^-1 (b - K_g g) + g,   g = sum over the moments m_k of b of their displacements.
 
@@ -29,29 +29,27 @@ from scipy.sparse import csr_matrix
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import collapsed_gauss, jacobians, slopes
 
-# The first power of reach over distance of the boundary that is left out. In the compliance that
-# leaves 3e-8, measured at blocks of 4 to 40 half-widths; in the moments it costs 4 to 9 each way.
+# First neglected power of reach over distance of the boundary. The compliance's error is 3e-8 for
+# blocks of 4 to 40 half-widths, with 4 to 9 moments each of pressure and traction.
 TRUNCATION = 1e-5
 
-# Largest reach of the tractions over the distance of the boundary. It takes 17 moments each way.
+# Largest reach of the tractions over the distance of the boundary, with 17 moments of each.
 MOST_REACH = 0.5
 
 
 class FarField:
     """The half-plane around a block, for tractions between `start` and `stop` [m].
 
-    body      of one material, held all round by Support("bonded", "fixed"), perhaps with `within`
-    centre    of the moments [m]              reach   half of the stretch [m]
+    body      of one material, held all round by Support("bonded", "fixed")
+    centre    of the moments [m]              reach   half of the range of the tractions [m]
     terms     moments of each traction, by TRUNCATION
-    datum     L [m]: stop - start, that of `analytic.operators.half_plane.HalfPlane` on the same
-              hats
-    moments   (2 terms, 2k) those of unit forces at the surface's nodes; of x forces first
-    lifted    (2k, 2 terms) [m^2/N] displacement of the surface that goes with unit moments: one
+    datum     L [m]: stop - start, as of `analytic.operators.half_plane.HalfPlane` on the same hats
+    moments   (2 terms, 2k) of unit forces at the surface's nodes; of x forces first
+    lifted    (2k, 2 terms) [m^2/N] surface displacement due to unit moments at the boundary: one
               back-substitution each
 
-    The displacement that the boundary adds, `lifted @ moments`, is symmetric but for the
-    discretisation error. A contact solver that minimises an energy needs `symmetric`, its mean
-    with its transpose.
+    The displacement `lifted @ moments` that the boundary adds is symmetric up to the discretisation
+    error. A contact solver that minimises an energy needs `symmetric`, the mean with its transpose.
 
     Raises ValueError if the body is held otherwise or coated, or if its boundary is nearer than
     reach / MOST_REACH.
@@ -85,7 +83,7 @@ class FarField:
 
     @cached_property
     def lifted(self) -> np.ndarray:
-        """Of moments of traction, then of pressure."""
+        """Of moments of the traction first, then of the pressure."""
         return np.hstack([self._lifted(self._boundary[: self.terms]), self._lifted_by_pressure])
 
     def displacement(self, load: np.ndarray) -> np.ndarray:
@@ -99,8 +97,8 @@ class FarField:
     def symmetric(self, force: np.ndarray) -> np.ndarray:
         """Surface displacement (2k, …) [m] that the boundary adds under forces (2k, …) [N/m].
 
-        It means something on the stretch of the tractions, where hats weight it, and there only;
-        and along x only under forces along x, which take half of the back-substitutions.
+        Valid in the range of the tractions only, and along x only under forces along x, whose
+        moments take half of the back-substitutions.
         """
         if np.any(force[0::2]):
             moments, lifted = self.moments, self.lifted
@@ -113,13 +111,13 @@ class FarField:
         return self._lifted(self._boundary[self.terms :])
 
     def _lifted(self, boundary: np.ndarray) -> np.ndarray:
-        """Displacement (2k, m) of the surface that goes with the boundary's (m, h, 2)."""
+        """Surface displacement (2k, m) due to displacements (m, h, 2) of the boundary."""
         moved = self.body.solve(self._forces(boundary))
         moved[:, self._outer] = boundary
         return moved[:, self.body.surface.point].reshape(len(boundary), -1).T
 
     def _forces(self, boundary: np.ndarray) -> np.ndarray:
-        """Nodal forces (…, n, 2) that stand for displacements (…, h, 2) of the held nodes."""
+        """Nodal forces (…, n, 2) equivalent to displacements (…, h, 2) of the held nodes."""
         flat = boundary.reshape(*boundary.shape[:-2], -1)
         return -(self._pull @ flat.T).T.reshape(*boundary.shape[:-2], -1, 2)
 
@@ -127,8 +125,8 @@ class FarField:
 def multipoles(s: np.ndarray, terms: int, datum: float, poissons_ratio: float) -> np.ndarray:
     """2 G u (2 terms, n, 2) at places s (n,) under unit moments: of q in turn, then of p.
 
-    `datum` in units of the reach, as s. On this branch of the logarithm a pressure moves the
-    points below it straight down.
+    `datum` in units of the reach, as s. On this branch of the logarithm a pressure moves the points
+    below it straight down.
     """
     kappa = 3.0 - 4.0 * poissons_ratio
     mirrored, log = s.conj(), np.log(s / (1j * datum))
@@ -142,7 +140,7 @@ def multipoles(s: np.ndarray, terms: int, datum: float, poissons_ratio: float) -
 def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
     """Stiffness (2n, 2h) [Pa] between all nodes and the h of them that are `held` (n,).
 
-    Summed over the elements that touch held and free nodes: the rows of held ones are not whole.
+    Summed over elements with both held and free nodes: rows of held nodes are incomplete.
     """
     touching = held[body.elements]
     fringe = touching.any(axis=1) & ~touching.all(axis=1)

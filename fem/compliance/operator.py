@@ -1,9 +1,8 @@
 """Surface compliance of a finite-element body as an operator on hat pressures.
 
-C = B^T K^-1 B: one load vector, one back-substitution, one weighted mean of the surface
-displacement with the same hats; symmetric and positive definite by construction. With a far field
-(`fem.compliance.far_field`) the displacement that the outer boundary is given adds a symmetric
-part. Nomenclature: p hat pressures [Pa], K stiffness, B nodal forces of unit hats
+C = B^T K^-1 B is symmetric and positive definite; each application takes one back-substitution. A
+far field (`fem.compliance.far_field`) adds the symmetric part of the boundary's displacement.
+Nomenclature: p hat pressures [Pa], K stiffness [Pa], B nodal forces of unit hats [m]
 (`fem.body.surface`).
 """
 
@@ -16,23 +15,20 @@ from fem.body.elasticity import ElasticBody
 from fem.body.surface import Direction, hat_forces, straight_down, tangent_of
 from fem.compliance.far_field import FarField
 
-# Right-hand sides that are solved at once for the dense matrix; more only costs memory.
+# Right-hand sides that are solved at once for the dense matrix; more only cost memory.
 BATCH = 32
 
 
 class FiniteElementCompliance:
-    """Pressures on `count` hats to weighted displacements of `body`.
+    """Maps pressures on `count` hats to weighted displacements of `body`.
 
-    hats        (count + 2,) [m] the hats' nodes, ascending, with the feet of the outer two
-    direction   None: pressure along +z. Else a function of x [m] that gives the two components
-                (d_x, d_z) of the force per length of x that a unit pressure exerts: for a
-                contact on a rough boundary (slope, 1) of the smooth roller, since the traction
-                acts along the roller's normal
-    far         None: the body is held as its support says. Else its boundary gets the half-plane's
-                displacement; made for the same body and the hats' stretch
+    hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet
+    direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
+                pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller, since
+                the traction acts along the roller's normal
+    far         gives the body's boundary the half-plane's displacement; None: the support holds it
     normal      B of the pressure, (2k, count)
-    tangential  B of a sliding traction towards +x, (2k, count); made when first asked for
-    applications   back-substitutions so far
+    tangential  B of a sliding traction towards +x, (2k, count)
 
     Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface.
     """
@@ -47,9 +43,8 @@ class FiniteElementCompliance:
         direction = straight_down if direction is None else direction
         self.body, self.hats, self.count, self.far = body, hats, len(hats) - 2, far
         self.normal = hat_forces(body.surface, hats, direction)
-        self._means = self.normal.T.tocsr()  # a transposed view anew for each product costs more
+        self._means = self.normal.T.tocsr()  # faster than a transposed view at each product
         self._direction = direction
-        self.applications = 0
 
     @cached_property
     def tangential(self) -> csr_matrix:
@@ -58,11 +53,10 @@ class FiniteElementCompliance:
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
 
-        With `friction` the sliding traction friction * pressure acts too; the operator is then
-        no longer symmetric.
+        With `friction` the sliding traction friction * pressure acts too, and the operator is not
+        symmetric.
         """
         force = self._force(pressure, friction)
-        self.applications += 1
         moved = self.weighted(self.body.solve(self._load(force)))
         return moved if self.far is None else moved + self._means @ self.far.symmetric(force)
 
@@ -72,7 +66,6 @@ class FiniteElementCompliance:
 
     def displacement(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """Displacement (n, 2) [m] of the body's nodes under a pressure (count,) [Pa]."""
-        self.applications += 1
         load = self.load(pressure, friction)
         return self.body.solve(load) if self.far is None else self.far.displacement(load)
 
@@ -96,7 +89,6 @@ class FiniteElementCompliance:
         count = force.shape[1]
         load = np.zeros((count, *self.body.nodes.shape))
         load[:, self.body.surface.point] = force.T.reshape(count, -1, 2)
-        self.applications += count
         moved = self.body.solve(load)[:, self.body.surface.point].reshape(count, -1).T
         if self.far is not None:
             moved = moved + self.far.symmetric(force)

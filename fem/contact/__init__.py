@@ -1,1 +1,1 @@
-"""Contact of nonlinear bodies, and the independent solver."""
+"""Contact of nonlinear bodies, and the independent solver of linear contact."""

@@ -1,32 +1,20 @@
-"""Which hats touch, which are open, which are at the hardness: how that changes between steps.
-
-A hat that breaks its sign condition changes sides: an open one that overlaps and a crushed one
-that opens are freed, a free one goes to the bound that its pressure is beyond. All at once is
-quickest and may cycle with a hardness. When the number of broken conditions has not fallen for
-PATIENCE exchanges, only the worst of them go, half as many each time that this happens again.
-
-Newton's method for a contact with nonlinear bodies at one load (`fem.contact.nonlinear`).
-
-Nomenclature: u displacement [m], p hat pressures [Pa], d approach [m], F internal nodal forces
-[N/m], T nodal forces of unit hats [m], g weighted gap [m^2], w weights [m], P load [N/m],
-H hardness [Pa], k a mean stiffness [Pa] that makes all unknowns lengths.
-
-Contact of bodies with a nonlinear response: Newton's method with an active set.
+"""Contact of bodies with a nonlinear response: Newton's method with an active set.
 
     F_b(u_b) - T_b(u_b) p             = 0    for each body b
     g = G - w d + sum_b g_b(u_b)     >= 0,   0 <= p <= H,   complementary
     P - w'p                           = 0    or the approach d prescribed
 
-A hat touches (g = 0), is open (p = 0) or is at the hardness (p = H). With these sides fixed each
-iteration is a Newton step, after which hats change sides (`fem.contact.nonlinear`); once they stay
-as they are it converges quadratically (Hintermueller, Ito and Kunisch 2002, SIAM J. Optim. 13,
-865-888).
+A hat is open (p = 0), in contact (g = 0) or at the hardness (p = H). Each iteration is a Newton
+step with these states fixed; then hats that violate their inequality change their state. Once the
+states stay, the method converges quadratically (Hintermueller, Ito and Kunisch 2002, SIAM J. Optim.
+13, 865-888). An increment of the load in which it fails is bisected.
 
-The load grows in increments. One in which Newton's method fails is halved and tried again.
-
-Nomenclature: u displacement [m], p hat pressures [Pa], d approach [m], F internal nodal forces
-[N/m], T nodal forces of unit hats [m], g weighted gap [m^2], G its constant part, w weights [m],
-P load [N/m], H hardness [Pa].
+Nomenclature
+    u      displacement [m]                   F      internal nodal forces [N/m]
+    p, H   hat pressures, hardness [Pa]       T      nodal forces of unit hats [m]
+    d      approach [m]                       g, G   weighted gap [m^2], its constant part
+    P      load [N/m]                         w      weights [m], integrals of the hats
+    k      mean stiffness [Pa], which makes all unknowns lengths
 """
 
 from collections.abc import Sequence
@@ -39,37 +27,53 @@ from scipy.sparse import bmat, csr_matrix
 from fem.contact.terms import Contact, ContactTerms, Response
 from fem.solver.mumps import FemError, solve_once
 
-OPEN, FREE, FULL = -1, 0, 1
+# Largest of three residuals: forces over the contact's forces, complementarity over the pressure,
+# load over the load. Rounding leaves 1e-11 on large graded blocks.
+RESIDUAL = 1e-9
+MOST_ITERATIONS = 30
+# A step is bisected if it multiplies the residual by more or inverts an element.
+GROWTH = 10.0
+MOST_BISECTIONS = 6
+# Smallest increment, as a part of the way from the start to the load.
+LEAST_INCREMENT = 1e-3
+# Factor on the next increment after a successful one.
+LONGER = 2.0
+
+# States of a hat.
+OPEN, CONTACT, CAPPED = -1, 0, 1
+# HatStates without fewer violations before fewer hats change at a time.
 PATIENCE = 3
 
 
-class Exchanges:
-    """The sides (count,) of the hats, each OPEN, FREE or FULL, and how exchanges went so far.
+class HatStates:
+    """The states (count,) of the hats: OPEN, CONTACT or CAPPED (at the hardness).
 
-    pressure   guessed (count,) [Pa]: hats are open where it is zero, else free
-    hardness   H [Pa]
-    load       P [N/m] if it is prescribed: some hat must be free then
-    weights    w (count,) [m]
+    All hats that violate their inequality change at once, which is fastest but may cycle with a
+    hardness. Whenever the number of violations has not fallen for PATIENCE exchanges, the part of
+    them that change, the worst ones, is halved.
+
+    pressure   guessed (count,) [Pa]: hats are open where it is zero, else in contact
+    load       P [N/m]; None if the approach is prescribed
     """
 
     def __init__(
         self, pressure: np.ndarray, hardness: float, load: float | None, weights: np.ndarray
     ) -> None:
-        self.sides = np.where(pressure > 0.0, FREE, OPEN)
+        self.states = np.where(pressure > 0.0, CONTACT, OPEN)
         self.hardness, self.load, self.weights = hardness, load, weights
         self._fewest, self._patience, self._share = len(pressure) + 1, PATIENCE, 1.0
 
     def exchange(self, pressure: np.ndarray, gap: np.ndarray, stiff: float) -> None:
-        """Change the sides after a step that led to a pressure (count,) [Pa] and a mean gap [m].
+        """Change the states after a step to a pressure (count,) [Pa] and a mean gap [m].
 
-        `stiff` [Pa/m] makes pressures and gaps comparable where the worst are looked for.
+        `stiff` [Pa/m] makes violations by gaps comparable with those by pressures.
         """
-        joins = (self.sides == OPEN) & (gap < 0.0)
-        leaves = (self.sides == FULL) & (gap > 0.0)
-        lifts = (self.sides == FREE) & (pressure < 0.0)
-        yields = (self.sides == FREE) & (pressure > self.hardness)
-        broken = joins | leaves | lifts | yields
-        count = np.count_nonzero(broken)
+        joins = (self.states == OPEN) & (gap < 0.0)
+        leaves = (self.states == CAPPED) & (gap > 0.0)
+        lifts = (self.states == CONTACT) & (pressure < 0.0)
+        yields = (self.states == CONTACT) & (pressure > self.hardness)
+        violated = joins | leaves | lifts | yields
+        count = np.count_nonzero(violated)
         if count < self._fewest:
             self._fewest, self._patience = count, PATIENCE
         else:
@@ -81,40 +85,28 @@ class Exchanges:
             off[lifts] = -pressure[lifts]
             off[yields] = pressure[yields] - self.hardness
             some = max(1, int(self._share * count))
-            broken &= off >= np.sort(off)[-some]
-        self.sides = self.sides.copy()
-        self.sides[broken & (joins | leaves)] = FREE
-        self.sides[broken & lifts] = OPEN
-        self.sides[broken & yields] = FULL
+            violated &= off >= np.sort(off)[-some]
+        self.states[violated & (joins | leaves)] = CONTACT
+        self.states[violated & lifts] = OPEN
+        self.states[violated & yields] = CAPPED
 
-    def free_some(self, gap: np.ndarray) -> None:
-        """Free hats where none is and a load is prescribed: the approach would be open."""
-        if self.load is None or (self.sides == FREE).any():
+    def keep_one_in_contact(self, gap: np.ndarray) -> None:
+        """Bring hats into contact if none is under a prescribed load, which fixes the approach."""
+        if self.load is None or (self.states == CONTACT).any():
             return
-        full = self.sides == FULL
-        self.sides = self.sides.copy()
+        full = self.states == CAPPED
         if not full.any():
-            self.sides[np.argmin(gap)] = FREE
+            self.states[np.argmin(gap)] = CONTACT
         elif self.hardness * self.weights[full].sum() >= self.load:
-            self.sides[full] = FREE
+            self.states[full] = CONTACT
         else:
-            self.sides[~full] = FREE
-
-
-# Largest of: forces out of balance over the contact's forces, what is left of complementarity over
-# the pressure, load out of balance over the load. Round-off leaves 1e-11 on large graded blocks.
-RESIDUAL = 1e-9
-MOST_ITERATIONS = 30
-# A step that multiplies the residual by more is halved, and so is one that turns an element over.
-GROWTH = 10.0
-MOST_HALVINGS = 6
+            self.states[~full] = CONTACT
 
 
 @dataclass(frozen=True)
 class ContactState:
-    """Where a solution starts or ended: `displacements` (n_b, 2) [m] of the bodies, `pressure`
-    (count,) [Pa], `approach` [m], and the `load` [N/m] at which the bodies' histories stand
-    in equilibrium: 0 for bodies at rest, whatever is guessed for the rest of the state."""
+    """Start or end of a solution: `displacements` (n_b, 2) [m] of the bodies, `pressure` (count,)
+    [Pa], `approach` [m], and the `load` [N/m] of their last equilibrium, 0 for bodies at rest."""
 
     displacements: tuple[np.ndarray, ...]
     pressure: np.ndarray
@@ -124,7 +116,7 @@ class ContactState:
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """A state with all that one Newton step from it needs."""
+    """A state with the linearisation of the bodies and of the contact there."""
 
     state: ContactState
     forces: tuple[np.ndarray, ...]
@@ -141,7 +133,7 @@ class ContactProblem:
 
     @cached_property
     def free(self) -> list[np.ndarray]:
-        """Components of each body that its support leaves free."""
+        """Components of each body that its support does not hold."""
         return [np.flatnonzero(~body.held.ravel()) for body, _ in self.bodies]
 
     @cached_property
@@ -150,7 +142,7 @@ class ContactProblem:
 
     @cached_property
     def stiffness(self) -> float:
-        """k: bodies in series, each by the mean diagonal of its tangent at rest."""
+        """k of the bodies in series, each with the mean diagonal of its tangent at rest."""
         diagonals = [
             body.linearised(np.zeros(body.held.shape))[1].diagonal()[free].mean()
             for (body, _), free in zip(self.bodies, self.free, strict=True)
@@ -159,11 +151,11 @@ class ContactProblem:
 
     @cached_property
     def stiff(self) -> float:
-        """c [Pa/m]: pressure that goes with a gap under one hat."""
+        """Pressure over gap of one hat [Pa/m]."""
         return self.stiffness / self.weights.mean()
 
     def at(self, state: ContactState) -> ContactPoint:
-        """Raises FemError where a body cannot follow."""
+        """Raises FemError if a body cannot deform so."""
         forces, tangents, terms = [], [], []
         for (body, contact), u in zip(self.bodies, state.displacements, strict=True):
             force, tangent = body.linearised(u)
@@ -179,7 +171,7 @@ class ContactProblem:
         return self._gap(point.terms, point.state.approach)
 
     def opening(self, state: ContactState) -> np.ndarray:
-        """Mean opening (count,) [m] under each hat, without asking the bodies for their forces."""
+        """Mean opening (count,) [m] under each hat."""
         terms = [
             contact.at(u, state.pressure)
             for (_, contact), u in zip(self.bodies, state.displacements, strict=True)
@@ -205,7 +197,7 @@ class ContactProblem:
 
 
 def _ratio(left: np.ndarray, whole: np.ndarray) -> float:
-    """Norm of `left` in units of that of `whole`; of one where the latter is zero."""
+    """Norm of `left` over that of `whole`, or over one if the latter is zero."""
     size = float(np.linalg.norm(whole))
     return float(np.linalg.norm(left)) / (size if size > 0.0 else 1.0)
 
@@ -213,21 +205,21 @@ def _ratio(left: np.ndarray, whole: np.ndarray) -> float:
 def newton(
     problem: ContactProblem, guess: ContactState, load: float | None
 ) -> tuple[ContactState, list[float]]:
-    """State in equilibrium at the load, or at the guess's approach, and the residuals on the way.
+    """Equilibrium at the load, or at the guess's approach, and the residuals of the iterations.
 
     Raises FemError if it does not converge.
     """
     point = problem.at(guess)
-    sides = Exchanges(guess.pressure, problem.hardness, load, problem.weights)
+    states = HatStates(guess.pressure, problem.hardness, load, problem.weights)
     history = [problem.residual(point, load)]
     while history[-1] > RESIDUAL:
         if len(history) > MOST_ITERATIONS:
             raise FemError(f"residual {history[-1]:.1e} after {MOST_ITERATIONS} iterations")
         gap = problem.gap(point) / problem.weights
         if len(history) > 1:
-            sides.exchange(point.state.pressure, gap, problem.stiff)
-        sides.free_some(gap)
-        move = _step(problem, point, sides.sides, load)
+            states.exchange(point.state.pressure, gap, problem.stiff)
+        states.keep_one_in_contact(gap)
+        move = _step(problem, point, states.states, load)
         point, residual = _moved(problem, point, move, load, history[-1])
         history.append(residual)
     final = np.clip(point.state.pressure, 0.0, problem.hardness)
@@ -242,10 +234,10 @@ def _moved(
     load: float | None,
     before: float,
 ) -> tuple[ContactPoint, float]:
-    """The first of the whole step, its half, its quarter, ... that can be taken."""
+    """The state after the step, bisected until its end is acceptable, and the residual there."""
     state, why = point.state, "the residual grows"
-    for halving in range(MOST_HALVINGS + 1):
-        part = 0.5**halving
+    for bisection in range(MOST_BISECTIONS + 1):
+        part = 0.5**bisection
         there = ContactState(
             tuple(
                 u + part * du for u, du in zip(state.displacements, move.displacements, strict=True)
@@ -262,21 +254,21 @@ def _moved(
         residual = problem.residual(reached, load)
         if residual <= GROWTH * max(before, RESIDUAL):
             return reached, residual
-    raise FemError(f"no step leads on: {why}")
+    raise FemError(f"no step is acceptable: {why}")
 
 
 def _step(
-    problem: ContactProblem, point: ContactPoint, sides: np.ndarray, load: float | None
+    problem: ContactProblem, point: ContactPoint, states: np.ndarray, load: float | None
 ) -> ContactState:
-    """Newton's change of the state with the hats on given sides (count,).
+    """Newton's change of the state with given states (count,) of the hats.
 
-    All unknowns are made lengths, u, p w / k and d, and all equations are divided by k or w.
+    The unknowns are the lengths u, p w / k and d; the equations are divided by k or w.
     """
     weights, stiff, width = problem.weights, problem.stiffness, problem.weights.mean()
     gap = problem.gap(point)
     pressure = point.state.pressure
-    hats = np.flatnonzero(sides == FREE)
-    fixed = np.where(sides == FULL, problem.hardness, 0.0)
+    hats = np.flatnonzero(states == CONTACT)
+    fixed = np.where(states == CAPPED, problem.hardness, 0.0)
     fixed[hats] = pressure[hats]
 
     size = len(problem.bodies) + 2
@@ -312,21 +304,15 @@ def _step(
     return ContactState(tuple(displacements), change, sink)
 
 
-# Smallest increment, as a part of the way from the start to the load.
-LEAST_INCREMENT = 1e-3
-# After an increment without trouble the next may be longer by this factor.
-LONGER = 2.0
-
-
 @dataclass(frozen=True)
 class NonlinearSolution:
     """A converged contact.
 
     state       displacements, pressure, approach and load
     gap         (count,) [m] mean opening under each hat
-    residuals   for each increment that was accepted the dimensionless residuals of its iterations
-    parts       (increments,) of the way at which the increments ended; the last is 1
-    cuts        increments that failed and were halved
+    residuals   dimensionless residuals of the iterations of each accepted increment
+    parts       (increments,) part of the way at the end of each accepted increment; the last is 1
+    cuts        increments that failed and were bisected
     """
 
     state: ContactState
@@ -344,7 +330,7 @@ class NonlinearSolution:
 def state_at_rest(
     bodies: Sequence[tuple[Response, Contact]], pressure: np.ndarray, approach: float = 0.0
 ) -> ContactState:
-    """Undeformed bodies with a guessed pressure (count,): its support is the first active set."""
+    """Undeformed bodies with a guessed pressure (count,), whose support is the first active set."""
     displacements = tuple(np.zeros(body.held.shape) for body, _ in bodies)
     return ContactState(displacements, pressure, approach)
 
@@ -357,23 +343,19 @@ def solve_nonlinear_contact(
     load: float | None = None,
     approach: float | None = None,
     hardness: float = np.inf,
-    increments: int = 1,
 ) -> NonlinearSolution:
     """Contact under a `load` P [N/m], or at an `approach` d [m], from a given state.
 
-    bodies      each with its kinematics on the common grid of hats
-    gap         G (count,) [m^2], what the bodies' own parts of the gap leave out
-    weights     w (count,) [m], integrals of the hats
-    start       equilibrium that was reached before, or a guess of the solution for bodies at rest
-                (load 0). Only the support of a guessed pressure matters for linear bodies; a
-                nonlinear one converges from the linear solution
-    hardness    H [Pa], cap on the pressure
-    increments  equal parts of the way from the start that are tried first
+    bodies     each with its kinematics on the common grid of hats
+    gap        G (count,) [m^2], the part of the gap that does not depend on displacements
+    weights    w (count,) [m], integrals of the hats
+    start      an equilibrium, or for bodies at rest (load 0) a guess of the solution: for linear
+               bodies only the support of its pressure matters, others need the linear solution
+    hardness   H [Pa], cap on the pressure
 
-    The load is what the pressures bear; with friction the tractions' own vertical part, of the
-    order of friction times slope, is left out as in the linear theory. On one process. Raises
-    ValueError for a load that cannot be borne, FemError where no increment, however small, leads
-    on, naming the part of the way that was reached.
+    The load is the sum of the pressures; the vertical part of the friction's tractions, of the
+    order of friction times slope, is neglected as in the linear theory. On one process. Raises
+    ValueError for a load that the hats cannot bear, FemError if even the smallest increment fails.
     """
     if (load is None) == (approach is None):
         raise ValueError("give either the load or the approach")
@@ -383,9 +365,9 @@ def solve_nonlinear_contact(
     first, goal = (start.load, load) if approach is None else (start.approach, approach)
     at_rest = start.load == 0.0
     state, done, parts, histories, cuts = start, 0.0, [], [], 0
-    longest = step = 1.0 / increments
+    step = 1.0
     while done < 1.0:
-        # the last increment ends on the goal itself, not on a sum of parts
+        # the last increment ends exactly on the goal
         part = 1.0 if done + step > 1.0 - LEAST_INCREMENT else done + step
         target = goal if part == 1.0 else first + part * (goal - first)
         guess = _scaled(start, part) if at_rest and not parts else state
@@ -408,11 +390,11 @@ def solve_nonlinear_contact(
         parts.append(part)
         histories.append(tuple(history))
         state, done = found, part
-        step = min(longest, LONGER * step)
+        step = min(1.0, LONGER * step)
     return NonlinearSolution(state, problem.opening(state), tuple(histories), tuple(parts), cuts)
 
 
 def _scaled(start: ContactState, part: float) -> ContactState:
-    """A guessed state at a part of the load, or of the approach, for which it was guessed."""
+    """A guessed state scaled to a part of its load or approach."""
     moved = tuple(part * displacement for displacement in start.displacements)
     return replace(start, displacements=moved, pressure=part * start.pressure)

@@ -1,12 +1,12 @@
-"""A rigid roller against the surface where it is now: current place, current normal.
+"""Contact of a rigid roller with the deformed surface, at its current place and normal.
 
     g_i = integral phi_i (z + s(x)) dX,   (x, z) = (X + u_x, Z + u_z)
     T p = integral N p ((s', 1) + friction (1, -s')) dX
 
-The roller's own normal at the place that a surface point has come to is (s', 1) up to its length,
-so that the force is the gap's derivative: frictionless contact has an energy. As p is a force per
-reference length of x with a vertical part of one, integral p dX is the load itself, and the
-pressure on the deformed surface is p / (dx/dX).
+The roller's normal at the current place of a surface point is (s', 1) up to its length, so that the
+force is the gap's derivative: frictionless contact has an energy. p is the vertical force per
+undeformed length of x: integral p dX is the load, and p / (dx/dX) the pressure on the deformed
+surface.
 
 Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
 above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions.
@@ -24,13 +24,13 @@ from fem.contact.terms import ContactTerms
 # s, s' and s'' of places x
 Roller = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
-# Part of the radius at which a circle is carried on as a straight line of slope 2: no contact is
-# meant to get there, but hats may lie beneath.
+# Part of the radius beyond which a circle continues as a straight line of slope 2: without contact,
+# but hats may lie beneath.
 STEEPEST = 2.0 / np.sqrt(5.0)
 
 
 def circle(radius: float) -> Roller:
-    """A roller of this radius [m], its true shape."""
+    """A circular roller of this radius [m]."""
 
     def rise(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         inside = np.clip(x, -STEEPEST * radius, STEEPEST * radius)
@@ -54,8 +54,8 @@ def parabola(radius: float) -> Roller:
 class CurrentContact:
     """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m].
 
-    The hats belong to places of the undeformed body and move with it. Raises ValueError if one
-    sticks out of the surface.
+    The hats belong to places of the undeformed body. Raises ValueError if one sticks out of the
+    surface.
     """
 
     def __init__(
@@ -82,7 +82,7 @@ class CurrentContact:
         self._undeformed = body.nodes
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Terms (see `fem.contact.terms.Contact`) where the surface is now."""
+        """Terms as of `fem.contact.terms.Contact`, on the deformed surface."""
         place = (self._undeformed + displacement).ravel()
         rise, slope, bend = self._roller(self._x @ place)
         gap = self._hats.T @ (self._weight * (self._z @ place + rise))

@@ -1,4 +1,4 @@
-"""What `fem.contact.nonlinear` asks of a body: its response, and where it meets the hats.
+"""A body in `fem.contact.nonlinear`: its response, and its contact with the hats.
 
 Nomenclature: u displacement [m] of a body's n nodes, K stiffness [Pa], p hat pressures [Pa], g the
 body's part of the weighted gap [m^2], phi_i hat functions, B nodal forces of unit hats [m]
@@ -16,10 +16,10 @@ from fem.body.surface import Surface
 
 
 class Response(Protocol):
-    """A body's forces against displacements of its n nodes, with its history if it has one.
+    """A body's forces against displacements of its n nodes; it may depend on its history.
 
-    held        (n, 2) whether the support holds a component; those are left at rest
-    symmetric   whether the tangent is
+    held        (n, 2) whether the support holds a component
+    symmetric   whether the tangent is symmetric
     """
 
     held: np.ndarray
@@ -28,13 +28,13 @@ class Response(Protocol):
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal nodal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa] from the accepted state.
 
-        Rows of held components are not looked at. Raises FemError where the body cannot follow,
-        as when an element is turned over; a shorter step is then tried.
+        Rows of held components are not used. Raises FemError if the body cannot deform so, for
+        example if an element is inverted; the solver then tries a shorter step.
         """
         ...
 
     def accept(self, displacement: np.ndarray) -> None:
-        """Take the displacement (n, 2) [m] of an increment that is done into the history."""
+        """Add the displacement (n, 2) [m] at the end of an increment to the history."""
         ...
 
 
@@ -51,17 +51,17 @@ class LinearResponse:
         return (self._matrix @ displacement.ravel()).reshape(-1, 2), self._matrix
 
     def accept(self, displacement: np.ndarray) -> None:
-        """Nothing: it has no history."""
+        """No history."""
 
 
 @dataclass(frozen=True)
 class ContactTerms:
     """One body's part of the contact at a displacement and a pressure.
 
-    gap        (count,) [m^2] integral phi_i (opening) dx that this body adds, approach left out
+    gap        (count,) [m^2] integral phi_i (opening) dx due to this body, without the approach
     gradient   (2n, count) [m] its derivative with respect to u
-    force      (2n, count) [m] nodal forces of unit hats; `gradient` itself without friction
-    stiffness  (2n, 2n) [Pa] derivative of force @ pressure with respect to u; None: none
+    force      (2n, count) [m] nodal forces of unit hats; `gradient` without friction
+    stiffness  (2n, 2n) [Pa] derivative of force @ pressure with respect to u; None: zero
     """
 
     gap: np.ndarray
@@ -71,7 +71,7 @@ class ContactTerms:
 
 
 class Contact(Protocol):
-    """Where a body meets the grid of hats. `frictionless`: force and gradient are the same."""
+    """A body's contact with the grid of hats. `frictionless`: force and gradient are the same."""
 
     frictionless: bool
 
@@ -81,7 +81,7 @@ class Contact(Protocol):
 
 
 class LinearContact:
-    """Contact at the undeformed place: gap B'u, forces B p + friction T p, both fixed.
+    """Contact on the undeformed surface: gap B'u, forces B p + friction T p.
 
     `normal` B and `tangential` T (2k, count) are the `hat_forces` on the k nodes of `surface`,
     `count` the number n of the body's nodes.
@@ -104,7 +104,7 @@ class LinearContact:
             self._force = self._gradient + friction * on_all_nodes(count, surface, tangential)
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Terms (see `Contact`); only the gap depends on the displacement."""
+        """Terms as of `Contact`; only the gap depends on the displacement."""
         gap = self._gradient.T @ displacement.ravel()
         return ContactTerms(gap, self._gradient, self._force)
 

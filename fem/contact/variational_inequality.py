@@ -1,7 +1,7 @@
 """The contact problem as one system, solved by PETSc's variational-inequality solver.
 
-A second road to the pressure: it shares the mesh, the stiffness and the nodal forces of the hats
-with `fem.compliance.operator`, but neither an operator nor a contact solver of the project.
+An independent solver: it shares the mesh, the stiffness and the nodal forces of the hats with
+`fem.compliance.operator`, but no operator and no contact solver of the project.
 
     K_b u_b - B_b p           = 0    for each body b
     G - w d + sum_b B_b' u_b >= 0,  0 <= p <= H,  complementary
@@ -25,9 +25,9 @@ from fem.solver.mumps import ORDERING, SPARE_ROOM, FemError
 
 PREFIX = "crosscheck_inequality_"
 
-# Norm of what is left of the equations, forces in units of mean pressure times pitch and lengths
-# of the displacement that goes with them. The method ends in a finite number of steps: before the
-# last one 1e-3 and more is left, after it round-off, 1e-10.
+# Norm of the residual, forces in units of mean pressure times pitch and lengths in units of the
+# corresponding displacement. The method ends in a finite number of steps: the residual is above
+# 1e-3 before the last one and 1e-10, rounding, after it.
 RESIDUAL = 1e-8
 MOST_ITERATIONS = 200
 
@@ -84,7 +84,7 @@ def solve_variational_inequality(
     lower.array[pressures] = 0.0
     if np.isfinite(hardness):
         upper.array[pressures] = hardness / pressure_unit
-    # Pressed everywhere: with no pressure free the approach would be undetermined.
+    # Contact everywhere: without any the approach would be undetermined.
     x.array[pressures] = 1.0
 
     def residual(snes, at, result) -> None:
@@ -121,10 +121,10 @@ def solve_variational_inequality(
 def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: float) -> csr_matrix:
     """Matrix of the whole system in (u_1, ..., p, d), all of them of order one.
 
-    `softness` (bodies,) is each body's part of the compliance, and its displacement is in units
-    of what its own modulus gives. From the gap B'(K u - B p) is subtracted, which is nothing at
-    the solution: where a Newton step's negative pressure was set to zero the gap is round-off
-    without it and of random sign, with it positive, so that the contact is given up there.
+    `softness` (bodies,) is each body's part of the compliance, in which its displacement is scaled.
+    B'(K u - B p), zero at the solution, is subtracted from the gap: where a Newton step set a
+    negative pressure to zero, the gap would otherwise be rounding of either sign; so it is positive
+    and the hat leaves the contact.
     """
     size = len(bodies) + 2
     rows = [[None] * size for _ in range(size)]

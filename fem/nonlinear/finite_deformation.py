@@ -1,14 +1,13 @@
-"""A body pressed by a rigid roller with nothing linearised: finite strains, current normals.
+"""A body pressed by a rigid roller without linearisation: finite strains, current normals.
 
-What it is made of can be exchanged, so that what the linear theory leaves out can be told apart:
-a linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
-(`fem.nonlinear.hyperelastic.NeoHookeanBody`), contact at the undeformed place
-(`fem.contact.terms.LinearContact`) or where the surface is now
+Response and kinematics can be exchanged, to separate the effects that the linear theory neglects: a
+linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
+(`fem.nonlinear.hyperelastic.NeoHookeanBody`), contact on the undeformed surface
+(`fem.contact.terms.LinearContact`) or on the deformed one
 (`fem.contact.rigid_roller.CurrentContact`).
 
-An elastic roller is not offered: its surface would have to be searched for where the body's meets
-it, and to take its small displacement at the undeformed place instead would leave out as much as
-is looked for.
+Elastic rollers are not modelled: linearising their displacement would neglect as much as the other
+terms add.
 """
 
 from dataclasses import dataclass
@@ -33,11 +32,7 @@ from fem.stress.surface_load import SurfaceLoad
 
 @dataclass(frozen=True)
 class FiniteDeformation:
-    """A body in contact with a rigid roller, deformed as far as it is.
-
-    body, hats, roller, friction   as given
-    solution   pressure, displacement, approach, load, mean gaps, residuals, increments
-    """
+    """A body in contact with a rigid roller, in its deformed state."""
 
     body: ElasticBody
     hats: np.ndarray
@@ -67,7 +62,7 @@ class FiniteDeformation:
 
     @cached_property
     def place(self) -> np.ndarray:
-        """x (count,) [m] to which the hats' nodes have come."""
+        """Deformed x (count,) [m] of the hats' nodes."""
         at = self.hats[1:-1]
         return at + np.interp(at, self.body.top.x, self._moved[:, 0])
 
@@ -78,9 +73,9 @@ class FiniteDeformation:
 
     @cached_property
     def stress(self) -> NodalStress:
-        """Cauchy's stresses at the mesh points, which are now at `deformed_points`.
+        """Cauchy's stresses at the deformed mesh points.
 
-        The stress across the plane is lambda ln J / J, and nu (sx + sz) for small strains only.
+        The stress across the plane is `stress_across`, nu (sx + sz) for small strains only.
         """
 
         def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -96,11 +91,6 @@ class FiniteDeformation:
     def stress_across(self) -> np.ndarray:
         """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
         return nodal_stress_across(self.body, self.displacement)
-
-    @cached_property
-    def deformed_points(self) -> np.ndarray:
-        """(k, 2) [m] where the mesh points are now."""
-        return self.body.points + self.body.at_points(self.displacement)
 
     @cached_property
     def _moved(self) -> np.ndarray:
@@ -124,17 +114,16 @@ def press_finitely(
 ) -> FiniteDeformation:
     """Press a body of neo-Hookean material by a rigid roller whose lowest point is at x = 0.
 
-    body       shape, support and elastic constants; `geometry` means its real boundary
     hats       (count + 2,) [m] nodes of the pressure on the undeformed surface, with outer feet
-    roller     its true shape: `fem.contact.rigid_roller.circle(radius)`
-    start      (count,) [Pa] the linear pressure under the load wanted: Newton's method starts there
+    roller     its shape, `fem.contact.rigid_roller.circle(radius)`
+    start      (count,) [Pa] linear pressure under the same load, from which Newton's method starts
     load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
                z = 0, positive into the body
-    friction   q = friction p along the roller's tangent, fully coupled; towards +x
+    friction   q = friction p along the roller's tangent, towards +x
     hardness   H [Pa], cap on `pressure`
 
-    Raises FemError where it does not converge, on more than one process and with a coating,
-    ValueError for a load that cannot be borne.
+    Raises FemError if it does not converge, and on more than one process; ValueError for a load
+    that the hats cannot bear.
     """
     bodies = [(NeoHookeanBody(body), CurrentContact(body, hats, roller, friction))]
     solution = press(bodies, body, hats, start, load, approach, friction, hardness)
@@ -154,8 +143,7 @@ def press(
 ) -> NonlinearSolution:
     """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
 
-    `gap` (count,) [m^2] is what the kinematics leaves out, for contact at the undeformed place
-    the initial gap.
+    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only.
     """
     weights = 0.5 * (hats[2:] - hats[:-2])
     moved = FiniteElementCompliance(body, hats).displacement(start, friction)

@@ -1,13 +1,13 @@
-"""A body of compressible neo-Hookean material in plane strain: finite strains and rotations.
+"""A body of compressible neo-Hookean material in plane strain, at finite strains and rotations.
 
     W = mu/2 (tr(F'F) - 2) - mu ln J + lambda/2 (ln J)^2,   sigma = mu/J (FF' - I) + lambda ln J/J I
 
-In the limit of small strains it is the linear body of the same Young's modulus and Poisson's ratio
-(Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27).
-What lies beyond that limit is the law's own: with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2
-as the last term the peak under a flat on a sinusoid (slope 0.025, p0/E = 0.015) differs from the
-linear one by 0.29 and 0.22 % where this law gives 0.42 %. The bulk modulus grows with the pressure
-by 0.4 and -0.3 times it, here by 1.8 times (nu = 0.3); steel's by about five times.
+For small strains it is the linear body of the same Young's modulus and Poisson's ratio (Bonet and
+Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27). Other laws of
+the same limit differ: with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2 as the last term the
+peak pressure under a flat on a sinusoid (slope 0.025, p0/E = 0.015) is 0.29 and 0.22 % above the
+linear one, here 0.42 %. The bulk modulus rises by 0.4 and -0.3 times the pressure, here by 1.8
+times (nu = 0.3), that of steel by about five times.
 
 Nomenclature: u displacement [m], F = I + grad u, J = det F, W energy [J/m^3], mu and lambda Lame's
 constants [Pa], sigma Cauchy's stress [Pa].
@@ -30,9 +30,9 @@ from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 
 class NeoHookeanBody:
-    """The response of `body`, of its shape, support and elastic constants, at finite strains.
+    """The response of `body` at finite strains.
 
-    On one process: raises FemError otherwise.
+    Raises FemError on more than one process.
     """
 
     symmetric = True
@@ -48,14 +48,15 @@ class NeoHookeanBody:
         space = body.space
         cell = compat.input_cells(space.mesh)
         mu, lame = (
-            compat.cell_values(space.mesh, value[cell] / self._unit) for value in _lame(body)
+            compat.cell_values(space.mesh, value[cell] / self._unit)
+            for value in (body.shear_modulus, body.lame)
         )
         self._moved = fem.Function(space)
         v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
         deformed = ufl.Identity(2) + ufl.grad(self._moved)
         log = ufl.ln(ufl.det(deformed))
         energy = 0.5 * mu * (ufl.inner(deformed, deformed) - 2.0) - mu * log + 0.5 * lame * log**2
-        # the strain is no polynomial even on straight edges: as many points as on curved ones
+        # the stress is no polynomial even on straight edges: as many points as on curved ones
         points = {"quadrature_degree": quadrature_degree(body.degree, True)}
         work = ufl.derivative(energy * ufl.dx(metadata=points), self._moved, v)
         self._work = compiled(lambda: compat.compile_form(work))
@@ -65,20 +66,20 @@ class NeoHookeanBody:
         self._pattern: csr_matrix | None = None
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa]; an energy's, so symmetric.
+        """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric.
 
-        Raises FemError where the displacement turns an element over.
+        Raises FemError if the displacement inverts an element.
         """
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
         force[self._component] = compat.assembled_vector(self._work)
         if not np.isfinite(force).all():
-            raise FemError("an element is turned over")
+            raise FemError("an element is inverted")
         tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))
         return self._unit * force.reshape(-1, 2), self._unit * tangent
 
     def accept(self, displacement: np.ndarray) -> None:
-        """Nothing: the energy depends on the displacement alone."""
+        """No history: the energy depends on the displacement alone."""
 
     def _in_our_order(self, matrix) -> csr_matrix:
         """The matrix (2n, 2n) in the order of the body's own nodes."""
@@ -88,7 +89,7 @@ class NeoHookeanBody:
             row = np.repeat(self._component, np.diff(start))
             place = (row, self._component[column])
             size = (len(self._component),) * 2
-            # where each value goes stays the same: found once, by their numbers
+            # the place of each value is found once, by numbers in place of values
             self._pattern = csr_matrix((np.arange(len(value), dtype=float), place), shape=size)
             self._order = self._pattern.data.astype(np.int64)
         return csr_matrix(
@@ -115,18 +116,16 @@ def nodal_cauchy_stress(
     load: SurfaceLoad,
     pressure: np.ndarray,
 ) -> NodalStress:
-    """Cauchy's stresses [Pa] at the mesh points of a body without a coating.
+    """Cauchy's stresses [Pa] at the deformed mesh points of a body without a coating.
 
-    They belong to where the points are now, points + displacement. To the recovered linear stress
-    of the same displacement is added what Cauchy's differs from it by, small of second order and
-    averaged over the elements around a point. `load` is the linear theory's; `pressure` (t,) [Pa]
-    is what presses on the deformed surface at the points of `body.top`, the load's friction times
-    it the sliding traction. They make the stresses there but for that along the surface.
-    Raises FemError for a coated body.
+    The recovered linear stress of the same displacement, plus its difference from Cauchy's stress,
+    of second order and averaged over the elements around a point. `load` is that of the linear
+    theory. `pressure` (t,) [Pa] on the deformed surface at the points of `body.top` and its sliding
+    traction give the stresses across the surface. Raises FemError for a coated body.
     """
     if body.coated.any():
         raise FemError("stresses at finite deformations are not computed for a coated body")
-    beyond = _averaged(body, _beyond_linear(body, displacement))
+    second_order = _averaged(body, _second_order_stress(body, displacement))
     top = body.top.point
     place = body.points[top] + body.at_points(displacement)[top]
     along = along_surface(body.top.x, place)
@@ -134,12 +133,12 @@ def nodal_cauchy_stress(
     def on_surface(stress: np.ndarray) -> np.ndarray:
         return _surface_stress(stress[top], along, pressure, load.friction)
 
-    unaware = recovered_stress(body, displacement) + beyond
-    linear = on_surface(unaware) - beyond[top]
+    without_load = recovered_stress(body, displacement) + second_order
+    linear = on_surface(without_load) - second_order[top]
     matched = _MatchedLoad(
         load.body, load.hats, load.pressure, load.friction, load.direction, linear
     )
-    stress = recovered_stress(body, displacement, matched) + beyond
+    stress = recovered_stress(body, displacement, matched) + second_order
     stress[top] = on_surface(stress)
     nodal = at_mesh_points(body, StressState(*stress.T))
     return replace(nodal, kinks=matched.kinks)
@@ -150,14 +149,13 @@ def nodal_stress_across(body: ElasticBody, displacement: np.ndarray) -> np.ndarr
     at = reference_nodes(2)
     gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
     volume = np.linalg.det(np.eye(2) + gradient)
-    _, lame = _lame(body)
-    return _averaged(body, (lame[:, None] * np.log(volume) / volume)[..., None])[:, 0]
+    return _averaged(body, (body.lame[:, None] * np.log(volume) / volume)[..., None])[:, 0]
 
 
 @dataclass(frozen=True)
 class _MatchedLoad(SurfaceLoad):
-    """A load as the linear stress of a finite displacement has it, whose tractions on the
-    undeformed surface are not those that act: `known` (t, 3) sx, sz, txz at the top's points."""
+    """A load whose tractions on the undeformed surface are those of the linear stress of a finite
+    displacement: `known` (t, 3) sx, sz, txz at the top's points."""
 
     known: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
 
@@ -168,17 +166,11 @@ class _MatchedLoad(SurfaceLoad):
         return s_nn, s_nt
 
 
-def _lame(body: ElasticBody) -> tuple[np.ndarray, np.ndarray]:
-    """mu and lambda (m,) [Pa] of each triangle."""
-    mu, nu = body.shear_modulus, body.poissons_ratio
-    return mu, 2.0 * mu * nu / (1.0 - 2.0 * nu)
-
-
-def _beyond_linear(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Cauchy's less the linear stress (m, 6, 3) [Pa] at the six points of each element."""
+def _second_order_stress(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
+    """Cauchy's minus the linear stress (m, 6, 3) [Pa] at the six points of each element."""
     at = reference_nodes(2)
     gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
-    mu, lame = (value[:, None] for value in _lame(body))
+    mu, lame = body.shear_modulus[:, None], body.lame[:, None]
     return cauchy_stress(gradient, mu, lame) - element_stress(body, displacement, at)
 
 
@@ -195,7 +187,8 @@ def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
 def _surface_stress(
     stress: np.ndarray, along: np.ndarray, pressure: np.ndarray, friction: float
 ) -> np.ndarray:
-    """sx, sz, txz (t, 3) at the surface with tangents `along` (t, 2): s_tt of `stress` (t, 3)."""
+    """sx, sz, txz (t, 3) at the surface: s_tt of `stress` (t, 3) along the tangents `along` (t, 2),
+    the rest from the tractions."""
     t = along / np.linalg.norm(along, axis=1)[:, None]
     s_tt, _, _ = to_surface(t, stress)
     return from_surface(t, s_tt, -pressure, friction * pressure)
@@ -204,8 +197,8 @@ def _surface_stress(
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:
     """d value / dx (t, c) of `value` (t, c) at points x (t,) of quadratic edges, a vertex first.
 
-    At midpoints the chord's slope, more accurate than the quadratic's own at its ends; at vertices
-    the line through the slopes of the two nearest midpoints.
+    At midpoints the chord's slope, more accurate than the quadratic's slope at its ends; at
+    vertices the line through the slopes at the two nearest midpoints.
     """
     vertex, middle = x[::2], 0.5 * (x[:-2:2] + x[2::2])
     chord = np.diff(value[::2], axis=0) / np.diff(vertex)[:, None]

@@ -1,36 +1,28 @@
-"""Flow of von Mises with linear isotropic hardening, in plane strain, at many points at once.
+"""Plasticity of von Mises with linear isotropic hardening, in plane strain, and a body with it.
 
-The stress at the end of a step is the elastic one brought back to the yield surface along its
-own deviator; with linear hardening that is one division (Simo and Hughes 1998, Computational
-Inelasticity, box 3.2). What the tangent of this map loses against the elastic one is the
-consistent tangent of the same source, and what makes Newton's method quadratic.
+Return mapping: the elastic predictor of the stress is projected onto the yield surface along its
+deviator, in closed form for linear hardening (Simo and Hughes 1998, Computational Inelasticity, box
+3.2, with the consistent tangent, which makes Newton's method quadratic).
+
+    f(u) = K u - sum_q w_q B_q' 2 G ep_q        K_t(u) = K - sum_q w_q B_q' (C - C_ep) B_q
+
+dolfinx assembles the elastic stiffness K; numpy adds the plastic terms at three points to an
+element, where there is flow. dolfinx with quadrature functions gives the same force and tangent to
+rounding (a test compares them), but its interfaces for them differ between releases, and it takes
+1.4 us an unknown at each step instead of 0.6 where a sixth of the points flow and 1.4 where half of
+them do (a factorisation: 6).
+
+Three points an element are as many isochoric conditions as a quadratic triangle can fulfil: the
+limit load of a flat punch is right.
 
 Nomenclature
     e, g       strains exx, ezz and gxz = 2 exz; eyy = 0
     ep, k      plastic strain and equivalent plastic strain, sum of sqrt(2/3 dep:dep)
-    s, q       deviator of stress, and sqrt(3/2 s:s), the equivalent stress
-    Y, H       yield stress in tension [Pa]; its rise with k [Pa]
-    G, dk      shear modulus [Pa]; rise of k in the step, (q - Y - H k) / (3 G + H)
-
-An elastic-plastic body: the elastic one, less what plastic flow takes from its stresses.
-
-    f(u) = K u - sum_q w_q B_q' 2 G ep_q        K_t(u) = K - sum_q w_q B_q' lost_q B_q
-
-The stiffness K is the elastic body's own, assembled by dolfinx. What flows is added at three
-points to an element, by numpy and for all points at once, and only where there is flow: mostly a
-few elements below the contact. The same sums can be had of dolfinx with stresses and tangents in
-quadrature functions, and both roads give the same force and tangent to rounding (a test holds
-them to it). Theirs takes 1.4 us an unknown at each step, more than half of it to bring the matrix
-into our numbering; ours 0.6 where a sixth of the points flow and 1.4 where half of them do, beside
-6 for a factorisation. It was left aside because each release of dolfinx names quadrature elements
-and evaluates expressions in its own way.
-
-Three points are as many conditions on the volume as a quadratic triangle can fulfil in flow that
-keeps it: the limit load of a flat punch comes out right, and does not grow without end.
-
-Nomenclature: u displacement [m], B strain of the shape functions [1/m], w area that belongs to a
-quadrature point [m^2], G shear modulus [Pa], ep plastic strain, lost elastic less consistent
-tangent [Pa] (`fem.nonlinear.plasticity`).
+    s, q       deviator of stress, and sqrt(3/2 s:s), the equivalent stress [Pa]
+    Y, H       yield stress in tension [Pa]; its derivative by k [Pa]
+    G, dk      shear modulus [Pa]; increment of k, (q - Y - H k) / (3 G + H)
+    C, C_ep    elastic and consistent tangent [Pa]
+    u, B, w    displacement [m], strains of the shape functions [1/m], area of a point [m^2]
 """
 
 from dataclasses import dataclass
@@ -42,17 +34,18 @@ from analytic.material import Material
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import GAUSS, jacobians, shapes, slopes
 
-# Of the deviator's map from (exx, ezz, gxz) to (exx', ezz', exz).
+# Maps (exx, ezz, gxz) to the deviator (exx', ezz', exz).
 DEVIATOR = np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 1.5]]) / 3.0
+# Weight of each of the three points on the reference triangle, whose area is 1/2.
+GAUSS_WEIGHT = 1.0 / 6.0
 
 
 @dataclass(frozen=True)
 class ElasticPlastic:
     """A metal: `elastic` until its equivalent stress reaches `yield_stress` [Pa] > 0.
 
-    hardening_modulus   rise of the yield stress with the equivalent plastic strain [Pa] >= 0. A
-                        bar in tension then has the slope E H / (E + H); with 0 it flows at the
-                        yield stress without end
+    hardening_modulus   derivative of the yield stress by the equivalent plastic strain [Pa] >= 0;
+                        a bar in tension has the tangent modulus E H / (E + H)
     """
 
     elastic: Material
@@ -70,10 +63,10 @@ class ElasticPlastic:
 
 @dataclass(frozen=True)
 class PlasticState:
-    """What a metal remembers at k points.
+    """Internal variables of a metal at k points.
 
     strain       (k, 3) plastic exx, ezz, exz; eyy is minus the sum of the first two
-    equivalent   (k,) equivalent plastic strain, never falling
+    equivalent   (k,) equivalent plastic strain
     """
 
     strain: np.ndarray
@@ -85,22 +78,22 @@ class PlasticState:
 
 
 @dataclass(frozen=True)
-class Flow:
+class PlasticStep:
     """One step at k points, from a state to the next.
 
-    state    at the end
-    yields   (k,) whether the point flowed in this step
-    lost     (points that flow, 3, 3) [Pa] elastic less consistent tangent, of sx, sz, txz by exx,
-             ezz, gxz; symmetric
+    state      at the end
+    yields     (k,) whether the point flows in this step
+    softening  (points that flow, 3, 3) [Pa] elastic minus consistent tangent C - C_ep, of sx, sz,
+               txz by exx, ezz, gxz; symmetric
     """
 
     state: PlasticState
     yields: np.ndarray
-    lost: np.ndarray
+    softening: np.ndarray
 
 
-def flow(metal: ElasticPlastic, strain: np.ndarray, before: PlasticState) -> Flow:
-    """Where the strain (k, 3) exx, ezz, gxz leads from the state `before`."""
+def return_mapping(metal: ElasticPlastic, strain: np.ndarray, before: PlasticState) -> PlasticStep:
+    """The step from the state `before` to a strain (k, 3) exx, ezz, gxz."""
     shear, hardening = metal.elastic.shear_modulus, metal.hardening_modulus
     trial = 2.0 * shear * (strain @ DEVIATOR.T - before.strain)
     across = trial[:, 0] + trial[:, 1]
@@ -117,9 +110,9 @@ def flow(metal: ElasticPlastic, strain: np.ndarray, before: PlasticState) -> Flo
     equivalent[yields] += rise
     turned = 6.0 * shear**2 * rise / q
     stiff = 4.0 * shear**2 / (3.0 * shear + hardening)
-    lost = turned[:, None, None] * DEVIATOR
-    lost += (stiff - 2.0 / 3.0 * turned)[:, None, None] * along[:, :, None] * along[:, None, :]
-    return Flow(PlasticState(plastic, equivalent), yields, lost)
+    softening = turned[:, None, None] * DEVIATOR
+    softening += (stiff - 2.0 / 3.0 * turned)[:, None, None] * along[:, :, None] * along[:, None]
+    return PlasticStep(PlasticState(plastic, equivalent), yields, softening)
 
 
 def stress(
@@ -134,17 +127,12 @@ def stress(
     return deviator + np.outer(mean, [1.0, 1.0, 0.0]), across
 
 
-# Weight of each of the three points on the reference triangle, whose area is 1/2.
-GAUSS_WEIGHT = 1.0 / 6.0
-
-
 class PlasticBody:
-    """`body` made of a metal that is elastic as the body is, and its plastic state.
+    """`body` of an elastic-plastic metal with the body's elastic constants, and its plastic state.
 
-    metal   what it is made of
     held    (n, 2) components that the support holds
-    points  (3m, 2) [m] where the metal's state is known, three points of each element in turn
-    areas   (m, 3) [m^2] that belong to these points
+    points  (3m, 2) [m] quadrature points, three of each element in turn
+    areas   (m, 3) [m^2] of these points
     state   of the metal there at the end of the last accepted step
 
     Raises ValueError if the metal's elastic constants are not the body's, or if displacements are
@@ -174,26 +162,25 @@ class PlasticBody:
         slope = (nodal.transpose(0, 2, 1)[:, None] @ self._slopes).reshape(-1, 2, 2)
         return np.column_stack([slope[:, 0, 0], slope[:, 1, 1], slope[:, 0, 1] + slope[:, 1, 0]])
 
-    def flow(self, displacement: np.ndarray) -> Flow:
+    def step(self, displacement: np.ndarray) -> PlasticStep:
         """The step from the accepted state to a displacement (n, 2) [m]."""
-        return flow(self.metal, self.strain(displacement), self.state)
+        return return_mapping(self.metal, self.strain(displacement), self.state)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal force (n, 2) [N/m] and its derivative (2n, 2n) [Pa] at a displacement (n, 2).
 
-        The step leads from the accepted state. Force of held components is as if of springs of
-        the stiffness E, so that they stay where they are: rows and columns as in
+        For the step from the accepted state. Rows and columns of held components are as in
         `ElasticBody.stiffness`.
         """
-        step = self.flow(displacement)
+        step = self.step(displacement)
         force = self._stiffness @ displacement.ravel()
         plastic = 2.0 * self.metal.elastic.shear_modulus * step.state.strain
         plastic = np.where(self.held, 0.0, self.force_of(plastic))
-        return force.reshape(-1, 2) - plastic, self._stiffness - self._lost(step)
+        return force.reshape(-1, 2) - plastic, self._stiffness - self._softening(step)
 
     def accept(self, displacement: np.ndarray) -> None:
-        """Make the end of the step to a displacement (n, 2) [m] the state from now on."""
-        self.state = self.flow(displacement).state
+        """Make the end of the step to a displacement (n, 2) [m] the accepted state."""
+        self.state = self.step(displacement).state
 
     def stress(
         self, displacement: np.ndarray, state: PlasticState
@@ -202,10 +189,7 @@ class PlasticBody:
         return stress(self.metal, self.strain(displacement), state)
 
     def force_of(self, stress: np.ndarray) -> np.ndarray:
-        """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa].
-
-        On held components what the support bears, on the surface's the load.
-        """
+        """Nodal forces (n, 2) [N/m] in balance with sx, sz, txz (3m, 3) [Pa]."""
         element = np.flatnonzero(stress.any(axis=1).reshape(-1, 3).any(axis=1))
         s = stress.reshape(-1, 3, 3)[element] * self.areas[element][..., None]
         tensor = s[..., [[0, 2], [2, 1]]]
@@ -214,13 +198,13 @@ class PlasticBody:
         np.add.at(force, self.body.elements[element], nodal)
         return force
 
-    def _lost(self, step: Flow) -> csr_matrix:
-        """What the stiffness loses by flow (2n, 2n) [Pa], nothing on held components."""
+    def _softening(self, step: PlasticStep) -> csr_matrix:
+        """Elastic minus consistent tangent (2n, 2n) [Pa], zero on held components."""
         yields = step.yields.reshape(-1, 3)
         element = np.flatnonzero(yields.any(axis=1))
-        lost = np.zeros((len(element), 3, 3, 3))
-        lost[yields[element]] = step.lost
-        lost *= self.areas[element][..., None, None]
+        softening = np.zeros((len(element), 3, 3, 3))
+        softening[yields[element]] = step.softening
+        softening *= self.areas[element][..., None, None]
         slope = self._slopes[element]
         strain = np.zeros((len(element), 3, 3, 6, 2))
         strain[:, :, 0, :, 0] = strain[:, :, 2, :, 1] = slope[..., 0]
@@ -228,7 +212,7 @@ class PlasticBody:
         strain = strain.reshape(-1, 3, 3, 12)
         free = ~self.held[self.body.elements[element]].reshape(-1, 1, 1, 12)
         strain *= free
-        rows = (lost @ strain).reshape(-1, 9, 12)
+        rows = (softening @ strain).reshape(-1, 9, 12)
         block = strain.reshape(-1, 9, 12).transpose(0, 2, 1) @ rows
         component = 2 * self.body.elements[element][:, :, None] + np.arange(2)
         component = component.reshape(-1, 12)

@@ -1,35 +1,30 @@
-"""Newton's method for the contact of a body that flows, each step a whole linear contact.
+"""A roller pressed on an elastic-plastic body, released, and pressed again.
 
-    F(u_k) + K_t (u - u_k) - T p = 0   with   g >= 0, p >= 0, complementary, w'p = P
+Each load is reached in increments from the body's last state. The contact is on the undeformed
+surface, as in the linear theory; the roller is rigid or elastic. Under a load of zero the body has
+its residual stresses only.
 
-is solved to its end by `fem.contact.nonlinear`, hats that touch and that open included; then part
-of the way there is gone. Hats and flow in one go, one exchange to one Newton step, lead astray:
-tension on hats that should have opened makes a body flow that would not have.
+Each increment is solved by Newton's method for the body,
 
-Without friction the states of equilibrium are those of least energy, over displacements that leave
-no overlap, and the energy of a step is convex. Along the way to the linear contact its slope
+    F(u_k) + K_t (u - u_k) - T p = 0   with   g >= 0, p >= 0, complementary, w'p = P,
+
+where `fem.contact.nonlinear` solves the whole linear contact, with its active set. (With one change
+of the active set for each Newton step, tension on hats that should open makes the body flow.) Then
+a line search: without friction the equilibrium minimises a convex energy, whose slope on the way to
+the linear contact,
 
     s(t) = F(u_k + t du)'du - P dd,   du = u - u_k,   dd the change of the approach,
 
-rises from a negative value. Where it is far above zero at the end, its zero is looked for. With
-friction, which is no gradient, the slope counts the tractions' work too.
+rises from a negative value. If it is far above zero at the end, the step goes to its zero. With
+friction the slope includes the work of the tractions.
+
+Fields at a mesh point are area-weighted means of the linear fields through the three points of each
+element around it. Patches of higher degree (`fem.stress.recovery`) would overshoot at the kinks on
+the boundary of the plastic zone.
 
 Nomenclature: u displacement [m], p hat pressures [Pa], F internal nodal forces [N/m], K_t tangent
 [Pa], T nodal forces of unit hats [m], g weighted gap [m^2], w weights [m], P load [N/m],
 d approach [m].
-
-A roller pressed on an elastic-plastic body, let go, and pressed again.
-
-Each load is reached in increments on the body's own history. The body meets the hats where it was
-undeformed, as in the linear theory; the roller is rigid or stays elastic. Under a load of zero the
-roller is gone and the body left with its residual stresses.
-
-Stress and plastic strain of a pressed metal at the mesh's points.
-
-Known is either at three points of each element, which make a linear field there; a mesh point has
-the mean of what the elements around it say, by area. Patches of higher degree, as for elastic
-stresses (`fem.stress.recovery`), would overshoot at the edge of the plastic zone, where both have
-kinks.
 """
 
 from collections.abc import Sequence
@@ -47,16 +42,34 @@ from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
 
-# Forces out of balance over the contact's forces.
+# Residual forces over the contact's forces.
 RESIDUAL = 1e-9
 MOST_LINEAR_CONTACTS = 40
-# A step is short enough where the energy's slope at its end is below this part of the first one.
+# The line search ends where the energy's slope is below this part of the first one.
 SLACK = 0.5
 MOST_TRIALS = 12
 
+# Equal increments from one load to the next. A smooth roller pressed to five times the load of
+# first yield: peak pressure 1.6 % high with 8, 0.8 % with 16, 0.4 % with 32; approach 0.1 % with
+# 16.
+INCREMENTS = 16
 
-class _Tangent:
-    """A body's response as it is near a displacement: affine, without history."""
+# Part of the largest load from which the roller is removed, and at which it touches again. Below it
+# rounding of the residual stresses would show.
+LAST_TOUCH = 0.01
+
+# Residual forces of the released body over the largest nodal force of its stresses.
+BALANCE = 1e-10
+MOST_RELEASE_STEPS = 30
+
+# Values at the six nodes from those at the three points, linear.
+EXTRAPOLATION = np.column_stack([np.ones(6), reference_nodes(2)]) @ np.linalg.inv(
+    np.column_stack([np.ones(3), GAUSS])
+)
+
+
+class _LinearisedBody:
+    """A body's response linearised at a displacement, without history."""
 
     def __init__(self, body: Response, displacement: np.ndarray) -> None:
         self.held, self.symmetric = body.held, body.symmetric
@@ -68,7 +81,7 @@ class _Tangent:
         return self.force + (self.matrix @ move).reshape(-1, 2), self.matrix
 
     def accept(self, displacement: np.ndarray) -> None:
-        """Nothing: it has no history."""
+        """No history."""
 
 
 def newton_by_contacts(
@@ -79,18 +92,18 @@ def newton_by_contacts(
     load: float | None = None,
     approach: float | None = None,
 ) -> tuple[ContactState, list[float]]:
-    """State of equilibrium, and the residuals (see RESIDUAL) on the way.
+    """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals.
 
-    Under a `load` P [N/m] > 0, or at an `approach` d [m], which still leads on where a load is
-    next to what the body can bear. The bodies' histories are left as they are: `accept` is the
-    caller's. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does not
-    converge.
+    The approach works near the limit load too. The caller accepts the displacements into the
+    bodies' histories. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does
+    not converge.
     """
     state, history = start, []
     free = [~body.held for body, _ in bodies]
     while len(history) < MOST_LINEAR_CONTACTS:
         tangents = [
-            _Tangent(body, u) for (body, _), u in zip(bodies, state.displacements, strict=True)
+            _LinearisedBody(body, u)
+            for (body, _), u in zip(bodies, state.displacements, strict=True)
         ]
         linear = [(near, contact) for near, (_, contact) in zip(tangents, bodies, strict=True)]
         goal = solve_nonlinear_contact(linear, gap, weights, state, load, approach).state
@@ -119,9 +132,9 @@ def _length(
     state: ContactState,
     moves: Sequence[np.ndarray],
     applied: Sequence[np.ndarray],
-    tangents: Sequence[_Tangent],
+    tangents: Sequence[_LinearisedBody],
 ) -> tuple[float, list[np.ndarray]]:
-    """Part of the step that is to be gone, and the bodies' forces at its end."""
+    """Line search: part of the step to take, and the bodies' forces at its end."""
 
     def slope(forces: Sequence[np.ndarray]) -> float:
         pairs = zip(forces, applied, moves, strict=True)
@@ -154,30 +167,16 @@ def _length(
     return part, forces
 
 
-# Equal parts of the way from one load to the next. A smooth roller pressed to five times the load
-# of first flow: peak pressure 1.6 % high with 8, 0.8 % with 16, 0.4 % with 32; approach 0.1 % with
-# 16.
-INCREMENTS = 16
-
-# Part of the largest load at which the roller is let go: contact is followed down to there, and
-# taken up again from there. Below it rounding of the residual stresses would show.
-LAST_TOUCH = 0.01
-
-# Forces out of balance in the released body, of the largest force that its stresses exert anywhere.
-BALANCE = 1e-10
-MOST_RELEASE_STEPS = 30
-
-
 @dataclass(frozen=True)
 class PlasticContact:
-    """One load of the history, in equilibrium to `fem.nonlinear.press_plastic.RESIDUAL`.
+    """Equilibrium under one load of the history.
 
-    load           P [N/m]; 0: the roller is gone
+    load           P [N/m]; 0: the roller is removed
     pressure       (count,) [Pa]
-    approach       d [m]; where the roller is gone that of the last touch
+    approach       d [m]; without the roller that of the last contact
     displacement   (n, 2) [m] of the body's nodes
     state          of the metal at the body's 3m points
-    iterations     linear contacts that were solved on the way from the load before
+    iterations     linear contacts solved since the load before
     """
 
     load: float
@@ -199,25 +198,24 @@ def press_plastically(
     roller: FiniteElementCompliance | None = None,
     increments: int = INCREMENTS,
 ) -> tuple[PlasticBody, tuple[PlasticContact, ...]]:
-    """The body at the end, and the contact under each of the loads, one after another.
+    """The body at the end, and the contact under each of the loads in turn.
 
-    pressed     the body on the hats, its material the metal's elastic one
+    pressed     the body on the hats; its material is the metal's elastic one
     gap         G (count,) [m^2], integral of hat times initial gap
     weights     w (count,) [m], integrals of the hats
-    loads       P [N/m] in turn, the first positive; 0 lets the roller go
-    guess       pressure (count,) [Pa] whose support is near that under the first load: the elastic
-                body's own
+    loads       P [N/m], the first positive; 0 removes the roller
+    guess       pressure (count,) [Pa] of the elastic body under the first load
     friction    of the traction friction * pressure, towards +x on the body
-    roller      the elastic roller's body on the same hats; None: rigid. May be `pressed` itself
+    roller      the elastic roller's body on the same hats, may be `pressed`; None: rigid
 
-    Raises ValueError for loads that cannot be borne, FemError where a load cannot be reached.
+    Raises ValueError for negative loads, FemError if a load cannot be reached.
     """
     if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
         raise ValueError("the first load must be positive, and none negative")
     body = PlasticBody(pressed.body, metal)
     bodies: list[tuple[Response, Contact]] = [(body, _contact(pressed, friction))]
     if roller is not None:
-        # its own z points away from the body, and on it the traction acts towards -x
+        # its z points away from the body; on it the traction acts towards -x
         bodies.append((LinearResponse(roller.body), _contact(roller, -friction)))
 
     state, history = state_at_rest(bodies, guess), []
@@ -234,7 +232,7 @@ def press_plastically(
         pressure = state.pressure
         if load == 0.0:
             pressure = np.zeros_like(pressure)
-            free = _let_go(body, state.displacements[0])
+            free = _released(body, state.displacements[0])
             state = replace(state, displacements=(free, *state.displacements[1:]))
         displacement = state.displacements[0]
         history.append(
@@ -249,8 +247,8 @@ def _contact(compliance: FiniteElementCompliance, friction: float) -> LinearCont
     return LinearContact(len(body.nodes), body.surface, compliance.normal, friction, tangential)
 
 
-def _let_go(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Displacement with no force on the body, which takes it into its history."""
+def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
+    """Displacement (n, 2) of the body without load, accepted into its history."""
     free = np.flatnonzero(~body.held.ravel())
     scale = np.abs(body.force_of(body.stress(displacement, body.state)[0])).max()
     for _ in range(MOST_RELEASE_STEPS):
@@ -262,22 +260,16 @@ def _let_go(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
         move = np.zeros(displacement.size)
         move[free] = solve_once(tangent[free][:, free].tocsr(), -rest, symmetric=True)
         displacement = displacement + move.reshape(-1, 2)
-    raise FemError("the body without its roller did not come to rest")
-
-
-# Values at the six nodes of those at the three points, joined linearly.
-_EXTENDED = np.column_stack([np.ones(6), reference_nodes(2)]) @ np.linalg.inv(
-    np.column_stack([np.ones(3), GAUSS])
-)
+    raise FemError("the equilibrium of the released body did not converge")
 
 
 @dataclass(frozen=True)
 class PlasticFields:
-    """Under one load, or of what is left without one, at the mesh's n points.
+    """Fields at the mesh's n points under one load.
 
     stress               in the plane (n,) [Pa]
-    sy                   across the plane (n,) [Pa]; not nu (sx + sz) where the metal has flowed
-    equivalent_strain    equivalent plastic strain (n,), zero where the metal has not flowed
+    sy                   across the plane (n,) [Pa], nu (sx + sz) only without plastic strain
+    equivalent_strain    equivalent plastic strain (n,)
     """
 
     stress: StressState
@@ -301,7 +293,7 @@ def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
 def _at_points(body: PlasticBody, sampled: np.ndarray) -> np.ndarray:
     """Means (n, k) at the mesh points of values (3m, k) at the elements' three points."""
     elements, areas = body.body.elements, body.areas.sum(axis=1)
-    values = _EXTENDED @ sampled.reshape(len(elements), 3, -1) * areas[:, None, None]
+    values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[:, None, None]
     count = len(body.body.nodes)
     total = np.bincount(elements.ravel(), np.repeat(areas, 6), minlength=count)
     columns = [

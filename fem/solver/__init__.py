@@ -1,1 +1,1 @@
-"""What solves: processes, compiled forms, factorisations by MUMPS."""
+"""Processes, compilation of forms, factorisations by MUMPS."""

@@ -1,4 +1,4 @@
-"""Which processes solve a body together: all that mpirun started, or this one by itself."""
+"""The processes that solve a body together: all that mpirun started, or this one alone."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,20 +12,20 @@ _alone = ContextVar("alone", default=False)
 
 
 def communicator() -> "Comm":
-    """Of the processes that share the next body's matrix."""
+    """Communicator of the processes that share the next body's matrix."""
     from mpi4py import MPI
 
     return MPI.COMM_SELF if _alone.get() else MPI.COMM_WORLD
 
 
 def is_alone() -> bool:
-    """Whether this process works by itself just now, whatever others do."""
+    """Whether this process solves its bodies alone now."""
     return _alone.get()
 
 
 @contextmanager
 def each_alone() -> Iterator[None]:
-    """Inside, this process' bodies are its own; others have theirs, or none."""
+    """Inside, each process solves its own bodies alone."""
     before = _alone.set(True)
     try:
         yield

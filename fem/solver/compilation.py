@@ -1,8 +1,7 @@
-"""Loading dolfinx and compiling its forms such that a stop in between does no lasting harm.
+"""Loading dolfinx and compiling its forms, robust against interrupts.
 
-dolfinx keeps what it has compiled in a folder, for later processes. One that is stopped while it
-compiles leaves a source there without the mark that it is ready, and every later one would wait
-for that mark in vain, then fail.
+dolfinx caches compiled forms in a folder. A process that is stopped while it compiles leaves a
+source there without the mark that it is ready; later processes wait for that mark, then fail.
 """
 
 import importlib
@@ -19,7 +18,7 @@ from fem import compat
 
 Result = TypeVar("Result")
 
-# A form compiles in seconds: a source that old, and still not marked, is nobody's work in progress.
+# A form compiles in seconds: an older source without the mark is left over.
 STALE_SECONDS = 60.0
 # Times that a process waits for the mark (10 s each) before a source has become that old.
 MOST_WAITS = 7
@@ -27,11 +26,10 @@ MOST_WAITS = 7
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Hold Ctrl-C back until the end, from this process and from those that it starts.
+    """Delay Ctrl-C until the end, for this process and those that it starts.
 
-    Compiled modules that are interrupted while they are imported abort the process, or report
-    something else than an interrupt; an interrupted C compiler leaves its work half done.
-    In any thread but the first, where no interrupt arrives, nothing happens.
+    Compiled modules abort the process when their import is interrupted; an interrupted C compiler
+    leaves an incomplete file. Other threads than the first get no interrupt: nothing to do.
     """
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or before is None:
@@ -58,9 +56,9 @@ def load_dolfinx() -> None:
 
 
 def compiled(make: Callable[[], Result]) -> Result:
-    """What `make` returns, which may have forms compiled.
+    """What `make` returns, which may compile forms.
 
-    Raises TimeoutError when another process has been compiling the same for a minute.
+    Raises TimeoutError if another process compiles the same for over a minute.
     """
     from mpi4py import MPI
 
@@ -79,12 +77,12 @@ def compiled(make: Callable[[], Result]) -> Result:
 
 @cache
 def _clear_once(folder: Path) -> None:
-    """`remove_leftovers` at a process' first form: what is left later is met by a timeout first."""
+    """`remove_leftovers` at a process's first form; later leftovers cause a timeout first."""
     remove_leftovers(folder)
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove sources that a process left in `folder` when it was stopped."""
+    """Remove the sources that stopped processes left in `folder`."""
     for source in folder.glob("libffcx_*.c"):
         with suppress(FileNotFoundError):
             age = time.time() - source.stat().st_mtime

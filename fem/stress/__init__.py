@@ -1,1 +1,1 @@
-"""Stresses from displacements: recovery, kinks, maxima, error indicator."""
+"""Stresses from displacements: recovery, error, kinks, maxima."""

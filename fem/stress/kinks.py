@@ -1,11 +1,10 @@
-"""The stress around kinks in a traction, which no polynomial follows.
+"""The exact stress around kinks in a traction, which polynomials cannot follow.
 
-Pressures that are joined linearly have a kink at every node. In the elements around it the stress
-goes like w ln w, whose second derivative has no bound, in every body with a smooth boundary and
-whatever its shape farther away. The fields here have such a kink and no other load nearby:
-what is left of a displacement without them is smooth, and has smooth stresses to recover
-(`fem.stress.recovery`); with them again an element's stresses follow the kinks inside it
-(`fem.stress.stress`). Only the elements around a kink see it: weights fade out with the distance.
+A piecewise-linear pressure has a kink at every node. Near it the stress varies as w ln w, whose
+second derivative is unbounded, in every body with a smooth boundary. The fields here have such a
+kink and no other load nearby. A displacement minus these fields is smooth, so that its stresses can
+be recovered (`fem.stress.recovery`) and interpolated (`fem.stress.stress`). Weights that decrease
+with the distance limit each kink to the elements around it.
 
 Nomenclature
     w            place relative to the kink, along the surface + i times into the body [m]
@@ -31,16 +30,16 @@ import numpy as np
 from analytic.material import Material
 
 # Reach of the weights in root mean square radii of a patch or an element. At 5 the errors in the
-# first layers of elements are within a fifth of those with every kink subtracted everywhere.
+# first layers of elements are within a fifth of those with unlimited reach.
 REACH = 5.0
-PAIRS = 2**17  # of patches and kinks that are summed up at once: they stay in the cache
+PAIRS = 2**17  # of patches and kinks summed at once, within the processor's cache
 
 Field = Callable[[np.ndarray, np.ndarray], list[np.ndarray]]
 
 
 @dataclass(frozen=True)
 class Weights:
-    """Weights of the kinks that n patches see: a run of neighbours each.
+    """Weights of the kinks near n patches, each a run of neighbouring kinks.
 
     first  (n,) number of a patch's first kink; start (n + 1,) where in `value` its weights begin
     """
@@ -51,7 +50,7 @@ class Weights:
 
     @property
     def count(self) -> np.ndarray:
-        """Kinks (n,) that each patch sees."""
+        """Number (n,) of the kinks near each patch."""
         return np.diff(self.start)
 
 
@@ -66,7 +65,7 @@ class Kinks:
     def weights(self, centre: np.ndarray, radius: np.ndarray, seen: np.ndarray) -> Weights:
         """Weights for patches around `centre` (n, 2) [m] of a `radius` (n,) [m].
 
-        `seen` (n,) tells which patches the kinks reach: those of the material at the surface.
+        `seen` (n,) marks the patches that kinks can reach: those of the material at the surface.
         """
         centre, reach = centre[:, 0] + 1j * centre[:, 1], REACH * radius * seen
         below = np.maximum(0.0, centre.imag - self.place.imag.max(initial=-np.inf))
@@ -94,7 +93,7 @@ class Kinks:
         return [moved * self.tangent[kink] / (4.0 * np.pi)]
 
     def _around(self, kink: np.ndarray, where: np.ndarray) -> tuple[np.ndarray, ...]:
-        """w, ln w (0 at the kink) and f; the logarithm's cut points out of the body."""
+        """w, ln w (0 at the kink) and f; the logarithm's branch cut points out of the body."""
         w = (where - self.place[kink]) / self.tangent[kink]
         log, square = np.empty_like(w), w.real**2 + w.imag**2  # thrice as fast as numpy's complex
         log.real = 0.5 * np.log(np.where(square == 0.0, 1.0, square))
@@ -120,7 +119,7 @@ class Kinks:
         point: np.ndarray,
         material: Material,
     ) -> np.ndarray:
-        """u_x, u_z (r, q, 2) [m] of the kinks, weighted as for each `patch`, as in `stress`."""
+        """u_x, u_z (r, q, 2) [m] of the kinks, with arguments as of `stress`."""
 
         def field(kink: np.ndarray, where: np.ndarray) -> list[np.ndarray]:
             return self._displacement(kink, where, material.poissons_ratio)
@@ -132,14 +131,14 @@ class Kinks:
 def _weighted(
     field: Field, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
 ) -> list[np.ndarray]:
-    """Sums (r, q) over the kinks of what a field gives at `place`[point], weighted by patch.
+    """Sums (r, q) over the kinks of the values of a field at `place`[point], weighted by patch.
 
-    The field is computed once for each pair of a place and a kink, for all patches that share it.
+    The field is computed once for each pair of a place and a kink.
     """
     near = np.flatnonzero(weights.count[patch])
     first, count = weights.first[patch[near]], weights.count[patch[near]]
     point, start = point[near], weights.start[patch[near]]
-    # from a place all kinks are asked for from the first to the last that one of its patches sees
+    # range of kinks at each place: those near any of its patches
     low, high = np.full(len(place), np.iinfo(int).max), np.zeros(len(place), dtype=int)
     np.minimum.at(low, point, first[:, None])
     np.maximum.at(high, point, (first + count)[:, None])
@@ -164,13 +163,12 @@ def _weighted(
 
 
 def _parts(count: np.ndarray) -> list[np.ndarray]:
-    """Numbers of runs of a length each (n,), a few neighbours with PAIRS entries at a time."""
+    """Numbers of runs of lengths `count` (n,), in groups of neighbours with about PAIRS entries."""
     several = np.flatnonzero(np.diff(np.cumsum(count) // PAIRS)) + 1
     return np.split(np.arange(len(count)), several)
 
 
 def _runs(count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """For runs of a length each (n,), one after the other: whose each entry is, and its number
-    within."""
+    """Run of each entry, and its number within the run, for runs of lengths `count` (n,)."""
     row = np.repeat(np.arange(len(count)), count)
     return row, np.arange(len(row)) - (np.cumsum(count) - count)[row]

@@ -1,10 +1,9 @@
-"""The largest value of a stress quantity in a body, and where it is.
+"""The largest value of a stress quantity in a body, and its place.
 
-Nodes alone miss a flat maximum by half an element. Elements with a high node are sampled; the
-best of them are sampled finely, and away from the surface, where stresses are smooth, a cubic
-fitted to the stresses of the elements around the best sample gives the place. Hertz's largest
-shear stress at 10 to 80 edges a half-width: value within 1e-3, depth within 6e-3 (the best
-sample: 1.5e-2).
+Nodes alone miss the place of a flat maximum by half an element. Elements with a high node are
+sampled, the best of them finely. Away from the surface, where stresses are smooth, a cubic fitted
+to the stresses around the best sample gives the maximum. Hertz's largest shear stress at 10 to 80
+edges a half-width: value within 1e-3, depth within 6e-3 (the best sample: 1.5e-2).
 """
 
 from collections.abc import Callable
@@ -20,15 +19,14 @@ from fem.stress.stress import NodalStress, within
 Quantity = Callable[[MaterialStress], np.ndarray]
 Window = tuple[float, float, float]
 
-UNSEEN = 0.25  # what may lie between an element's nodes above the highest, of the maximum
+UNSEEN = 0.25  # largest excess over an element's highest node, as a part of the maximum
 COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
 BEST = 16  # elements sampled finely
-# Elements that share the highest sample reach it alike but for rounding, which must not choose
-# the stresses that the cubic goes through: those around all of them. The next sample of an element
-# is lower by about 1e-5.
+# Samples on a point that elements share differ by rounding, which must not choose the elements of
+# the cubic: it uses those around all of them. The next sample is lower by about 1e-5.
 ALIKE = 1e-8
-# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it the stresses are
-# not smooth on the elements' scale, and the sample is the better answer.
+# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it stresses are not
+# smooth on the elements' scale, and the sample is better.
 MISFIT = 0.01
 
 
@@ -115,7 +113,7 @@ def _smooth_maximum(
         return -float(of(_cubic(at[None]) @ fit)[0]) / abs(start.value)
 
     low, high = offset.min(axis=0), offset.max(axis=0)
-    # to 1e-9 of the patch: the place must not depend on how the stresses were rounded
+    # to 1e-9 of the patch: independent of rounding of the stresses
     bounds = list(zip(low, high, strict=True))
     top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
     if not top.success or np.any((top.x <= low) | (top.x >= high)):

@@ -1,34 +1,23 @@
-"""Where stresses are held: at the mesh's points, twice where two materials meet.
-
-Across the interface of a coating the stress along it jumps: its points have one stress on each
-side. A body of one material has one at each mesh point, in the mesh's own order.
-
-Patches of elements around the vertices of a body, each of one material.
-
-Stresses at the nodes from displacements: superconvergent patch recovery.
+"""Stresses at the nodes from displacements by superconvergent patch recovery, and their error.
 
 The stresses of quadratic displacements are most accurate at the three inner Gauss points of an
-element. Around each vertex a quadratic polynomial is fitted to those of the elements that meet
-there (`fem.stress.recovery`); its value is the vertex's stress, and the mean of the two vertices'
-polynomials the stress of an edge's midpoint (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng.
-33, 1331-1364). Linear displacements are sampled at the middle of the element, and the polynomial
-is linear; cubic ones at six points, and the polynomial is cubic.
+element. A quadratic polynomial is fitted to those of the elements around each vertex; its value is
+the vertex's stress, and the mean of two vertices' polynomials the stress at the midpoint of their
+edge (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng. 33, 1331-1364). For linear displacements
+the polynomial is linear, for cubic ones cubic. Patches hold elements of one material.
 
-Polynomials do not follow the kinks of a pressure. Each patch is therefore fitted to the
-displacement without that of the kinks near it, interpolated on the same elements, and their
-stress is added to the fit again (`fem.stress.kinks`). Patches at the surface have samples on its
-edges too, where the load gives the stress across it and the surface's stretch the one along it.
+Polynomials do not follow the kinks of a pressure. The displacement due to the kinks near a patch,
+interpolated on the same elements, is therefore subtracted before the fit, and their exact stress is
+added after it (`fem.stress.kinks`). Patches at the surface have samples on its edges too: the load
+gives the stress across the surface, its stretch the stress along it.
 
 Against the exact stresses of hat pressures on a flat surface (edges as long as the pitch, 10 to
 80 to a half-width, Hertz and random, friction 0 to 0.3) the error in the first layer of elements is
-1.2 to 1.8 times that in the third, and a third to a sixth of what it is without regard to kinks. On
+1.2 to 1.8 times that in the third; without treatment of kinks it is three to six times larger. On
 a wavy surface of slope 0.1, ten elements to a wave, it is twice that in the third layer.
 
-Where the error of a solution is: recovered against raw stress, element by element.
-
-The estimate of Zienkiewicz and Zhu (1992, Int. J. Numer. Methods Eng. 33, 1331-1364): recovered
-stresses are so much more accurate than those of the elements that the difference is the error of
-the latter. In the norm of energy, E^2 = integral (s* - s) : strain of (s* - s).
+The difference between recovered and element stresses estimates the error of the latter (same
+source), in the energy norm E^2 = integral (s* - s) : strain of (s* - s).
 """
 
 from dataclasses import dataclass
@@ -41,17 +30,51 @@ from fem.body.elasticity import ElasticBody
 from fem.body.triangle import GAUSS, collapsed_gauss, edge_shapes, gradients, jacobians, shapes
 from fem.stress.kinks import Kinks
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
+from meshes.block import EDGES
+
+# Fewest elements of a patch: their samples overdetermine a polynomial. Smaller patches take in the
+# elements around their vertices.
+LEAST_ELEMENTS = 5
+
+# Points of an element at which stresses are sampled, by the degree of the displacement: Gauss
+# points of degree 1, 2 and 4 (Dunavant 1985, Int. J. Numer. Methods Eng. 21, 1129-1148).
+NEAR_EDGE, NEAR_VERTEX = 0.445948490915965, 0.091576213509771
+SAMPLED = {
+    1: np.array([[1.0, 1.0]]) / 3.0,
+    2: GAUSS,
+    3: np.array(
+        [
+            place
+            for a in (NEAR_EDGE, NEAR_VERTEX)
+            for place in ([a, a], [1.0 - 2.0 * a, a], [a, 1.0 - 2.0 * a])
+        ]
+    ),
+}
+
+# Weight of a sample on the surface's edges against one in an element. With 16 instead of 4 the
+# error in the first layer changes by -30 % where the surface bends within a few elements and by
+# +25 % where it is flat and the pressure kinked, with 1 by +40 % and -5 %.
+SURFACE_WEIGHT = 4.0
+
+# Weight of a small curvature against the fit: decides only where samples leave it open.
+RIDGE = 1e-9
+
+# Points a line of the error's quadrature: exact for the square of a quadratic on straight elements.
+LINE_POINTS = 3
 
 
 @dataclass(frozen=True)
 class StressNodes:
-    """point (k,) the mesh point of each node, triangles (m, 6) nodes of each triangle."""
+    """Nodes of the stresses: mesh points, on the interface of a coating one for each material.
+
+    point (k,) is the mesh point of each node; triangles (m, 6) are the nodes of each triangle.
+    """
 
     point: np.ndarray
     triangles: np.ndarray
 
     def at_surface(self, point: np.ndarray) -> np.ndarray:
-        """Nodes at mesh points (q,) of the surface, which belong to one material only."""
+        """Nodes at mesh points (q,) of the surface."""
         node = np.empty(self.point.max() + 1, dtype=np.int64)
         node[self.point] = np.arange(len(self.point))
         return node[point]
@@ -65,7 +88,7 @@ class MaterialStress(StressState):
 
 
 def stress_nodes(body: ElasticBody) -> StressNodes:
-    """The body's points first, then the coating's; those of a plain body are the mesh's points."""
+    """The mesh's points in their order; with a coating the body's first, then the coating's."""
     if not body.coated.any():
         return StressNodes(np.arange(len(body.points)), body.mesh.triangles)
     count = len(body.points)
@@ -73,25 +96,20 @@ def stress_nodes(body: ElasticBody) -> StressNodes:
     return StressNodes(key % count, node.reshape(body.mesh.triangles.shape))
 
 
-# Fewest elements whose samples determine a polynomial with room to spare; smaller patches take in
-# the elements around their vertices.
-LEAST_ELEMENTS = 5
-
-
 @dataclass(frozen=True)
 class Patches:
     """The elements around each vertex, and the edges between vertices.
 
-    vertex    (v,) the stress node at the middle of each patch
+    vertex    (v,) the stress node in the middle of each patch
     coated    (v,) whether it belongs to the coating
     start     (v + 1,) where the elements of each patch begin in `element`
     element   (p,) elements of all patches in turn
-    patch     (p,) the patch that each of these belongs to
-    beside    (s, 2) patch and edge of the surface, numbered along it, wherever they touch
+    patch     (p,) their patches
+    beside    (s, 2) pairs of a patch and an edge of the surface that touch
     ends      (e, 2) patches at the ends of each edge
     middle    (e,) the stress node in the middle of each edge
-    shares    (e, 2) weights of the two at the middle: an end on a side has half a patch only,
-              and leaves the middle to the other end if that has a whole one
+    shares    (e, 2) weights of the two ends at the middle: an end on a side of the block, with half
+              a patch, has weight 0 if the other end has a whole one
     """
 
     vertex: np.ndarray
@@ -109,7 +127,7 @@ class Patches:
 
 
 def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
-    """Patches of a body whose stresses stand at `nodes`."""
+    """Patches of a body with stresses at `nodes`."""
     vertex = np.unique(nodes.triangles[:, :3])
     position = np.zeros(len(nodes.point), dtype=np.int64)
     position[vertex] = np.arange(len(vertex))
@@ -122,7 +140,7 @@ def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
     start, element = _around(corner, len(vertex))
 
     middle, first = np.unique(nodes.triangles[:, 3:].ravel(), return_index=True)
-    ends = corner[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)[first]
+    ends = corner[:, EDGES].reshape(-1, 2)[first]
     inner = ~_outer(body, nodes)[vertex][ends]
     alike = inner[:, :1] == inner[:, 1:]
     shares = np.where(alike, 0.5, inner.astype(float))
@@ -153,30 +171,6 @@ def _outer(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
     return outer[nodes.point]
 
 
-# Where the stresses of displacements of each degree are sampled in an element: Gauss points of
-# degree 1, 2 and 4 (Dunavant 1985, Int. J. Numer. Methods Eng. 21, 1129-1148).
-NEAR_EDGE, NEAR_VERTEX = 0.445948490915965, 0.091576213509771
-SAMPLED = {
-    1: np.array([[1.0, 1.0]]) / 3.0,
-    2: GAUSS,
-    3: np.array(
-        [
-            place
-            for a in (NEAR_EDGE, NEAR_VERTEX)
-            for place in ([a, a], [1.0 - 2.0 * a, a], [a, 1.0 - 2.0 * a])
-        ]
-    ),
-}
-
-# Weight of a sample on the surface's edges against one in an element. More helps where the surface
-# bends within a few elements, less where it is flat and the pressure kinked: a weight of 16 instead
-# of 4 changes the error in the first layer by -30 % and +25 %, one of 1 by +40 % and -5 %.
-SURFACE_WEIGHT = 4.0
-
-# Weight of the curvature's smallness against the fit: decides only where samples leave it open.
-RIDGE = 1e-9
-
-
 def element_stress(body: ElasticBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
     """sx, sz, txz (m, q, 3) [Pa] of a displacement (n, 2) at reference points (q, 2)."""
     return _stress(body, np.arange(len(body.elements)), displacement[body.elements], at)
@@ -187,7 +181,7 @@ def recovered_stress(
 ) -> np.ndarray:
     """sx, sz, txz (k, 3) [Pa] at the body's `stress_nodes` of a displacement (n, 2) [m].
 
-    `load` is what acts on the surface; without it nothing is known there.
+    `load` gives the tractions on the surface; None: no samples there.
     """
     nodes = stress_nodes(body)
     points, patches = body.points[nodes.point], patches_of(body, nodes)
@@ -229,7 +223,7 @@ def recovered_stress(
 
 
 class _NearKinks:
-    """The kinks near each patch: what is to be taken from its samples and added to its fit."""
+    """The kinks near each patch: stresses to subtract from its samples and to add to its fit."""
 
     def __init__(
         self,
@@ -255,10 +249,7 @@ class _NearKinks:
     def surface_samples(
         self, load: SurfaceLoad, displacement: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Patch (s,), place (s, q, 2) and stress (s, q, 3) without kinks, on the surface's edges.
-
-        Across the surface the stress is the load's; along it that of the surface's stretch.
-        """
+        """Patch (s,), place (s, q, 2) and stress (s, q, 3) without kinks on the surface's edges."""
         body, (patch, edge) = self.body, self.patches.beside.T
         point = body.top.point[2 * edge[:, None] + np.arange(3)]
         node = body.surface.point[body.degree * edge[:, None] + np.arange(body.degree + 1)]
@@ -294,10 +285,7 @@ class _NearKinks:
         return self.kinks.stress(self.weights, ends, self.points, middle).reshape(-1, 2, 3)
 
     def _displacement(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body.
-
-        Elements of a patch share nodes: each is asked for once.
-        """
+        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body."""
         body, count = self.body, len(self.body.nodes)
         pair, which = np.unique(patch[:, None] * count + node, return_inverse=True)
         patch, point = np.divmod(pair, count)
@@ -321,8 +309,8 @@ def _stress(
     """sx, sz, txz (r, q, 3) [Pa] in elements (r,) from displacements (r, k, 2) of their nodes."""
     slope = gradients(body.points[body.mesh.triangles[element]], moved, at)
     exx, ezz = slope[..., 0, 0], slope[..., 1, 1]
-    shear, nu = body.shear_modulus[element, None], body.poissons_ratio[element, None]
-    pressure = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    shear = body.shear_modulus[element, None]
+    pressure = body.lame[element, None] * (exx + ezz)
     twist = shear * (slope[..., 0, 1] + slope[..., 1, 0])
     return np.stack([pressure + 2.0 * shear * exx, pressure + 2.0 * shear * ezz, twist], axis=-1)
 
@@ -332,9 +320,6 @@ def _terms(offset: np.ndarray, degree: int) -> np.ndarray:
     x, z = offset[..., 0], offset[..., 1]
     powers = [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
     return np.stack([x**i * z**j for i, j in powers], axis=-1)
-
-
-LINE_POINTS = 3  # exact for the square of a difference that is quadratic, on straight elements
 
 
 def energy_errors(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:

@@ -16,12 +16,11 @@ from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 @dataclass(frozen=True)
 class NodalStress:
-    """Stresses at the nodes of a body, and how they run between them.
+    """Stresses at the nodes of a body, and what interpolates them.
 
     stress  (k,) at the nodes [Pa], with Poisson's ratio there
-    nodes   mesh point of each, and the nodes of each triangle; a plain body has one node a mesh
-            point, in the mesh's order
-    kinks   of the pressure, around which stresses do not run like polynomials; None: they all do
+    nodes   their mesh points, and the nodes of each triangle
+    kinks   of the pressure; None: stresses are quadratic in every element
     """
 
     stress: MaterialStress
@@ -42,13 +41,12 @@ def nodal_stress(
     friction: float = 0.0,
     direction: Direction = straight_down,
 ) -> NodalStress:
-    """Stresses under a displacement (n, 2) [m].
+    """Stresses under the displacement (n, 2) [m] due to a pressure and its sliding traction.
 
-    The `pressure` (count,) [Pa] on `hats` (count + 2,) [m] causes it, and `friction` times that
-    as sliding traction towards +x; all as in `fem.compliance.operator`. They make the stresses at
-    the surface: on a flat one sz = -p and txz = -friction p exactly, and on a rough one the same
-    holds on its inclined faces. The stress along the surface, and all below it, are recovered from
-    the displacement (`fem.stress.recovery`).
+    `pressure` (count,) [Pa], `hats`, `friction` and `direction` as in `fem.compliance.operator`.
+    They give the stresses across the surface: on a flat one sz = -p and txz = -friction p exactly.
+    The stress along the surface and all stresses below it are recovered from the displacement
+    (`fem.stress.recovery`).
     """
     nodes = stress_nodes(body)
     load = SurfaceLoad(body, hats, pressure, friction, direction)
@@ -62,7 +60,7 @@ def nodal_stress(
 
 
 def at_mesh_points(body: ElasticBody, stress: StressState) -> NodalStress:
-    """Stresses at the mesh's points of a plain body (n,), with polynomials between them."""
+    """Stresses of a plain body from those at the mesh's points (n,), quadratic between them."""
     if body.coated.any():
         raise ValueError("a coated body has two stresses at the points of its interface")
     nodes = stress_nodes(body)
@@ -85,8 +83,8 @@ def within(
 ) -> np.ndarray:
     """sx, sz, txz (r, q, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
 
-    Quadratic between the nodes, but for the kinks near the element: the difference between their
-    stress and its own quadratic is added.
+    Quadratic between the nodes, plus the difference between the stress of the kinks near the
+    element and its quadratic interpolation.
     """
     share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
     held, which = np.unique(element, return_inverse=True)

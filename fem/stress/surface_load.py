@@ -1,4 +1,4 @@
-"""What acts on the surface of a body, and the stresses that it makes there.
+"""The tractions on the surface of a body, and the stresses there.
 
 Nomenclature
     t, n               unit tangent towards +x and unit normal out of the body, (k, 2)
@@ -39,7 +39,7 @@ class SurfaceLoad:
         bend = np.diff(slope, prepend=0.0, append=0.0)
         x, bend = self.hats[bend != 0.0], bend[bend != 0.0]
         along = self.tangent(x) @ [1.0, 1j]
-        # the bend is of a force per length of x, along x: both by length of arc
+        # from a force per length of x, differentiated along x, to both by length of arc
         jump = self._force(x) @ [1.0, 1j] * bend * along.real**2
         return Kinks(x + 1j * self._surface(x), along, 1j * jump / along)
 
@@ -60,7 +60,7 @@ class SurfaceLoad:
 
     @cached_property
     def _surface(self) -> CubicSpline:
-        """z [m] of the surface at x [m]: smooth through its points, as quadratic edges are not."""
+        """z [m] of the surface at x [m]: a smooth curve through its points."""
         top = self.body.top
         return CubicSpline(top.x, self.body.points[top.point, 1])
 

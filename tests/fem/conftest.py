@@ -5,12 +5,12 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.material import Material
 from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
-from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import NodalStress, nodal_stress
 from meshes.block import BlockMesh, BlockSpec

@@ -1,28 +1,25 @@
-"""Meshes of a module's own SPECS by name, and what their elements measure."""
+"""Meshes of the blocks of tests/blocks.py, and measures of their elements."""
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
+from blocks import ALL
 
 from meshes.block import BlockMesh, real_points
 from meshes.build import build_block
 
 
-def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One test for each of the module's SPECS where it asks for `mesh`."""
-    if "mesh" in metafunc.fixturenames and hasattr(metafunc.module, "SPECS"):
-        metafunc.parametrize("mesh", list(metafunc.module.SPECS), indirect=True)
-
-
-@pytest.fixture(scope="module")
-def meshes(request) -> dict[str, BlockMesh]:
-    return {name: build_block(spec) for name, spec in request.module.SPECS.items()}
+@pytest.fixture(scope="session")
+def built() -> Callable[[str], BlockMesh]:
+    """The mesh of a block by its name, built once for all modules."""
+    return cache(lambda name: build_block(ALL[name]))
 
 
 @pytest.fixture
-def mesh(request, meshes) -> BlockMesh:
-    return meshes[request.param]
+def mesh(request, built) -> BlockMesh:
+    return built(request.param)
 
 
 @pytest.fixture(scope="session")

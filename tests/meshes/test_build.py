@@ -1,37 +1,17 @@
-"""The flat mesh: exact geometry, topology, size law, quality, repeatability."""
+"""The flat mesh: exact geometry, topology, size law, quality, repeatability, number of unknowns."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from blocks import WINDOW, of_kinds
 
 from meshes.block import BlockSpec, MeshError, unique_edges
 from meshes.build import build_block
 from meshes.quality import corner_jacobians
-from meshes.size_law import largest_size, surface_edge, wanted_size
+from meshes.size_law import estimate_unknowns, largest_size, surface_edge, wanted_size
 
-WINDOW = (-1.2, 1.0, 0.6, 0.04)
-
-
-def block(half_width, depth, intervals, surface_size, growth=0.2, window=None):
-    return BlockSpec(
-        half_width, depth, np.array(intervals, dtype=float), surface_size, growth, window
-    )
-
-
-SPECS = {
-    "half-plane": block(200.0, 400.0, [[-1.5, 1.5]], 0.05),
-    "asperities": block(200.0, 400.0, [[-1.5, -1.0], [-0.9, -0.8], [0.3, 1.1]], 0.02),
-    "window": block(20.0, 40.0, [[-1.0, 1.0]], 0.05, window=WINDOW),
-    "deep": block(5e5, 1e6, [[-10.0, 10.0]], 1.0),
-    "one edge": block(5e5, 1e6, [[0.0, 1.0]], 1.0),
-    "thin layer": block(1.0, 0.02, [[-0.5, 0.5]], 0.01),
-    "thinner than an edge": block(0.5, 0.02, [[-0.2, 0.2]], 0.05),
-    "touching": block(200.0, 400.0, [[-1.0, 0.0], [0.0, 1.0]], 0.05),
-    "at the sides": block(1.0, 8.0, [[-1.0, -0.5], [0.75, 1.0]], 0.05),
-    "whole width": block(1.0, 2.0, [[-1.0, 1.0]], 0.05),
-    "uniform": block(1.0, 1.0, [[-0.5, 0.0]], 0.1, growth=0.0),
-    "steep": block(200.0, 400.0, [[-1.0, 0.0]], 0.05, growth=0.5),
-    "micrometres": block(2e-2, 4e-2, [[-1e-4, 1e-4]], 2e-6),
-}
+every = of_kinds("equal edges", "own vertices", "coating")
 
 
 def boundary_edges(mesh):
@@ -45,6 +25,7 @@ def top_vertices(mesh):
     return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
 
 
+@every
 def test_area_is_that_of_the_block(mesh, signed_areas):
     areas = signed_areas(mesh)
     assert areas.min() > 0.0
@@ -52,6 +33,7 @@ def test_area_is_that_of_the_block(mesh, signed_areas):
     assert areas.sum() == pytest.approx(exact, rel=1e-12)
 
 
+@every
 def test_every_edge_inside_has_two_triangles_and_on_the_sides_one(mesh):
     edges, uses = boundary_edges(mesh)
     assert set(np.unique(uses)) == {1, 2}
@@ -69,6 +51,7 @@ def test_every_edge_inside_has_two_triangles_and_on_the_sides_one(mesh):
     assert sides == pytest.approx([2 * half, 2 * half, depth, depth], rel=1e-12)
 
 
+@every
 def test_simply_connected_without_stray_or_double_nodes(mesh):
     edges, _ = boundary_edges(mesh)
     vertices = np.unique(mesh.triangles[:, :3])
@@ -79,18 +62,21 @@ def test_simply_connected_without_stray_or_double_nodes(mesh):
     assert mesh.quality["unknowns"] == 2 * len(mesh.points)
 
 
+@every
 def test_midpoints_halve_their_edges(mesh):
     for k, (i, j) in enumerate([(0, 1), (1, 2), (2, 0)]):
         ends = mesh.points[mesh.triangles[:, [i, j]]]
         assert np.array_equal(mesh.points[mesh.triangles[:, 3 + k]], ends.mean(axis=1))
 
 
+@every
 def test_flat_block_is_not_shifted(mesh):
     assert mesh.shift.shape == mesh.points.shape
     assert not mesh.shift.any()
 
 
-def test_intervals_carry_equal_edges_and_both_ends(mesh):
+@of_kinds("equal edges", "coating")
+def test_refined_ranges_have_equal_edges_and_both_ends(mesh):
     x = top_vertices(mesh)
     h = surface_edge(mesh.spec)
     for start, end in mesh.spec.intervals:
@@ -99,6 +85,7 @@ def test_intervals_carry_equal_edges_and_both_ends(mesh):
         assert np.diff(inside) == pytest.approx(h, rel=1e-6)
 
 
+@of_kinds("equal edges", "coating")
 def test_multiples_of_the_surface_size_are_nodes(mesh):
     x = top_vertices(mesh)
     size = mesh.spec.surface_size
@@ -108,6 +95,7 @@ def test_multiples_of_the_surface_size_are_nodes(mesh):
         assert nearest.max() < 1e-6 * size
 
 
+@of_kinds("equal edges")
 def test_edges_follow_the_size_law(mesh):
     edges, _ = boundary_edges(mesh)
     ends = mesh.points[edges]
@@ -121,16 +109,24 @@ def test_edges_follow_the_size_law(mesh):
     assert ratio.max() < 1.6
 
 
+@every
 def test_fit_to_solve_on(mesh):
-    assert mesh.quality["least_angle_degrees"] > 22.0
+    given = mesh.spec.vertices is not None
+    assert mesh.quality["least_angle_degrees"] > (20.0 if given else 22.0)
     assert mesh.quality["least_jacobian"] > 0.4
     assert mesh.quality["least_gamma"] > 0.4
-    assert mesh.quality["size_jump"] < 2.5
+    assert mesh.quality["size_jump"] < (2.6 if given else 2.5)
+    assert mesh.quality["elements"] == len(mesh.triangles)
     assert corner_jacobians(mesh.points, mesh.triangles).min() > 0.0
 
 
-def test_elements_in_the_window_are_small(meshes, signed_areas):
-    mesh = meshes["window"]
+@every
+def test_number_of_unknowns_is_estimated(mesh):
+    assert estimate_unknowns(mesh.spec) == pytest.approx(mesh.quality["unknowns"], rel=0.25)
+
+
+def test_elements_in_the_window_are_small(built, signed_areas):
+    mesh = built("window")
     x0, x1, z1, size = WINDOW
     centre = mesh.points[mesh.triangles[:, :3]].mean(axis=1)
     inside = (centre[:, 0] > x0) & (centre[:, 0] < x1) & (centre[:, 1] < z1)
@@ -143,31 +139,37 @@ def test_elements_in_the_window_are_small(meshes, signed_areas):
     assert coarse.min() > 5.0 * size
 
 
-def test_thin_block_has_elements_through_it(meshes):
+def test_thin_block_has_elements_through_it(built):
     for name in ("thin layer", "thinner than an edge"):
-        mesh = meshes[name]
+        mesh = built(name)
         corner = mesh.points[mesh.triangles[:, :3], 1]
         assert np.ptp(corner, axis=1).max() <= 1.4 * largest_size(mesh.spec)
 
 
-def test_same_input_same_mesh(meshes):
-    for name in ("asperities", "window"):
-        again = build_block(SPECS[name])
-        assert again.points.tobytes() == meshes[name].points.tobytes()
-        assert again.triangles.tobytes() == meshes[name].triangles.tobytes()
+@pytest.mark.parametrize("name", ["asperities", "window", "graded", "as thin as an edge"])
+def test_same_input_same_mesh(name, built):
+    again, mesh = build_block(built(name).spec), built(name)
+    assert again.points.tobytes() == mesh.points.tobytes()
+    assert again.triangles.tobytes() == mesh.triangles.tobytes()
 
 
-def test_other_units_same_triangles(meshes):
-    spec = SPECS["half-plane"]
+@pytest.mark.parametrize("name", ["half-plane", "graded", "as thin as an edge"])
+def test_other_units_same_triangles(name, built):
+    mesh = built(name)
+    spec = mesh.spec
     for factor in (1e-9, 3.7, 1e6):
-        scaled = block(
-            factor * spec.half_width, factor * spec.depth, factor * spec.intervals, factor * 0.05
+        scaled = replace(
+            spec,
+            half_width=factor * spec.half_width,
+            depth=factor * spec.depth,
+            intervals=factor * spec.intervals,
+            surface_size=factor * spec.surface_size,
+            interface=spec.interface and factor * spec.interface,
+            vertices=None if spec.vertices is None else factor * spec.vertices,
         )
-        mesh = build_block(scaled)
-        assert np.array_equal(mesh.triangles, meshes["half-plane"].triangles)
-        assert mesh.points == pytest.approx(
-            factor * meshes["half-plane"].points, rel=1e-12, abs=1e-9 * factor
-        )
+        other = build_block(scaled)
+        assert np.array_equal(other.triangles, mesh.triangles)
+        assert other.points == pytest.approx(factor * mesh.points, rel=1e-12, abs=1e-9 * factor)
 
 
 @pytest.mark.parametrize(

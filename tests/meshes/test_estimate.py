@@ -1,34 +1,14 @@
-"""The number of unknowns foretold against the mesh built, and against closed forms."""
+"""The integrals behind the estimated number of unknowns, against closed forms."""
 
 import numpy as np
 import pytest
 
 from meshes.block import BlockSpec, MeshError
-from meshes.build import build_block
 from meshes.size_law import estimate_unknowns, integral_of_power
 
 
 def spec(half_width, depth, intervals, size, growth=0.2, window=None):
     return BlockSpec(half_width, depth, np.array(intervals), size, growth, window)
-
-
-@pytest.mark.parametrize(
-    "block",
-    [
-        spec(200.0, 400.0, [[-1.5, 1.5]], 0.05),
-        spec(200.0, 400.0, [[-1.5, 1.5]], 0.05, growth=0.1),
-        spec(200.0, 400.0, [[-1.5, -1.0], [-0.5, 0.5], [0.75, 1.0]], 0.025),
-        spec(20.0, 40.0, [[-1.0, 1.0]], 0.1, window=(-1.5, 1.5, 1.0, 0.05)),
-        spec(5e5, 1e6, [[0.0, 1.0]], 1.0),
-        spec(1.0, 0.05, [[-0.5, 0.5]], 0.05),
-        spec(1.0, 8.0, [[0.5, 1.0]], 0.05),
-        spec(200.0, 400.0, [[-1.0, 1.0]], 0.05, growth=0.5),
-        spec(1.0, 1.0, [[-0.5, 0.5]], 0.1, growth=0.0),
-    ],
-)
-def test_estimate_is_within_a_quarter(block):
-    built = build_block(block).quality["unknowns"]
-    assert estimate_unknowns(block) == pytest.approx(built, rel=0.25)
 
 
 def test_integral_of_a_constant_size_is_exact():
@@ -52,7 +32,7 @@ def test_integral_of_a_linear_size_over_the_block():
     assert found == pytest.approx(exact, rel=2e-2)
 
 
-def test_what_could_never_be_built_is_still_estimated():
+def test_blocks_too_large_to_build_are_estimated():
     assert estimate_unknowns(spec(0.2, 1.0, [[-0.1, 0.1]], 1e-6)) > 1e6
     assert estimate_unknowns(spec(1000.0, 1e-2, [[-1.0, 1.0]], 0.01)) > 1e7
 

@@ -34,7 +34,7 @@ def worker(monkeypatch, code):
         ("import sys; sys.exit(7)", "gmsh failed: it said nothing"),
         ("import sys; sys.stdin.close(); sys.exit(1)", "gmsh failed"),
         ("pass", "gmsh ended without a mesh"),
-        ("print('half an archive')", "gmsh ended without a mesh"),
+        ("print('half a mesh')", "gmsh ended without a mesh"),
     ],
 )  # fmt: skip
 def test_each_failure_is_one_clear_error(monkeypatch, code, words):
@@ -106,8 +106,8 @@ def test_an_error_raised_by_gmsh_is_passed_on(monkeypatch):
 
 def test_a_hole_in_the_mesh_is_refused(monkeypatch):
     def holed(task, timeout):
-        result = run_worker(task, timeout)
-        return result | {"triangles": result["triangles"][:-1]}
+        vertices, triangles = run_worker(task, timeout)
+        return vertices, triangles[:-1]
 
     run_worker = build.run_worker
     monkeypatch.setattr(build, "run_worker", holed)

@@ -1,35 +1,13 @@
-"""Surface vertices of one's own: kept exactly, followed by the sizes below."""
-
-from dataclasses import replace
+"""Given surface vertices: kept exactly, followed by the sizes below."""
 
 import numpy as np
 import pytest
+from blocks import GRADED, SPECS, of_kinds
 
 from meshes.block import BlockSpec, MeshError
 from meshes.build import build_block
 from meshes.msh_file import read_msh, write_msh
-from meshes.size_law import estimate_unknowns, local_edges, own_vertices, point_size, wanted_size
-
-TOWARDS_ONE = 1.0 - np.linspace(1.0, 0.0, 13) ** 2
-BEYOND = 1.0 + np.cumsum(np.geomspace(0.007, 0.1, 9))
-HALF = np.concatenate([TOWARDS_ONE, BEYOND])
-GRADED = np.concatenate([-HALF[:0:-1], HALF])
-
-
-def with_vertices(vertices, half_width=20.0, depth=40.0, **more):
-    ends = np.array([[vertices[0], vertices[-1]]])
-    return BlockSpec(half_width, depth, ends, 0.05, vertices=vertices, **more)
-
-
-SPECS = {
-    "graded": with_vertices(GRADED),
-    "uneven": with_vertices(np.array([-0.3, -0.25, -0.1, 0.0, 0.02, 0.05, 0.11])),
-    "under a window": with_vertices(GRADED, window=(-2.0, 1.0, 0.5, 0.05)),
-    "on a coating": with_vertices(GRADED, interface=0.2),
-    "steep": with_vertices(GRADED, growth=0.5),
-    "whole width": with_vertices(GRADED, GRADED[-1], 3.0),
-    "thin": with_vertices(GRADED, 5.0, 0.3),
-}
+from meshes.size_law import local_edges, own_vertices, point_size, wanted_size
 
 
 def on_top(mesh):
@@ -37,6 +15,7 @@ def on_top(mesh):
     return np.sort(mesh.points[vertices][mesh.points[vertices, 1] == 0.0, 0])
 
 
+@of_kinds("own vertices")
 def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
     given, x = mesh.spec.vertices, on_top(mesh)
     inside = x[(x >= given[0]) & (x <= given[-1])]
@@ -54,6 +33,7 @@ def test_vertices_are_nodes_and_nothing_is_between_but_what_cuts_edges(mesh):
         assert whole == pytest.approx(np.round(whole), abs=1e-6)
 
 
+@of_kinds("own vertices")
 def test_elements_at_the_surface_have_the_size_of_its_edges(mesh):
     corner = mesh.points[mesh.triangles[:, :3]]
     first, last = mesh.spec.vertices[[0, -1]]
@@ -66,26 +46,16 @@ def test_elements_at_the_surface_have_the_size_of_its_edges(mesh):
     assert (height / edge).min() > 0.3
 
 
-def test_fit_to_solve_on(mesh):
-    assert mesh.quality["least_angle_degrees"] > 20.0
-    assert mesh.quality["least_jacobian"] > 0.4
-    assert mesh.quality["size_jump"] < 2.6
-
-
-def test_number_of_unknowns_is_foretold(mesh):
-    assert estimate_unknowns(mesh.spec) == pytest.approx(mesh.quality["unknowns"], rel=0.25)
-
-
 def test_size_law_follows_the_edges_down_and_beside_them():
     edges = local_edges(GRADED)
-    spec = SPECS["graded"]
+    spec = SPECS["own vertices"]["graded"]
     assert wanted_size(spec, GRADED, np.zeros_like(GRADED)) == pytest.approx(edges, rel=1e-14)
     assert wanted_size(spec, 0.0, 2.0) == pytest.approx(edges[len(edges) // 2] + 0.4)
     beyond = np.array([GRADED[-1] + 3.0, 4.0])
     assert wanted_size(spec, *beyond) == pytest.approx(edges[-1] + 0.2 * 5.0)
 
 
-@pytest.mark.parametrize("spec", SPECS.values(), ids=SPECS)
+@pytest.mark.parametrize("spec", SPECS["own vertices"].values(), ids=SPECS["own vertices"])
 def test_both_forms_of_the_law_agree(spec):
     rng = np.random.default_rng(0)
     x = rng.choice([1.0, 0.1], 500) * rng.uniform(-spec.half_width, spec.half_width, 500)
@@ -97,36 +67,17 @@ def test_both_forms_of_the_law_agree(spec):
 
 
 def test_edges_are_cut_into_the_fewest_parts_that_fit():
-    spec = SPECS["thin"]
+    spec = SPECS["own vertices"]["graded, thin"]
     edge = np.diff(own_vertices(spec))
     assert edge.max() <= 0.075
     given = np.diff(GRADED)
     assert len(edge) == np.ceil(given / 0.075 - 1e-9).sum()
 
 
-def test_same_input_same_mesh_and_other_units_same_triangles(meshes):
-    again = build_block(SPECS["graded"])
-    assert again.points.tobytes() == meshes["graded"].points.tobytes()
-    for factor in (1e-9, 3.7):
-        spec = replace(
-            SPECS["graded"],
-            half_width=factor * 20.0,
-            depth=factor * 40.0,
-            intervals=factor * SPECS["graded"].intervals,
-            surface_size=factor * 0.05,
-            vertices=factor * GRADED,
-        )
-        mesh = build_block(spec)
-        assert np.array_equal(mesh.triangles, meshes["graded"].triangles)
-        assert mesh.points == pytest.approx(
-            factor * meshes["graded"].points, rel=1e-12, abs=1e-9 * factor
-        )
-
-
-def test_file_keeps_the_vertices(meshes, tmp_path):
-    write_msh(meshes["uneven"], tmp_path / "mesh.msh")
+def test_file_keeps_the_vertices(built, tmp_path):
+    write_msh(built("uneven"), tmp_path / "mesh.msh")
     read = read_msh(tmp_path / "mesh.msh")
-    assert np.array_equal(read.spec.vertices, SPECS["uneven"].vertices)
+    assert np.array_equal(read.spec.vertices, built("uneven").spec.vertices)
 
 
 @pytest.mark.parametrize(

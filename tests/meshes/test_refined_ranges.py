@@ -1,4 +1,4 @@
-"""From predicted patches to refined intervals, and the ground that was missed."""
+"""From predicted patches to refined ranges, and contact outside of them."""
 
 import numpy as np
 import pytest
@@ -11,23 +11,20 @@ from meshes.refined_ranges import MERGE_EDGES, merge, refined_ranges, unrefined_
 
 SIZE = 0.125
 
-ground = st.lists(
+contact = st.lists(
     st.tuples(st.floats(-9.0, 9.0), st.floats(0.0, 3.0)).map(lambda p: (p[0], p[0] + p[1])),
     min_size=1,
     max_size=12,
 )
 
 
-def refined(patches, margin=0.0, half_width=10.0, origin=0.0):
-    return refined_ranges(
-        np.array(patches), SIZE, margin=margin, half_width=half_width, origin=origin
-    )
+def refined(patches, margin=0.0, half_width=10.0):
+    return refined_ranges(np.array(patches), SIZE, margin=margin, half_width=half_width)
 
 
 def test_ends_move_outwards_to_the_grid():
     assert np.array_equal(refined([[0.1, 0.9]]), [[0.0, 1.0]])
     assert np.array_equal(refined([[0.125, 0.875]]), [[0.125, 0.875]])
-    assert refined([[0.1, 0.9]], origin=0.05) == pytest.approx(np.array([[0.05, 0.925]]))
 
 
 def test_margin_widens_both_sides():
@@ -39,7 +36,7 @@ def test_single_point_gets_one_edge():
     assert np.array_equal(refined([[0.55, 0.55]]), [[0.5, 0.625]])
 
 
-def test_close_intervals_are_joined_and_distant_ones_are_not():
+def test_close_ranges_are_joined_and_distant_ones_are_not():
     for edges in range(1, 8):
         patches = [[1.0 + edges * SIZE, 3.0], [0.0, 1.0]]
         joined = len(refined(patches)) == 1
@@ -51,12 +48,12 @@ def test_nothing_to_refine():
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
-@given(patches=ground, margin=st.floats(0.0, 1.0), origin=st.floats(-1.0, 1.0))
-def test_result_covers_the_patches_and_can_be_meshed(patches, margin, origin):
+@given(patches=contact, margin=st.floats(0.0, 1.0))
+def test_result_covers_the_patches_and_can_be_meshed(patches, margin):
     half_width = 9.6
     patches = [p for p in patches if p[0] < half_width]
-    intervals = refined(patches, margin, half_width, origin)
-    cells = (intervals - origin) / SIZE
+    intervals = refined(patches, margin, half_width)
+    cells = intervals / SIZE
     assert cells == pytest.approx(np.round(cells), abs=1e-6)
     assert (intervals[:, 1] > intervals[:, 0]).all()
     assert (intervals[1:, 0] - intervals[:-1, 1] >= (MERGE_EDGES - 0.01) * SIZE).all()
@@ -79,14 +76,14 @@ def test_side_of_a_narrow_body_leaves_no_sliver(rest):
     assert np.diff(x).min() > 0.45 * SIZE
 
 
-def test_mirrored_patches_give_mirrored_intervals():
+def test_mirrored_patches_give_mirrored_ranges():
     patches = np.array([[-3.03, -2.1], [0.4, 0.7], [5.01, 9.99]])
     there = refined(patches, 0.1, 9.97)
     back = refined(-patches[:, ::-1], 0.1, 9.97)
     assert there == pytest.approx(-back[::-1, ::-1], abs=1e-12)
 
 
-def test_other_units_same_intervals():
+def test_other_units_same_ranges():
     patches = np.array([[-3.03, -2.1], [0.4, 0.7]])
     small = refined_ranges(1e-6 * patches, 1e-6 * SIZE, margin=1e-7, half_width=1e-5)
     assert small == pytest.approx(1e-6 * refined(patches, 0.1), rel=1e-12)
@@ -99,10 +96,10 @@ def test_patch_beside_the_body_is_refused():
         refined([[0.0, 0.01]], half_width=0.05)
 
 
-def test_merge_covers_nested_and_touching_stretches():
-    stretches = [[5.0, 6.0], [0.0, 4.0], [1.0, 2.0], [6.0, 7.0], [3.0, 4.5]]
-    assert np.array_equal(merge(stretches), [[0.0, 4.5], [5.0, 7.0]])
-    assert np.array_equal(merge(stretches, gap=0.5), [[0.0, 7.0]])
+def test_merge_covers_nested_and_touching_ranges():
+    ranges = [[5.0, 6.0], [0.0, 4.0], [1.0, 2.0], [6.0, 7.0], [3.0, 4.5]]
+    assert np.array_equal(merge(ranges), [[0.0, 4.5], [5.0, 7.0]])
+    assert np.array_equal(merge(ranges, gap=0.5), [[0.0, 7.0]])
 
 
 INTERVALS = np.array([[0.0, 1.0], [1.0, 2.0], [5.0, 6.0]])
@@ -120,9 +117,9 @@ INTERVALS = np.array([[0.0, 1.0], [1.0, 2.0], [5.0, 6.0]])
         ([7.0, 2.1, 2.25, 7.15], 0.1, [[2.0, 2.35], [6.9, 7.25]]),
     ],
 )
-def test_contact_beyond_the_refined_ground_is_found(active, reach, missed):
-    ground = unrefined_contact(INTERVALS, np.array(active), reach)
-    assert ground == pytest.approx(np.array(missed).reshape(-1, 2))
+def test_contact_outside_the_refined_ranges_is_found(active, reach, missed):
+    found = unrefined_contact(INTERVALS, np.array(active), reach)
+    assert found == pytest.approx(np.array(missed).reshape(-1, 2))
 
 
 def test_everything_is_missed_when_nothing_was_refined():

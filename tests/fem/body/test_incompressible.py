@@ -9,6 +9,7 @@ sides: what `fem.body.elasticity` says about the choice of elements rests on the
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
@@ -17,7 +18,6 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import ElasticBody, Support, elastic_body
-from fem.body.surface import hat_nodes
 from fem.body.triangle import collapsed_gauss, jacobians, shapes, slopes
 from fem.compliance.operator import FiniteElementCompliance
 

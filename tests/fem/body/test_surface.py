@@ -6,10 +6,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
+from scenes import hat_nodes
 from scipy.interpolate import lagrange
 
 from fem.body.nodes import nodes_of
-from fem.body.surface import boundary_points, hat_forces, hat_nodes, surface_of
+from fem.body.surface import boundary_points, hat_forces, surface_of
 
 LINE = np.array([-2.0, -1.1, -0.4, -0.3, 0.1, 0.15, 0.9, 2.0])
 

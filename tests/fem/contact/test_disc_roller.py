@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
@@ -18,7 +19,6 @@ from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, SumOfBodies
 from fem.body.elasticity import Support, elastic_body
-from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block

@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 from scipy.integrate import trapezoid
 
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
-from fem.body.surface import hat_forces, hat_nodes
+from fem.body.surface import hat_forces
 from fem.contact.rigid_roller import STEEPEST, CurrentContact, circle, parabola
 
 RADIUS = 3.0

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_coupled_model
@@ -23,7 +24,6 @@ from analytic.operators.half_plane import SumOfBodies
 from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance
 from analytic.surface.synthetic import self_affine
 from fem.body.elasticity import Support, elastic_body
-from fem.body.surface import hat_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block

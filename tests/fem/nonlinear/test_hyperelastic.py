@@ -171,7 +171,7 @@ def test_a_material_of_each_triangle(structured_block):
 
 
 def test_elements_that_are_turned_over_are_refused(body, response):
-    with pytest.raises(FemError, match="turned over"):
+    with pytest.raises(FemError, match="inverted"):
         response.linearised(deformed_by(body, [[-1.5, 0.0], [0.0, 0.0]]))
 
 

@@ -67,7 +67,7 @@ def test_elastic_body_until_it_yields(body):
     plastic = PlasticBody(body, METAL)
     displacement = moved(body, 0.05, 3)
     force, tangent = plastic.linearised(displacement)
-    assert not plastic.flow(displacement).yields.any()
+    assert not plastic.step(displacement).yields.any()
     assert abs(tangent - body.stiffness()).max() == 0.0
     np.testing.assert_array_equal(force.ravel(), body.stiffness() @ displacement.ravel())
 
@@ -101,14 +101,14 @@ def test_force_and_tangent_are_those_of_quadrature_functions(structured_block):
     plastic = with_history(made(structured_block))
     body, displacement = plastic.body, moved(plastic.body, 3.0, 4)
     force, tangent = plastic.linearised(displacement)
-    step = plastic.flow(displacement)
+    step = plastic.step(displacement)
     stress, _ = plastic.stress(displacement, step.state)
     shear, nu = METAL.elastic.shear_modulus, METAL.elastic.poissons_ratio
     lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
     elastic = np.diag([2.0 * shear, 2.0 * shear, shear])
     elastic[:2, :2] += lame
     consistent = np.tile(elastic, (len(stress), 1, 1))
-    consistent[step.yields] -= step.lost
+    consistent[step.yields] -= step.softening
     node, vector, matrix = assembled_by_dolfinx(body, plastic.points, stress, consistent)
     free = ~body.held[node].ravel()
     ours = force[node].ravel()

@@ -9,7 +9,7 @@ from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
-from fem.nonlinear.press_plastic import PlasticContact, _let_go, plastic_fields, press_plastically
+from fem.nonlinear.press_plastic import PlasticContact, _released, plastic_fields, press_plastically
 from fem.solver.mumps import FemError
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -181,13 +181,13 @@ def test_flow_on_release_is_remembered(small):
     given = np.where(np.hypot(*body.points.T) < 1.5, 2.0 / STEEL.youngs_modulus, 0.0)
     body.state = PlasticState(np.outer(given, [1.0, -1.0, 0.0]), 0.0 * given)
     eigenstress = 2.0 * STEEL.shear_modulus * body.state.strain
-    displacement = _let_go(body, body.body.solve(body.force_of(eigenstress)))
+    displacement = _released(body, body.body.solve(body.force_of(eigenstress)))
     assert np.mean(body.state.equivalent > 0.0) > 0.05
     stress, _ = body.stress(displacement, body.state)
     assert np.abs(body.force_of(stress)[~body.held]).max() < 1e-9
 
 
-def test_a_light_load_is_let_go_from_where_it_is(small):
+def test_a_light_load_is_released_from_where_it_is(small):
     """Not pressed further first, where a heavier load comes later."""
     _, (light, released, _) = Scene(small, 1.5, 6).press([0.005, 0.0, 1.0], increments=1)
     assert released.approach == pytest.approx(light.approach, rel=1e-9)

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from analytic.material import Material
-from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, flow, stress
+from fem.nonlinear.plasticity import ElasticPlastic, PlasticState, return_mapping, stress
 
 E, Y = 200.0, 0.5
 HARDENING = [0.0, 15.0]
@@ -19,7 +19,7 @@ def led(law, path):
     """Stress (3,), sy and state after strains (steps, 3) one after another."""
     state = PlasticState.virgin(1)
     for strain in path:
-        state = flow(law, strain[None], state).state
+        state = return_mapping(law, strain[None], state).state
     (inside,), (across,) = stress(law, path[-1][None], state)
     return inside, across, state
 
@@ -69,7 +69,7 @@ def test_one_strain_alone(hardening, poisson):
 def test_below_yield_it_is_elastic_and_forgets(hardening):
     law = metal(hardening)
     strain = np.array([[1e-3, -4e-4, 7e-4]])
-    step = flow(law, strain, PlasticState.virgin(1))
+    step = return_mapping(law, strain, PlasticState.virgin(1))
     (inside,), (across,) = stress(law, strain, step.state)
     shear, nu = law.elastic.shear_modulus, 0.3
     lame = 2.0 * shear * nu / (1.0 - 2.0 * nu) * 6e-4
@@ -78,7 +78,7 @@ def test_below_yield_it_is_elastic_and_forgets(hardening):
     assert across == pytest.approx(lame, rel=1e-13)
     assert equivalent(inside, across) < Y
     assert not step.yields.any()
-    assert step.lost.shape == (0, 3, 3)
+    assert step.softening.shape == (0, 3, 3)
     assert not step.state.strain.any()
 
 
@@ -126,11 +126,11 @@ def test_plane_strain_tension_converges_to_the_rates(hardening):
         for exx in np.linspace(0.0, strain, steps + 1)[1:]:
             for _ in range(30):  # Newton for sz = 0
                 at = np.array([[exx, ezz, 0.0]])
-                step = flow(law, at, state)
+                step = return_mapping(law, at, state)
                 (inside,), (across,) = stress(law, at, step.state)
                 lame = 2.0 * law.elastic.shear_modulus * 0.3 / 0.4
                 slope = lame + 2.0 * law.elastic.shear_modulus
-                slope -= step.lost[0, 1, 1] if step.yields[0] else 0.0
+                slope -= step.softening[0, 1, 1] if step.yields[0] else 0.0
                 ezz -= inside[1] / slope
                 if abs(inside[1]) < 1e-13 * Y:
                     break
@@ -149,9 +149,11 @@ def test_tangent_is_the_derivative(hardening, size):
     """Central differences of the stress, from a state with a history, at every point at once."""
     random = np.random.default_rng(3)
     law = metal(hardening)
-    before = flow(law, 4.0 * Y / E * random.normal(size=(40, 3)), PlasticState.virgin(40)).state
+    before = return_mapping(
+        law, 4.0 * Y / E * random.normal(size=(40, 3)), PlasticState.virgin(40)
+    ).state
     strain = size * Y / E * random.normal(size=(40, 3))
-    step = flow(law, strain, before)
+    step = return_mapping(law, strain, before)
     assert step.yields.sum() > 5
     h = 1e-6 * size * Y / E
     shear, nu = law.elastic.shear_modulus, 0.3
@@ -161,12 +163,14 @@ def test_tangent_is_the_derivative(hardening, size):
         ahead, behind = strain.copy(), strain.copy()
         ahead[:, column] += h
         behind[:, column] -= h
-        up, down = (stress(law, s, flow(law, s, before).state)[0] for s in (ahead, behind))
+        up, down = (
+            stress(law, s, return_mapping(law, s, before).state)[0] for s in (ahead, behind)
+        )
         slope = (up - down) / (2.0 * h)
         tangent = np.tile(elastic[:, column], (40, 1))
-        tangent[step.yields] -= step.lost[:, :, column]
+        tangent[step.yields] -= step.softening[:, :, column]
         np.testing.assert_allclose(tangent, slope, atol=1e-7 * E)
-    np.testing.assert_allclose(step.lost, step.lost.transpose(0, 2, 1), atol=1e-13 * E)
+    np.testing.assert_allclose(step.softening, step.softening.transpose(0, 2, 1), atol=1e-13 * E)
 
 
 @pytest.mark.parametrize("hardening", HARDENING)
@@ -174,7 +178,7 @@ def test_stress_ends_on_the_yield_surface(hardening):
     random = np.random.default_rng(5)
     law = metal(hardening)
     strain = 10.0 * Y / E * random.normal(size=(200, 3))
-    step = flow(law, strain, PlasticState.virgin(200))
+    step = return_mapping(law, strain, PlasticState.virgin(200))
     inside, across = stress(law, strain, step.state)
     reached = Y + hardening * step.state.equivalent
     q = equivalent(inside.T, across)
@@ -182,7 +186,7 @@ def test_stress_ends_on_the_yield_surface(hardening):
     assert np.all(q[~step.yields] < Y)
     assert 0 < np.count_nonzero(~step.yields) < 50
     # what was reached is elastic when it is reached again, but for rounding
-    again = flow(law, strain, step.state)
+    again = return_mapping(law, strain, step.state)
     np.testing.assert_allclose(again.state.strain, step.state.strain, atol=1e-14)
 
 
@@ -190,15 +194,17 @@ def test_units_do_not_matter():
     random = np.random.default_rng(7)
     strain = 3.0 * Y / E * random.normal(size=(50, 3))
     virgin = PlasticState.virgin(50)
-    small, large = (flow(metal(15.0, unit=unit), strain, virgin) for unit in (1.0, 2.0**30))
+    small, large = (
+        return_mapping(metal(15.0, unit=unit), strain, virgin) for unit in (1.0, 2.0**30)
+    )
     np.testing.assert_array_equal(small.state.strain, large.state.strain)
-    np.testing.assert_array_equal(small.lost * 2.0**30, large.lost)
+    np.testing.assert_array_equal(small.softening * 2.0**30, large.softening)
 
 
 @pytest.mark.parametrize("poisson", [0.0, 0.4999])
 def test_no_stress_no_flow(poisson):
     """Zero strain, and strain that only changes the volume where nu is next to a half."""
-    step = flow(metal(0.0, poisson), np.zeros((1, 3)), PlasticState.virgin(1))
+    step = return_mapping(metal(0.0, poisson), np.zeros((1, 3)), PlasticState.virgin(1))
     assert not step.yields.any()
     assert np.isfinite(step.state.strain).all()
 

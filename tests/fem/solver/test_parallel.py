@@ -13,7 +13,6 @@ from analytic.material import Material
 from fem.compliance.operator import FiniteElementCompliance
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.compliance.far_field import FarField
-from fem.body.surface import hat_nodes
 from meshes.block import BlockMesh, BlockSpec
 
 def found(file, degree, thickness, far):
@@ -23,7 +22,7 @@ def found(file, degree, thickness, far):
     coating = Coating(Material(9.0, 0.1), thickness) if thickness else None
     support = Support("bonded", "fixed") if far else Support("frictionless", "rollers")
     body = elastic_body(mesh, Material(2.0, 0.3), support, degree=degree, coating=coating)
-    hats = hat_nodes(-0.25, 0.025, 21)
+    hats = -0.25 + 0.025 * np.arange(-1, 22)
     field = FarField(body, hats[0], hats[-1]) if far else None
     operator = FiniteElementCompliance(body, hats, far=field)
     pressure = np.linspace(0.0, 1.0, 21)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scenes import hat_nodes
 from scipy.integrate import trapezoid
 from scipy.interpolate import CubicSpline
 
@@ -12,7 +13,6 @@ from analytic.material import Material
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
-from fem.body.surface import hat_nodes
 from fem.body.triangle import shapes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import at_mesh_points, evaluate, nodal_stress, within

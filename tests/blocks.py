@@ -1,0 +1,72 @@
+"""Blocks that tests of meshes start from, by name."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from meshes.block import BlockSpec
+
+BLOCK = BlockSpec(20.0, 40.0, np.array([[-1.5, 1.5]]), 0.05)
+PATCHES = np.array([[-1.5, -1.0], [0.3, 1.1]])
+WINDOW = (-1.2, 1.0, 0.6, 0.04)
+
+TOWARDS_ONE = 1.0 - np.linspace(1.0, 0.0, 13) ** 2
+HALF = np.concatenate([TOWARDS_ONE, 1.0 + np.cumsum(np.geomspace(0.007, 0.1, 9))])
+GRADED = np.concatenate([-HALF[:0:-1], HALF])
+
+
+def block(half_width, depth, intervals, surface_size, growth=0.2, window=None):
+    return BlockSpec(half_width, depth, np.array(intervals), surface_size, growth, window)
+
+
+def with_vertices(vertices, half_width=20.0, depth=40.0, **more):
+    ends = np.array([[vertices[0], vertices[-1]]])
+    return BlockSpec(half_width, depth, ends, 0.05, vertices=vertices, **more)
+
+
+SPECS = {
+    "equal edges": {
+        "half-plane": block(200.0, 400.0, [[-1.5, 1.5]], 0.05),
+        "asperities": block(200.0, 400.0, [[-1.5, -1.0], [-0.9, -0.8], [0.3, 1.1]], 0.02),
+        "window": block(20.0, 40.0, [[-1.0, 1.0]], 0.05, window=WINDOW),
+        "deep": block(5e5, 1e6, [[-10.0, 10.0]], 1.0),
+        "one edge": block(5e5, 1e6, [[0.0, 1.0]], 1.0),
+        "thin layer": block(1.0, 0.02, [[-0.5, 0.5]], 0.01),
+        "thinner than an edge": block(0.5, 0.02, [[-0.2, 0.2]], 0.05),
+        "touching": block(200.0, 400.0, [[-1.0, 0.0], [0.0, 1.0]], 0.05),
+        "at the sides": block(1.0, 8.0, [[-1.0, -0.5], [0.75, 1.0]], 0.05),
+        "whole width": block(1.0, 2.0, [[-1.0, 1.0]], 0.05),
+        "uniform": block(1.0, 1.0, [[-0.5, 0.0]], 0.1, growth=0.0),
+        "slow growth": block(200.0, 400.0, [[-1.5, 1.5]], 0.05, growth=0.1),
+        "fast growth": block(200.0, 400.0, [[-1.0, 0.0]], 0.05, growth=0.5),
+        "micrometres": block(2e-2, 4e-2, [[-1e-4, 1e-4]], 2e-6),
+    },
+    "own vertices": {
+        "graded": with_vertices(GRADED),
+        "uneven": with_vertices(np.array([-0.3, -0.25, -0.1, 0.0, 0.02, 0.05, 0.11])),
+        "graded, window": with_vertices(GRADED, window=(-2.0, 1.0, 0.5, 0.05)),
+        "graded, coating": with_vertices(GRADED, interface=0.2),
+        "graded, fast growth": with_vertices(GRADED, growth=0.5),
+        "graded, whole width": with_vertices(GRADED, GRADED[-1], 3.0),
+        "graded, thin": with_vertices(GRADED, 5.0, 0.3),
+    },
+    "coating": {
+        "as thick as the contact": replace(BLOCK, interface=1.0),
+        "thin coating": replace(BLOCK, interface=0.03),
+        "as thin as an edge": replace(BLOCK, intervals=PATCHES, interface=0.05),
+        "thick coating": replace(BLOCK, interface=15.0),
+        "nearly all": replace(BLOCK, interface=36.0),
+        "coating, window": replace(BLOCK, window=(-2.5, 1.0, 0.6, 0.04), interface=0.3),
+        "coating, fast growth": replace(BLOCK, growth=0.5, interface=0.2),
+        "coating, one size": BlockSpec(1.0, 1.0, np.array([[-0.5, 0.0]]), 0.1, 0.0, interface=0.4),
+        "coating to a side": BlockSpec(2.0, 8.0, np.array([[-1.9, 0.1]]), 0.05, interface=0.06),
+    },
+}
+ALL = {name: spec for kind in SPECS.values() for name, spec in kind.items()}
+
+
+def of_kinds(*kinds: str) -> pytest.MarkDecorator:
+    """One test for the mesh of each of these kinds of blocks."""
+    names = [name for kind in kinds for name in SPECS[kind]]
+    return pytest.mark.parametrize("mesh", names, indirect=True)
