@@ -35,17 +35,17 @@ from comparisons.common.mpi import as_one, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
-# What works in a child, which Ctrl-C ends, and what there is to be said when that had to be forced.
-# A map and a cost study have processes of their own, and end them.
+# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
+# cost study have processes of their own, and end them.
 WATCHED = {
     "run": "finished levels are kept, the same command goes on from there",
     "rerun": "nothing was changed, the same command starts again",
-    "stability": "nothing was written, the same command starts again",
-    "verify": "nothing was written, the same command starts again",
-    "paper": "nothing was written, the same command starts again",
+    **dict.fromkeys(
+        ("stability", "verify", "paper"), "nothing was written, the same command starts again"
+    ),
 }
-# Options that name a place. Empty, as a variable that is not set leaves one, it would be the
-# working folder, and what stands there be replaced.
+# Options that name a place. An empty one, as an unset variable leaves it, would mean the working
+# folder and replace what stands there.
 PLACES = ("--out", "--summary", "--junit")
 FINISHED = (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE, ExitStatus.NOT_CONVERGED)
 
@@ -78,13 +78,13 @@ for name, command in {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (default: the process's own) and return the exit status.
 
-    Several processes under mpirun are heard, and end, as one.
+    Several processes under mpirun print, and end, as one.
     """
     if not sys.warnoptions:
-        warnings.simplefilter("ignore")  # libraries' notes to programmers, not to this reader
+        warnings.simplefilter("ignore")  # libraries' notes to programmers
     if COMPLETION in os.environ:
         return app(prog_name="crosscheck")  # answers the shell, and exits
-    is_own = arguments is None  # nobody else's work goes on in this process
+    is_own = arguments is None
     if is_own:
         _open_streams()
     arguments = list(sys.argv[1:] if arguments is None else arguments)
@@ -96,9 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _open_streams() -> None:
-    """Have streams that were closed lead nowhere, and the others take every character.
+    """Replace streams that were closed, and let the output take every character.
 
-    The next file to be opened would get a closed one's number, and what libraries print.
+    The next file to be opened would get a closed stream's number, and what libraries print.
     """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
@@ -121,12 +121,12 @@ def _carry_out(arguments: list[str]) -> int:
         sys.stdout.flush()
         return int(status)
     except KeyboardInterrupt as stop:
-        return _end(ExitStatus.INTERRUPTED, _last_words(arguments, *map(str, stop.args)))
+        return _end(ExitStatus.INTERRUPTED, _interrupted(arguments, *map(str, stop.args)))
     except (BrokenPipeError, SystemExit) as end:
         if isinstance(end, SystemExit) and not end.code:  # the shell's completion is installed
             sys.stdout.flush()
             return int(ExitStatus.DONE)
-        # nobody reads on: typer and rich make of it an exit with 1, which has another meaning here
+        # nobody reads on: typer and rich would exit with 1, which has another meaning here
         _drop_output()
         return int(ExitStatus.BROKEN_PIPE)
     except InputError as error:
@@ -135,7 +135,7 @@ def _carry_out(arguments: list[str]) -> int:
         return _end(ExitStatus.NOT_CONVERGED, str(error))
     except Exception as error:
         if _is_interrupt(error):
-            return _end(ExitStatus.INTERRUPTED, _last_words(arguments))
+            return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
         if os.environ.get(TRACEBACK):
@@ -144,15 +144,15 @@ def _carry_out(arguments: list[str]) -> int:
         return _end(_defect(error), f"{_account(error)} (set {TRACEBACK}=1 for the traceback)")
 
 
-def _last_words(arguments: list[str], *told: str) -> str:
-    """What an interrupt leaves: as the work tells, or else as its command always does; `run`
-    tells it as soon as there is something to keep."""
+def _interrupted(arguments: list[str], *left: str) -> str:
+    """What an interrupt leaves: as the work says, or else as its command always does; `run` says it
+    as soon as a level is finished."""
     usual = [WATCHED[name] for name in arguments[:1] if name in WATCHED and name != "run"]
-    return "; ".join(["interrupted", *(told or usual)])
+    return "; ".join(["interrupted", *(left or usual)])
 
 
 def _end(status: ExitStatus, message: str) -> int:
-    """Say the one line that goes with a status."""
+    """Print the line that goes with a status."""
     print(f"crosscheck: {one_line(message)}", file=sys.stderr)
     return int(status)
 
@@ -175,12 +175,12 @@ def _defect(error: Exception) -> ExitStatus:
 
 
 def _drop_output() -> None:
-    """Have what is left of standard output go nowhere: the last flush must not fail again."""
+    """Send what is left of standard output nowhere: the last flush must not fail again."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _account(error: Exception) -> str:
-    """An error that is not the user's, and where in the program it came up."""
+    """An error that is not the user's, and where in the program it was raised."""
     if isinstance(error, OSError):
         return f"{error.filename or 'output'}: {error.strerror or error}"
     place = traceback.extract_tb(error.__traceback__)[-1]

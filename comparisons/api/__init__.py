@@ -91,7 +91,7 @@ def run(
     models    half-plane, finite-element, or both
     out       folder for the files of the run; None writes none
     fields    format of the stress fields in files: auto, vtu, vtkhdf, msh
-    progress  is told each stage as it begins
+    progress  gets each stage as it begins
     Raises SceneError for a wrong scene, SolverError where no solution is found.
 
     >>> coarse = {
@@ -180,7 +180,7 @@ def map(
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> Map:
-    """The half-plane's own error over two dimensionless groups: what `crosscheck map` does.
+    """The half-plane's model error over two dimensionless groups: what `crosscheck map` does.
 
     scene    a name or a path
     points   along x and y, "NxM"

@@ -107,13 +107,13 @@ class Figures(Printed):
         from comparisons.report.terminal import PLAIN, SHORT
 
         table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-        for name in ("run", "quantity", "mu", "half-plane", "finite elements", "own error"):
+        for name in ("run", "quantity", "mu", "half-plane", "finite elements", "model error"):
             table.add_column(name, justify="left" if name in ("run", "quantity") else "right")
         for row in self.rows:
             values = (row["half_plane"], row["finite_element"])
             cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]
-            own = row["model_error"]
-            cells.append("" if own is None else percent(own, signed=True))
+            error = row["model_error"]
+            cells.append("" if error is None else percent(error, signed=True))
             head = (row["title"], SHORT[row["quantity"]], f"{row['friction']:g}")
             table.add_row(*(cell.translate(PLAIN) for cell in (*head, *cells)))
         return table

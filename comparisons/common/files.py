@@ -1,8 +1,7 @@
-"""Writing a run's folder so that every file appears whole or not at all.
+"""Writing files, and a run's folder of them, so that each appears whole or not at all.
 
-What is not finished lives inside the folder where that exists, so that neither its parent has to
-be writable nor a file to move to another file system; else beside it, so that the folder appears
-with the results and not before.
+Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
+moves to another file system. Else they are beside it: the folder appears with the results.
 """
 
 import contextlib
@@ -16,7 +15,7 @@ from pathlib import Path
 
 from comparisons.common.errors import InputError
 
-# What a run may leave; on a repetition, those that it does not write again are removed.
+# What a run may write; those that a repetition does not write again are removed.
 OWN_FILES = (
     "result.json",
     "report.html",
@@ -44,13 +43,13 @@ ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 def unfinished(out: Path) -> Path:
     """The folder of a run's finished levels while the run into `out` has not ended."""
     beside = out.parent / f".{out.name}.unfinished"
-    # one from before `out` was made is still good
+    # that of a run which began before `out` was made is still good
     return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
 def check_writable(out: Path) -> None:
     """Raise InputError unless `out` is, or can be made, a folder to write a run in."""
-    try:  # by the longest name that is used beside it
+    try:  # the longest name that is used beside it
         os.lstat(out.parent / f".{out.name}.part-12345678")
     except OSError as error:
         if error.errno == errno.ENAMETOOLONG:
@@ -71,8 +70,8 @@ def check_writable(out: Path) -> None:
 def _check_folder(out: Path, place: Path) -> None:
     """Raise InputError, which names `out`, unless `place` is a folder to write in, or is gone.
 
-    Permission bits do not tell (of root, of a read-only file system), so a folder is made there
-    and removed. Another run may remove `place` meanwhile, or remove it and make it again.
+    Permission bits are not enough (root, a read-only file system), so a folder is made there and
+    removed. Another run may remove `place` meanwhile, or remove it and make it again.
     """
     for attempt in range(ATTEMPTS):
         if not os.path.lexists(place):

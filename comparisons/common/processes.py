@@ -1,7 +1,7 @@
-"""Fresh processes that do one thing after the other, and that an interrupt ends at once.
+"""Fresh processes on one thread, which an interrupt ends at once: single ones and a pool.
 
 A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
-large task (CPython's issue 94777, in Python 3.11.2 and others); here nothing is left to wait for.
+large task (CPython's issue 94777, in Python 3.11.2 and others); `fresh_process` does not.
 """
 
 import multiprocessing
@@ -18,10 +18,10 @@ from typing import TypeVar
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
-Call = Callable[..., Result]  # call(work, *given): work(*given) there
+Call = Callable[..., Result]  # call(work, *given) returns work(*given), computed there
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1"}
-_starting = Lock()  # two that start at once would mistake each other's environment for their own
+_starting = Lock()  # of processes, since each changes this one's environment for a moment
 
 
 class ProcessEnded(Exception):
@@ -30,10 +30,10 @@ class ProcessEnded(Exception):
 
 @contextmanager
 def fresh_process() -> Iterator[Call]:
-    """Start one on one thread at the first call; the end of the block kills it.
+    """A function that calls others in one process, which starts at the first call; the end of the
+    block kills it.
 
-    What it is called with, and its answers, go through pickle. A call raises what the work raises,
-    and ProcessEnded.
+    Arguments and answers go through pickle. A call raises what the work raises, and ProcessEnded.
     """
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
@@ -44,7 +44,7 @@ def fresh_process() -> Iterator[Call]:
         if process.pid is None:
             with _starting, environment(ONE_THREAD), _interrupts_later():
                 process.start()
-            theirs.close()  # or its end would not be heard
+            theirs.close()  # so that reading ends when the process does
         try:
             ours.send((work, given))
             good, answer = ours.recv()
@@ -59,18 +59,18 @@ def fresh_process() -> Iterator[Call]:
             yield call
         finally:
             if process.pid is not None:
-                process.kill()  # within a long factorisation it hears of nothing else
+                process.kill()  # a long factorisation handles no other signal
                 process.join()
 
 
 def share_out(
     items: Iterable[Item], here: Callable[[Item], None], there: Sequence[Callable[[Item], None]]
 ) -> None:
-    """Have every item worked on: `here` in this thread, `there` each in one of its own, which
-    waits for a process.
+    """Work on every item: `here` in this thread, each of `there` in a thread of its own that waits
+    for a process.
 
-    What a process had in hand when it ended is worked on here. The first error ends the rest, and
-    is raised.
+    The item of a process that ended is worked on here. The first error ends the rest, and is
+    raised.
     """
     left, errors = deque(items), []
 
@@ -112,8 +112,7 @@ def _serve(pipe: Connection, alive: Connection) -> None:
 
 @contextmanager
 def _interrupts_later() -> Iterator[None]:
-    """A process that starts must not hear a Ctrl-C before it leaves that to this one, which hears
-    it a moment later."""
+    """Delay Ctrl-C while a process starts: the new one must not get it before it ignores it."""
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -135,14 +134,14 @@ def processes(count: int) -> Iterator[Executor]:
             held.close()
             for process in multiprocessing.active_children():
                 if process not in others:
-                    process.kill()  # within a long factorisation it hears of nothing else
+                    process.kill()  # a long factorisation handles no other signal
             raise
         finally:
             pool.shutdown(cancel_futures=True)
 
 
 def begin(alive: Connection) -> None:
-    """Leave Ctrl-C to the process that started this one, and end with it or when it says so."""
+    """Ignore Ctrl-C, and end with the process that started this one or when it closes `alive`."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 
@@ -155,7 +154,7 @@ def begin(alive: Connection) -> None:
 
 @contextmanager
 def environment(wanted: dict[str, str]) -> Iterator[None]:
-    """Variables for processes that are started inside: numpy reads them as it is imported."""
+    """Environment variables of processes that start inside: numpy reads them when imported."""
     before = {name: os.environ.get(name) for name in wanted}
     os.environ.update(wanted)
     try:

@@ -25,9 +25,8 @@ from comparisons.scenes.scene import ResolvedScene
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# What lies behind of a run's time when its levels and when all is solved, without effects to
-# compute and with some: for what is told alone.
-ALONE, WITH_EFFECTS = (0.85, 0.85), (0.3, 0.97)
+# Share of a run's time after which its levels, and all else, are solved: for progress alone.
+WITHOUT_EFFECTS, WITH_EFFECTS = (0.85, 0.85), (0.3, 0.97)
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
@@ -41,7 +40,7 @@ def run(
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
     models    of half_plane, finite_element
-    callback  is told each stage as it begins
+    callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution; nothing is written then.
@@ -68,19 +67,15 @@ def run(
 
 
 def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
-    """Refuse on several processes what is solved on one."""
+    """Raise SceneError for what only one process can solve where there are several."""
     settings = scene.finite_element
-    if "finite_element" not in models or not is_several():
-        return
-    for name, nonlinear in (
-        ("deformation", settings.deformation == "finite"),
-        ("plastic", settings.plastic),
-    ):
-        if nonlinear:
-            raise SceneError(
-                f"{scene.source}: finite_element.{name}: is solved on one process; allowed "
-                "without mpirun"
-            )
+    name = "deformation" if settings.deformation == "finite" else "plastic"
+    nonlinear = settings.deformation == "finite" or settings.plastic
+    if nonlinear and "finite_element" in models and is_several():
+        raise SceneError(
+            f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
+            "mpirun"
+        )
 
 
 def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCallback) -> Problem:
@@ -103,22 +98,22 @@ def solve(
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
 ) -> Outcome:
-    """Carry out a plan; `run` with a plan of one's own."""
+    """Carry out a plan, as `run` does with the plan that suits the problem."""
     window = window_of(problem) if plan.stress else None
-    checkpoint = level_cache(out, problem.scene, plan)
-    levels, solved = WITH_EFFECTS if plan.compares and plan.effects else ALONE
+    cache = level_cache(out, problem.scene, plan)
+    levels, solved = WITH_EFFECTS if plan.compares and plan.effects else WITHOUT_EFFECTS
     try:
-        runs, stop = refined(problem, plan, window, checkpoint, within(callback, 0.0, levels))
+        runs, stop = refined(problem, plan, window, cache, within(callback, 0.0, levels))
         moved = couplings(problem, runs["half_plane"], window, callback) if plan.coupling else ()
         rows = compared(problem, runs, window) if plan.compares else ()
         budget = None
         if plan.compares:
             part = within(callback, levels, solved)
-            budget = error_budget(problem, plan, window, runs, rows, moved, checkpoint, part)
+            budget = error_budget(problem, plan, window, runs, rows, moved, cache, part)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
-        checkpoint.discard()
+        cache.discard()
         raise
     result = result_of(problem, plan, runs, rows, stop, moved, budget)
     hashes = {
@@ -146,7 +141,7 @@ def solve(
             write_files(outcome, within(callback, solved, 1.0), fields)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
-    checkpoint.discard()
+    cache.discard()
     return outcome
 
 

@@ -55,35 +55,28 @@ def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
 
 
 def write_contact(path: Path, problem: Problem, level: Level) -> None:
-    """contact.csv: position, pressure, gap and deformed height at every pressure element."""
-    columns = np.column_stack(
-        [
-            level.grid.x,
-            level.solution.pressure,
-            level.solution.gap,
-            deformed_height(problem, level),
-        ]
-    )
-    np.savetxt(
-        path,
-        columns,
-        delimiter=",",
-        fmt="%.12g",
-        header="x [m],pressure [Pa],gap [m],deformed height [m]",
-        comments="",
-    )
+    """contact.csv: a row for each pressure element."""
+    columns = {
+        "x [m]": level.grid.x,
+        "pressure [Pa]": level.solution.pressure,
+        "gap [m]": level.solution.gap,
+        "deformed height [m]": deformed_height(problem, level),
+    }
+    _write_csv(path, columns)
 
 
 def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
-    """run_in_profile.csv: the trace as it was given along x, its height before and after."""
+    """run_in_profile.csv: the trace along its own x, its height before and after."""
     run_in = scene.run_in
     after = run_in.profile.height
-    columns = np.column_stack([run_in.profile.x + scene.position, after + run_in.lowering, after])
-    np.savetxt(
-        path,
-        columns,
-        delimiter=",",
-        fmt="%.12g",
-        header="x [m],height before running-in [m],height [m]",
-        comments="",
-    )
+    columns = {
+        "x [m]": run_in.profile.x + scene.position,
+        "height before running-in [m]": after + run_in.lowering,
+        "height [m]": after,
+    }
+    _write_csv(path, columns)
+
+
+def _write_csv(path: Path, columns: dict[str, np.ndarray]) -> None:
+    rows = np.column_stack(list(columns.values()))
+    np.savetxt(path, rows, delimiter=",", fmt="%.12g", header=",".join(columns), comments="")

@@ -252,7 +252,7 @@ class FieldError(ValueError):
         self.field = field
 
 
-class Section(BaseModel):
+class SceneSection(BaseModel):
     """One section: unknown fields are errors."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -268,12 +268,12 @@ class Section(BaseModel):
             )
 
 
-def allowed(table: type[Section], name: str) -> str:
+def allowed(table: type[SceneSection], name: str) -> str:
     """What a field may hold, in words."""
     return field_type(table, name).allowed()
 
 
-def field_type(table: type[Section], name: str) -> FieldType:
+def field_type(table: type[SceneSection], name: str) -> FieldType:
     """What reads a field."""
     notes = _annotations(table.model_fields[name])
     return next(note for note in notes if isinstance(note, FieldType))

@@ -6,7 +6,7 @@ from pydantic import model_validator
 
 from comparisons.common.units import DIMENSIONLESS
 from comparisons.scenes.scene import FiniteElementSettings
-from comparisons.scenes.schema.fields import FieldError, Number, OneOf, Section, Truth
+from comparisons.scenes.schema.fields import FieldError, Number, OneOf, SceneSection, Truth
 
 HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -21,7 +21,7 @@ SEVERAL_FRICTIONS = (
 )
 
 
-class FiniteElementSection(Section):
+class FiniteElementSection(SceneSection):
     """Defaults keep every assumption that the classic method makes, but for the flat half-plane."""
 
     geometry: Annotated[str, OneOf(("flat", "rough"))] = "flat"
@@ -72,11 +72,11 @@ class FiniteElementSection(Section):
 
     def check(
         self,
-        roller: Section,
-        body: Section,
-        load: Section,
-        profile: Section | None,
-        coating: Section | None,
+        roller: SceneSection,
+        body: SceneSection,
+        load: SceneSection,
+        profile: SceneSection | None,
+        coating: SceneSection | None,
     ) -> None:
         """Raise FieldError unless the rest of the scene fits what this section asks for."""
         unbounded = body.thickness is None and body.width is None

@@ -15,7 +15,7 @@ from comparisons.scenes.schema.fields import (
     Length,
     Number,
     OneOf,
-    Section,
+    SceneSection,
     Text,
     Unit,
     Whole,
@@ -76,7 +76,7 @@ Ratio = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
 Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 
 
-class ProfileSection(Section):
+class ProfileSection(SceneSection):
     """A measured profile (`file`) or a made one (`kind`).
 
     The parameters of a made profile are those of `analytic.surface.synthetic`, which also checks

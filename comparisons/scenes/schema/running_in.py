@@ -10,13 +10,20 @@ from analytic.running_in import SWEEPS
 from comparisons.common.errors import SceneError
 from comparisons.common.units import LENGTH, LOAD, PRESSURE
 from comparisons.scenes.scene import RunningIn
-from comparisons.scenes.schema.fields import FieldError, Length, Number, Section, Several, Whole
+from comparisons.scenes.schema.fields import (
+    FieldError,
+    Length,
+    Number,
+    SceneSection,
+    Several,
+    Whole,
+)
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
 
 
-class RunningInSection(Section):
+class RunningInSection(SceneSection):
     """Places of the roller one by one (`positions`), or evenly along a `stroke` about its own."""
 
     hardness: Annotated[float, Number(PRESSURE, above=0.0)] | None = None
@@ -36,7 +43,7 @@ class RunningInSection(Section):
             )
         return self
 
-    def check(self, profile: Section | None, hardness: float | None, load_kind: str) -> None:
+    def check(self, profile: SceneSection | None, hardness: float | None, load_kind: str) -> None:
         """Raise FieldError unless the rest of the scene gives what this section leaves out."""
         if profile is None:
             raise FieldError(

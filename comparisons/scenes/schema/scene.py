@@ -21,7 +21,7 @@ from comparisons.scenes.schema.fields import (
     Length,
     Number,
     OneOf,
-    Section,
+    SceneSection,
     Several,
     Text,
     Truth,
@@ -39,7 +39,7 @@ Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=
 PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
 
 
-class RollerSection(Section):
+class RollerSection(SceneSection):
     radius: Length
     rigid: Annotated[bool, Truth()] = False
     youngs_modulus: Pressure | None = None
@@ -61,7 +61,7 @@ class RollerSection(Section):
         return self
 
 
-class BodySection(Section):
+class BodySection(SceneSection):
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
     hardness: Pressure | None = None
@@ -89,13 +89,13 @@ class BodySection(Section):
         return self
 
 
-class CoatingSection(Section):
+class CoatingSection(SceneSection):
     thickness: Length
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
 
 
-class LoadSection(Section):
+class LoadSection(SceneSection):
     per_length: Annotated[float, Number(LOAD, above=0.0)] | None = None
     hertz_peak_pressure: Pressure | None = None
     approach: Length | None = None
@@ -122,13 +122,13 @@ class LoadSection(Section):
         return self
 
 
-class StressSection(Section):
+class StressWindowSection(SceneSection):
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
     half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
     points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS)] = (600, 200)
 
 
-class ToleranceSection(Section):
+class ToleranceSection(SceneSection):
     peak_pressure: Fraction = 0.02
     contact_length: Fraction = 0.02
     tau1_max: Fraction = 0.02
@@ -140,18 +140,18 @@ class ToleranceSection(Section):
     tau1_field_deep: Fraction | None = None
 
 
-class ResolutionSection(Section):
+class ResolutionSection(SceneSection):
     pitch: Length | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
 
-class BudgetSection(Section):
+class BudgetSection(SceneSection):
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
     effects: Annotated[bool, Truth()] = True
 
 
-class SceneFile(Section):
+class SceneFile(SceneSection):
     """The whole file."""
 
     title: Annotated[str, Text("what the scene shows")] | None = None
@@ -161,7 +161,7 @@ class SceneFile(Section):
     profile: ProfileSection | None = None
     load: LoadSection
     running_in: RunningInSection | None = None
-    stress: StressSection | None = None
+    stress: StressWindowSection | None = None
     tolerance: ToleranceSection = ToleranceSection()
     finite_element: FiniteElementSection = FiniteElementSection()
     resolution: ResolutionSection = ResolutionSection()
@@ -237,14 +237,14 @@ class SceneFile(Section):
         return self
 
 
-SECTIONS: dict[str, type[Section]] = {
+SECTIONS: dict[str, type[SceneSection]] = {
     "roller": RollerSection,
     "body": BodySection,
     "coating": CoatingSection,
     "profile": ProfileSection,
     "load": LoadSection,
     "running_in": RunningInSection,
-    "stress": StressSection,
+    "stress": StressWindowSection,
     "tolerance": ToleranceSection,
     "finite_element": FiniteElementSection,
     "resolution": ResolutionSection,
@@ -270,7 +270,7 @@ def _of_stress() -> list[str]:
 
 
 def _plain(value: object) -> object:
-    if isinstance(value, Section):
+    if isinstance(value, SceneSection):
         pairs = ((name, getattr(value, name)) for name in type(value).model_fields)
         return {name: _plain(item) for name, item in pairs if item is not None}
     if isinstance(value, Extent):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import PROJECT, STEEL
 
 from comparisons import api
 from comparisons.api.results import CostStudy, Map, Run
@@ -14,8 +15,6 @@ from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.studies.maps.content import read_map
 
-ROOT = Path(__file__).parents[3]
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMALL = {
     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5, "tau1_max": 0.5},
     "stress": {"points": [12, 6]},
@@ -216,7 +215,7 @@ def test_report_is_written_where_it_is_asked_for(found, tmp_path, monkeypatch):
 
 
 def test_a_finished_map_prints_and_draws(pyplot):
-    content = read_map(ROOT / "comparisons/studies/maps/finished/thickness-friction.json")
+    content = read_map(PROJECT / "comparisons/studies/maps/finished/thickness-friction.json")
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
     assert "The half-plane's own error" in shown.plot()[0].get_title(loc="left")
@@ -232,4 +231,4 @@ def test_examples_run(tmp_path, monkeypatch, pyplot):
 
 @pytest.mark.parametrize("package", ["analytic", "meshes", "fem", "comparisons"])
 def test_packages_say_that_they_are_typed(package):
-    assert (ROOT / package / "py.typed").read_bytes() == b""
+    assert (PROJECT / package / "py.typed").read_bytes() == b""

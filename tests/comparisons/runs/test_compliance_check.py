@@ -1,9 +1,9 @@
 """The check of the finite elements' compliance in a run: levels, result, report, repetition."""
 
 import json
-from pathlib import Path
 
 import pytest
+from scenes import STEEL, resolved
 
 from comparisons.assessment.refinement import CurrentBodies
 from comparisons.common.cache import Cache, kinds_of
@@ -17,9 +17,8 @@ from comparisons.models.problem import problem_of
 from comparisons.report.tables.verification import operator_note, operator_table
 from comparisons.results.changes import movement
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 LAYER = {
     "title": "Smooth layer",
     "roller": {"radius": 8e-3, **STEEL},
@@ -31,7 +30,7 @@ LAYER = {
 
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory):
-    coarse = resolve_tables(LAYER, name="made", folder=Path("."), source="made.toml")
+    coarse = resolved(LAYER)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("comparisons.report.page.render", lambda outcome: "")
         return run(coarse, tmp_path_factory.mktemp("run") / "out", ("finite_element",))

@@ -4,17 +4,16 @@ analytic/exact/layer_contact.json: ten digits, two independent derivations.
 """
 
 import json
-from pathlib import Path
 
 import pytest
+from scenes import problem
 
 from analytic.exact.layers import TABLE
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.models.problem import Problem
 
 CASES = json.loads(TABLE.read_text())["cases"]
 RADIUS, THICKNESS, YOUNGS_MODULUS = 0.1, 1e-3, 200e9
@@ -42,18 +41,17 @@ def problem_under(case: dict, nu: float) -> tuple[Problem, float]:
         },
         "load": {"per_length": load},
     }
-    scene = resolve_tables(tables, name="layer", folder=Path("."), source="layer.toml")
-    return problem_of(scene), float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS
+    return problem(tables), float(case["p0_R_over_Eprime_t"]) * modulus * THICKNESS / RADIUS
 
 
 @pytest.mark.parametrize(
     ("case", "nu"), ALL, ids=[f"{c['base']}-{c['a_over_t']}-{nu}" for c, nu in ALL]
 )
 def test_second_level_meets_the_exact_layer(case, nu):
-    problem, peak = problem_under(case, nu)
-    plan = make_plan(problem, ("finite_element",))
-    refinement = Refinement(problem.pitches[1])
-    level = finite_element_level(problem, plan, refinement, None, Stages())
+    posed, peak = problem_under(case, nu)
+    plan = make_plan(posed, ("finite_element",))
+    refinement = Refinement(posed.pitches[1])
+    level = finite_element_level(posed, plan, refinement, None, Stages())
     assert level.solution.converged
     assert level.solution.iterations["applications"] <= 6
     half_width = float(case["a_over_t"]) * THICKNESS

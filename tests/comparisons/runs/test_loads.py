@@ -1,22 +1,15 @@
 """Runs under loads out of the ordinary: by an approach, and so light that one crest touches."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from scenes import STEEL, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import MODELS
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import resolve_tables
 
 pytestmark = pytest.mark.usefixtures("undrawn")
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-
-
-def scene_of(tables, name="scene", folder=Path(".")):
-    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
 
 
 def test_approach_prescribed_on_a_layer(tmp_path):
@@ -26,7 +19,7 @@ def test_approach_prescribed_on_a_layer(tmp_path):
         "load": {"approach": 10e-6},
         "budget": {"effects": False},
     }
-    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+    outcome = run(resolved(tables), tmp_path / "out", MODELS)
     contact = outcome.result["models"]["finite_element"][0]["contact"]
     assert contact["approach"] == pytest.approx(10e-6, rel=1e-3)
     assert outcome.result["models"]["half_plane"][0]["contact"]["approach"] is None
@@ -44,7 +37,7 @@ def test_a_load_that_touches_one_crest_only(tmp_path, load):
         "load": {"per_length": load},
         "budget": {"effects": False},
     }
-    outcome = run(scene_of(tables), tmp_path / "out", MODELS)
+    outcome = run(resolved(tables), tmp_path / "out", MODELS)
     curvature = 1.0 / 10e-3 + amplitude * (2.0 * np.pi / wavelength) ** 2
     crest = hertz_from_load(load, 1.0 / curvature, outcome.problem.modulus)
     assert outcome.exit_status == ExitStatus.DONE

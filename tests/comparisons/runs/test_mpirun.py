@@ -93,7 +93,7 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeyp
     half_width = one["/hertz/half_width"]
     for name, value in one.items():
         # differences of figures, and a place near the middle, have no digits to spare
-        compared = ("/comparison", "/uncertainty", "/budget", "/operator")
+        compared = ("/comparison", "/uncertainty", "budget", "/model_error", "/operator")
         difference = any(part in name for part in compared)
         spare = 1.0 if difference else half_width if "_at/" in name else 0.0
         if isinstance(value, float):

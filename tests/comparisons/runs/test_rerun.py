@@ -4,11 +4,11 @@ import io
 import json
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
 from rich.console import Console
+from scenes import SMOOTH, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import InputError
@@ -16,17 +16,11 @@ from comparisons.common.provenance import versions
 from comparisons.common.quantities import MODELS
 from comparisons.runs.rerun import rerun, rerun_summary
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-    "stress": {"points": [60, 20]},
-}
+SMALL = SMOOTH | {"stress": {"points": [60, 20]}}
 TRACED = """
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
 body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
@@ -36,8 +30,8 @@ resolution = {levels = 2}
 """
 
 
-def recorded(folder, tables=SMOOTH, models=("half_plane",)):
-    run(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"), folder, models)
+def recorded(folder, tables=SMALL, models=("half_plane",)):
+    run(resolved(tables), folder, models)
     return folder
 
 
@@ -146,14 +140,12 @@ def test_other_versions_are_named(own):
 
 def test_as_many_levels_as_recorded_whatever_they_take(tmp_path):
     """More than the scene begins with, and less than its open questions ask for."""
-    tables = SMOOTH | {
+    tables = SMALL | {
         "tolerance": {"peak_pressure": 1e-9},
         "budget": {"time": 1e-6},
         "resolution": {"levels": 2, "pitch": 1e-4},
     }
-    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
-    folder = tmp_path / "out"
-    run(scene, folder, ("half_plane",))
+    folder = recorded(tmp_path / "out", tables)
     record = json.loads((folder / "record.json").read_text())
     assert record["levels"] == 1
     assert rerun(folder).levels == (1, 1)

@@ -3,10 +3,10 @@
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import QUICK, changed, resolved
 
 from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import MODELS
@@ -15,36 +15,14 @@ from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan, unpruned
 from comparisons.models.problem import problem_of
 from comparisons.runs.run import run, solve
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene
 
 pytestmark = pytest.mark.usefixtures("undrawn")
-
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "title": "smooth",
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-    "stress": {"points": [120, 40]},
-    "budget": {"effects": False},
-}
-
-
-def scene_of(tables, name="scene", folder=Path(".")):
-    return resolve_tables(tables, name=name, folder=folder, source=f"{name}.toml")
-
-
-def changed(tables, **sections):
-    """The tables with some sections' fields replaced."""
-    return {
-        **tables,
-        **{name: {**tables.get(name, {}), **fields} for name, fields in sections.items()},
-    }
 
 
 @pytest.fixture(scope="module")
 def smooth(tmp_path_factory):
-    return run(scene_of(SMOOTH), tmp_path_factory.mktemp("smooth") / "out", MODELS)
+    return run(resolved(QUICK), tmp_path_factory.mktemp("smooth") / "out", MODELS)
 
 
 def figures(outcome) -> dict:
@@ -157,7 +135,7 @@ class TestSmooth:
         assert len(mesh.points) == len(smooth.runs["finite_element"].finest.mesh.points)
 
     def test_the_same_scene_gives_the_same_figures(self, smooth, tmp_path):
-        again = run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+        again = run(resolved(QUICK), tmp_path / "out", MODELS)
         assert figures(again) == figures(smooth)
         assert again.record["hashes"] == smooth.record["hashes"]
 
@@ -207,7 +185,7 @@ def test_one_model_alone_gives_its_own_figures(smooth, tmp_path):
 class TestSliding:
     def test_friction_changes_stresses_and_not_the_contact(self, tmp_path, smooth):
         outcome = run(
-            scene_of(changed(SMOOTH, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS
+            resolved(changed(QUICK, load={"friction": [0.0, 0.1]})), tmp_path / "out", MODELS
         )
         for model in MODELS:
             still, sliding = outcome.result["models"][model]
@@ -235,9 +213,9 @@ def test_a_run_that_was_stopped_goes_on_with_its_finished_levels(tmp_path, smoot
 
     monkeypatch.setattr(finite_element, "finite_element_level", counted)
     with pytest.raises(KeyboardInterrupt, match="goes on"):
-        run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+        run(resolved(QUICK), tmp_path / "out", MODELS)
     assert [p.name for p in tmp_path.iterdir()] == [".out.unfinished"]
-    outcome = run(scene_of(SMOOTH), tmp_path / "out", MODELS)
+    outcome = run(resolved(QUICK), tmp_path / "out", MODELS)
     assert len(calls) == 3 + 2
     assert figures(outcome) == figures(smooth)
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
@@ -253,7 +231,7 @@ def test_levels_of_another_scene_or_a_torn_file_are_not_used(tmp_path, smooth):
     assert again.solution.residuals == level.solution.residuals
     assert np.array_equal(again.mesh.points, level.mesh.points)
     assert again.stresses[0].extremes == level.stresses[0].extremes
-    other = scene_of(changed(SMOOTH, load={"per_length": 3.56e6}))
+    other = resolved(changed(QUICK, load={"per_length": 3.56e6}))
     assert level_cache(tmp_path / "out", other, plan).load("level") is None
     assert level_cache(tmp_path / "out", scene, unpruned(plan)).load("level") is None
     path = tmp_path / ".out.unfinished" / "level.npz"

@@ -1,21 +1,17 @@
 """A body that yields, through a scene: what flow does to the contact and what it leaves behind."""
 
-from pathlib import Path
-
 import meshio
 import numpy as np
 import pytest
+from scenes import STEEL, changed, problem, resolved
 
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.cost import flow_increments
-from comparisons.models.problem import problem_of
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import resolve_tables
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 YIELD_STRESS = 1e9
 TABLES = {
     "roller": {"radius": 10e-3, "rigid": True},
@@ -28,14 +24,9 @@ TABLES = {
 }
 
 
-def scene_of(**sections: dict):
-    tables = {**TABLES, **{name: {**TABLES[name], **f} for name, f in sections.items()}}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
-
-
 @pytest.fixture(scope="module")
 def outcome(tmp_path_factory):
-    return run(scene_of(), tmp_path_factory.mktemp("yielding") / "out", MODELS)
+    return run(resolved(TABLES), tmp_path_factory.mktemp("yielding") / "out", MODELS)
 
 
 @pytest.fixture(scope="module")
@@ -70,13 +61,13 @@ def test_what_is_left_is_small_and_not_nothing(mesh):
 
 
 def test_steps_of_the_load_double_from_level_to_level():
-    problem = problem_of(scene_of())
-    steps = [flow_increments(problem, problem.reference_pitch * 2.0**k) for k in (3, 2, 1, 0, -1)]
+    posed = problem(TABLES)
+    steps = [flow_increments(posed, posed.reference_pitch * 2.0**k) for k in (3, 2, 1, 0, -1)]
     assert steps == [4, 4, 8, 16, 32]
 
 
 def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path):
-    scene = scene_of(body={"yield_stress": 3e8, "hardening_modulus": 0.0})
+    scene = resolved(changed(TABLES, body={"yield_stress": 3e8, "hardening_modulus": 0.0}))
     with pytest.raises(SolverError, match=r"made\.toml: .*a lighter load, a higher body\.yield"):
         run(scene, tmp_path / "out", ("finite_element",))
     assert list(tmp_path.iterdir()) == []

@@ -6,32 +6,24 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import MEASURED, SMOOTH, changed, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.material import combined_modulus
 from analytic.surface.synthetic import ground_texture, self_affine
 from comparisons.common.errors import SceneError
 from comparisons.scenes.profile import SINUSOID_REACH, SINUSOID_WAVES
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene
 
-ROOT = Path(__file__).parents[3]
-REAL = ROOT.parent / "shared" / "profiles" / "real_stylus_dektak.csv"
-STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
-BARE = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 1e6},
-}
+REAL = MEASURED / "real_stylus_dektak.csv"
+BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
 X = np.arange(201.0)  # um
 WAVES = 0.3 * np.cos(2.0 * np.pi * X / 20.0)  # um, whole waves
 
 
 def with_profile(folder: Path = Path("."), position=None, **profile):
-    tables = copy.deepcopy(BARE)
-    tables["profile"] = profile
-    if position is not None:
-        tables["load"]["position"] = position
-    return resolve_tables(tables, name="mine", folder=folder, source="mine.toml")
+    place = {} if position is None else {"position": position}
+    return resolved(changed(BARE, profile=profile, load=place), "mine", folder)
 
 
 def measured(folder: Path, height: np.ndarray, **profile):
@@ -159,7 +151,7 @@ def test_a_measured_trace():
 def test_a_sinusoid_outlasts_its_contact(load, wavelength):
     tables = {**copy.deepcopy(BARE), "load": load}
     tables["profile"] = {"kind": "sinusoid", "wavelength": wavelength, "amplitude": 2e-7}
-    scene = resolve_tables(tables, name="mine", folder=Path("."), source="mine.toml")
+    scene = resolved(tables)
     modulus = combined_modulus(scene.roller, scene.body)
     force = load.get("per_length", np.pi * 1e9**2 * 8e-3 / modulus)
     half_width = hertz_from_load(force, 8e-3, modulus).half_width

@@ -4,17 +4,16 @@ import copy
 import datetime
 import json
 from decimal import Decimal
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scenes import resolved
 
 from analytic.material import Material
 from comparisons.common.errors import SceneError
 from comparisons.common.quantities import QUANTITIES
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import (
     Budget,
     Coated,
@@ -76,10 +75,6 @@ FULL = {
 }
 
 
-def resolved(tables: dict, folder: Path = Path(".")):
-    return resolve_tables(tables, name="mine", folder=folder, source="mine.toml")
-
-
 def changed(tables: dict, section: str, **fields) -> dict:
     """The tables with fields of one section replaced, None taking one away."""
     new = copy.deepcopy(tables)
@@ -90,7 +85,7 @@ def changed(tables: dict, section: str, **fields) -> dict:
 
 def test_a_bare_scene_has_the_defaults():
     scene = resolved(BARE)
-    assert (scene.name, scene.title) == ("mine", "mine")
+    assert (scene.name, scene.title) == ("made", "made")
     assert scene.roller == scene.body == Material(207e9, 0.3)
     assert scene.roller_radius == 0.0082
     assert scene.load == Load("load_per_length", 3.85e6)
@@ -291,7 +286,7 @@ def test_any_value_is_taken_or_refused_in_one_line(place, value):
         resolved(tables)
     except SceneError as error:
         line = str(error)
-        assert line.startswith(f"mine.toml: {section}") or section == "profile"
+        assert line.startswith(f"made.toml: {section}") or section == "profile"
         assert "allowed" in line or "must" in line or "nearest" in line or " is " in line
         assert "\n" not in line and "pydantic" not in line and "Value error" not in line
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rich.console import Console
+from scenes import SMOOTH, changed, resolved
 
 from analytic.surface.filters import filtered
 from analytic.surface.roughness import roughness
@@ -16,23 +17,15 @@ from analytic.surface.turned import turned, turned_height
 from comparisons.common.errors import SceneError
 from comparisons.report.tables.problem import filter_text, problem_sheet
 from comparisons.report.terminal import summary, surface_text
-from comparisons.scenes.resolve import resolve_tables
 
-STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
-BARE = {
-    "roller": {"radius": 8e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 1e6},
-}
+BARE = changed(SMOOTH, roller={"radius": 8e-3}, load={"per_length": 1e6})
 ROUGH = {"kind": "self-affine", "hurst": 0.8, "rms_height": 3e-6, "samples": 2001, "length": 4e-3}
 TURNED = {"kind": "turned", "feed": "0.1 mm", "nose_radius": "0.8 mm", "length": "4 mm"}
 HEIGHTS = np.random.default_rng(2).standard_normal((6, 41))  # nm, columns 1 um and rows 2 um apart
 
 
 def with_profile(folder: Path = Path("."), **profile):
-    tables = copy.deepcopy(BARE)
-    tables["profile"] = profile
-    return resolve_tables(tables, name="mine", folder=folder, source="mine.toml")
+    return resolved(changed(BARE, profile=profile), "mine", folder)
 
 
 @pytest.fixture
@@ -74,7 +67,7 @@ class TestMaps:
         scene = with_profile(mapped, file="map.sdf", line=line)
         tables = json.loads(json.dumps(scene.tables))
         assert tables == scene.tables
-        again = resolve_tables(tables, name="mine", folder=mapped, source="mine.toml")
+        again = resolved(tables, "mine", mapped)
         assert again == scene
         assert np.array_equal(again.profile.height, scene.profile.height)
 

@@ -1,28 +1,15 @@
-"""Another tolerance for every judged figure: where it is taken, and where the ladder ends."""
+"""Another tolerance for every judged figure: where it is taken, and where refinement ends."""
 
 import sys
 import types
-from pathlib import Path
 
 import pytest
+from scenes import SMOOTH, changed, resolved
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
-
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "title": "Smooth",
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-}
-
-
-def scene(tables, **sections):
-    tables = tables | {name: tables.get(name, {}) | more for name, more in sections.items()}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+from comparisons.scenes.resolve import load_scene, with_tolerance
 
 
 class TestTolerance:
@@ -38,9 +25,9 @@ class TestTolerance:
         assert main(["run", "smooth", "--tolerance", wrong]) == 2
         assert "--tolerance: is " in capsys.readouterr().err
 
-    def test_the_ladder_stops_where_it_is_met(self, tmp_path, monkeypatch):
+    def test_refinement_stops_where_it_is_met(self, tmp_path, monkeypatch):
         monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")
-        coarse = scene(SMOOTH, resolution={"pitch": 1e-4})
+        coarse = resolved(changed(SMOOTH, resolution={"pitch": 1e-4}))
         levels = {}
         for tolerance in (0.2, 2e-3):
             given = with_tolerance(coarse, tolerance)
