@@ -17,11 +17,11 @@ from comparisons.common.progress import ProgressCallback, Stages
 from comparisons.models.half_plane import half_plane_on
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import no_coupling
-from comparisons.models.problem import Problem, ground
+from comparisons.models.problem import Problem, surface_ends
 from comparisons.models.window import Window
 
 SHIFT = "contact_shift"
-OFF_THE_GROUND = "moved by friction, the contact reaches the end of the body"
+BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _coupling(
             break
         more *= 2
         if _stretched(problem, own.grid, more) == grid:
-            return Coupling(friction, {}, why=OFF_THE_GROUND)
+            return Coupling(friction, {}, why=BEYOND_THE_END)
     own = _spread(own, grid)
     moved, still = (own, other) if problem.coupling else (other, own)
     return Coupling(
@@ -115,8 +115,8 @@ def _coupling(
 
 
 def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
-    """The grid with so many more elements at either end, as far as there is ground."""
-    start, stop = ground(problem.scene)
+    """The grid with so many more elements at either end, as far as the surface goes."""
+    start, stop = surface_ends(problem.scene)
     first, last = grid.first - more, grid.last + more
     if np.isfinite(start):
         widest = HatGrid.within(start, stop, grid.pitch)

@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
@@ -11,6 +10,7 @@ from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult
+from comparisons.models.nearest_operator import solve_on
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
@@ -48,7 +48,7 @@ def half_plane_on(
     with stages.stage("contact", "half-plane: contact"):
         operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
         weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-        solution = solve_coupled(operator, weighted_gap, grid.weights, problem.constraints())
+        solution = solve_on(operator, weighted_gap, grid.weights, problem.constraints())
         body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
         level = Level(
             grid=grid,

@@ -4,6 +4,11 @@ It predicts where finite elements will touch, and is the model of their outer it
 answer is checked on the finite elements themselves.
 """
 
+import numpy as np
+
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.equilibrium import Constraints
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
@@ -40,6 +45,19 @@ def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0)
         return normal
     # what the roller's own traction adds is left to the outer iteration
     return CoupledPair(normal, TangentialLayer(count, pitch, body), friction)
+
+
+def solve_on(
+    operator: ModelOperator,
+    gap: np.ndarray,
+    weights: np.ndarray,
+    constraints: Constraints,
+    start: np.ndarray | None = None,
+) -> ContactSolution:
+    """The contact on an analytic or dense operator, by the solver for those that sliding traction
+    couples or by that for all others; arguments as in `analytic.contact.problem.solve_contact`."""
+    solve = solve_coupled if hasattr(operator, "skew") else solve_contact
+    return solve(operator, gap, weights, constraints, start)
 
 
 def _layered_body(scene: ResolvedScene) -> LayeredBody:

@@ -10,10 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
@@ -22,7 +20,7 @@ from analytic.operators.tangential import CoupledHalfPlane
 from analytic.profile import surface
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import SceneError
-from comparisons.models.nearest_operator import is_layered, nearest_operator
+from comparisons.models.nearest_operator import is_layered, nearest_operator, solve_on
 from comparisons.models.running_in import run_in_scene
 from comparisons.scenes.scene import ResolvedScene
 
@@ -30,16 +28,16 @@ SMOOTH_ELEMENTS = 77.3  # pressure elements on a half-width, third level; no edg
 HATS_PER_WAVE = 40.0  # third level; the first then has 10 to the shortest wavelength
 MOST_HATS = 6000  # on the contact at the third level; more only where refinement asks for it
 FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the finest level
-SCOUT_HATS = 2000  # of the solution that finds how far the contact reaches
+SEARCH_HATS = 2000  # of the solutions that search for the extent of the contact
 FULL = 0.99  # of what a stretch carries at the hardness; its hats leave out a little at the ends
 FIRST_TOUCH_POINTS = 100_001
 FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
-NARROW = 8.0  # stretch over contact beyond which the contact is scouted again
+NARROW = 8.0  # stretch over contact beyond which the extent is searched again
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
-# Ground beyond the outermost contact that stays in the grid, in half-widths. The edge of a contact
-# is found from the six elements beyond it, which are as wide as a smooth contact's are few.
-WIDEST_CIRCLE = 0.8  # of the radius that pressures may reach to
-LEAST_REACH = 8.0  # of the farthest pressure: width and depth of an unbounded block
+WIDEST_CIRCLE = 0.8  # of the radius that pressures may extend to
+LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
+# Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
+# elements beyond it, which are as wide as a smooth contact's are few.
 MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 
@@ -77,12 +75,12 @@ class Problem:
     def block(self) -> float:
         """Width and depth [m] of the block that stands for an unbounded body.
 
-        In half-widths of the smooth contact, or of a wider reach of pressures: a light load
+        In half-widths of the smooth contact, or of a wider extent of pressures: a light load
         on a rough surface touches far beyond its Hertz contact, and beside the roller's centre.
         """
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
         farthest = max(abs(self.extent[0]), abs(self.extent[1]))
-        return max(self.scene.finite_element.block * half_width, LEAST_REACH * farthest)
+        return max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
 
     @cached_property
     def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
@@ -147,7 +145,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     plain = scene.profile is None and scene.width is None and scene.hardness is None
     plain = plain and scene.coating is None
     if not plain or problem.coupling:
-        problem = replace(problem, extent=_reach(problem))
+        problem = replace(problem, extent=_contact_extent(problem))
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
     _check_circle(problem)
@@ -162,7 +160,7 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
     return hertz_from_load(load, scene.roller_radius, modulus)
 
 
-def ground(scene: ResolvedScene) -> tuple[float, float]:
+def surface_ends(scene: ResolvedScene) -> tuple[float, float]:
     """Ends [m] of the trace or the body, whichever come first; infinite without either."""
     start, stop = -np.inf, np.inf
     if scene.profile is not None:
@@ -172,31 +170,31 @@ def ground(scene: ResolvedScene) -> tuple[float, float]:
     return start, stop
 
 
-def _reach(problem: Problem) -> tuple[float, float]:
+def _contact_extent(problem: Problem) -> tuple[float, float]:
     """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
     scene, half_width = problem.scene, problem.hertz.half_width
-    start, stop = ground(scene)
+    start, stop = surface_ends(scene)
     relief = 0.0 if scene.profile is None else float(np.ptp(scene.profile.height))
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
-    # ground this far out is lower than the roller even if the highest peak stood there
-    reach = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
+    # this far out the surface is below the roller even if the highest peak stood there
+    outermost = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
     while True:
-        low, high = max(start, -reach), min(stop, reach)
+        low, high = max(start, -outermost), min(stop, outermost)
         touching = (low, high)
         most = np.inf if scene.hardness is None else scene.hardness * (high - low)
         if problem.hertz.load_per_length < FULL * most:
-            touching, slack = scout(problem, low, high)
+            touching, slack = _search_extent(problem, low, high)
             if touching[0] > low + slack and touching[1] < high - slack:
                 break
         if low == start or high == stop:
             raise SceneError(_too_wide(scene, touching, (low, high)))
-        reach *= 2.0
+        outermost *= 2.0
     # a contact far smaller than the stretch it was looked for on is looked at again, closer
     while high - low > NARROW * (touching[1] - touching[0] + slack):
         around = max(touching[1] - touching[0], slack)
         low, high = max(low, touching[0] - around), min(high, touching[1] + around)
-        touching, slack = scout(problem, low, high)
+        touching, slack = _search_extent(problem, low, high)
     margin = MARGIN if scene.profile is not None else SMOOTH_MARGIN
     margin = margin * half_width + 2.0 * slack
     return float(max(low, touching[0] - margin)), float(min(high, touching[1] + margin))
@@ -212,10 +210,10 @@ def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
     )
 
 
-def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
-    """First and last contact [m] of either model between `low` and `high`, by SCOUT_HATS
+def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
+    """First and last contact [m] of either model between `low` and `high`, by SEARCH_HATS
     pressures; and how near to the ends [m] that is too near."""
-    grid = HatGrid.within(low, high, (high - low) / SCOUT_HATS)
+    grid = HatGrid.within(low, high, (high - low) / SEARCH_HATS)
     half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
     start, stop = touched(problem, grid, half_plane)
     if is_layered(problem.scene):
@@ -227,8 +225,7 @@ def scout(problem: Problem, low: float, high: float) -> tuple[tuple[float, float
 def touched(problem: Problem, grid: HatGrid, operator: ModelOperator) -> tuple[float, float]:
     """First and last contact [m] on an operator."""
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-    solve = solve_coupled if isinstance(operator, CoupledHalfPlane) else solve_contact
-    solution = solve(operator, weighted_gap, grid.weights, problem.constraints())
+    solution = solve_on(operator, weighted_gap, grid.weights, problem.constraints())
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
 
@@ -241,12 +238,12 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
         return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
     if is_layered(scene):
-        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SCOUT_HATS)
+        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SEARCH_HATS)
         start, stop = touched(problem, grid, nearest_operator(scene, grid))
         finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
-    # a light load on a crest touches far less ground than its Hertz contact of the roller
+    # a light load on a crest touches far less than the Hertz contact of the roller
     span = problem.extent[1] - problem.extent[0]
     finest = max(min(finest, span / (2.0 * SMOOTH_ELEMENTS)), span / MOST_HATS)
     # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine

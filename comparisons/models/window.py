@@ -17,14 +17,14 @@ SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searche
 class Window:
     """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
 
-    reach   [m] extremes are searched at |x| <= reach, whatever the density of x
+    extent  [m] extremes are searched at |x| <= extent, whatever the density of x
 
     The spacing in x is the pitch of every level's pressure elements times or over a power of two.
     """
 
     x: np.ndarray
     z: np.ndarray
-    reach: float
+    extent: float
 
     def stride(self, pitch: float) -> int:
         """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""
@@ -75,8 +75,8 @@ def window_of(problem: Problem) -> Window:
     x = np.arange(-last, last + 1) * spacing
     first = min(FIRST_DEPTH * finest, depth / (rows - 1))
     step = min(coarsest, spacing)
-    reach = step * np.floor(half_range / step * (1.0 + 1e-12))
-    return Window(x, graded_depths(depth, rows, first), reach)
+    extent = step * np.floor(half_range / step * (1.0 + 1e-12))
+    return Window(x, graded_depths(depth, rows, first), extent)
 
 
 def search_window(problem: Problem, window: Window) -> Window:
@@ -85,11 +85,11 @@ def search_window(problem: Problem, window: Window) -> Window:
     As dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from
     a fraction of that by a fixed ratio.
     """
-    spacing = min(problem.pitches[0], window.reach)
-    last = round(window.reach / spacing)
+    spacing = min(problem.pitches[0], window.extent)
+    last = round(window.extent / spacing)
     depth = window.z[-1]
     first = min(FIRST_DEPTH * problem.pitches[0], 0.5 * depth)
     growth = np.log1p(depth / first * (SEARCH_RATIO - 1.0)) / np.log(SEARCH_RATIO)
     rows = max(3, int(np.ceil(growth)) + 1)
     x = np.arange(-last, last + 1) * spacing
-    return Window(x, graded_depths(depth, rows, min(first, depth / rows)), window.reach)
+    return Window(x, graded_depths(depth, rows, min(first, depth / rows)), window.extent)

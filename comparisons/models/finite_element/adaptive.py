@@ -92,7 +92,7 @@ def next_sizes(energy: np.ndarray, aim: float, degree: int) -> np.ndarray:
     return (alike / energy) ** (1.0 / order)
 
 
-SCOUT_HATS = 2000  # of the half-plane that predicts the patches
+SEARCH_HATS = 2000  # of the half-plane that predicts the patches
 FIRST_EDGES = 8  # on half of the largest patch, in the first round
 # Steepest growth of element sizes: in the first round everywhere, later where nothing else is
 # asked for.
@@ -103,7 +103,7 @@ PRESSURE_PER_ENERGY = 5.0
 SAFETY = 0.8  # part of the tolerance that the next round aims at
 ROUNDS = 8
 HATS_PER_WAVE = 6.0  # of the shortest wavelength, in the first round
-# Half-width and depth of a block that stands for a half-plane, over the reach of the contact.
+# Half-width and depth of a block that stands for a half-plane, over the extent of the contact.
 FAR = 4.0
 
 
@@ -228,9 +228,9 @@ def adapted_contact(pressing: Pressing, tolerance: float, rounds: int = ROUNDS) 
 
 
 def predicted_patches(pressing: Pressing) -> np.ndarray:
-    """Patches (k, 2) [m] that the half-plane touches, on SCOUT_HATS equal hats."""
+    """Patches (k, 2) [m] that the half-plane touches, on SEARCH_HATS equal hats."""
     start, stop = pressing.extent
-    grid = HatGrid.within(start, stop, (stop - start) / SCOUT_HATS)
+    grid = HatGrid.within(start, stop, (stop - start) / SEARCH_HATS)
     solution = solve_contact(
         HalfPlane(grid.count, grid.pitch, pressing.modulus),
         grid.hat_integrals(pressing.gap, pressing.knots),
@@ -240,9 +240,9 @@ def predicted_patches(pressing: Pressing) -> np.ndarray:
     return contact_patches(grid.x, solution.pressure, solution.gap)
 
 
-def half_plane_block(reach: float) -> tuple[float, float, Support]:
-    """Half-width, depth [m] and support of a block that takes a far field around |x| < reach."""
-    return FAR * reach, FAR * reach, Support("bonded", "fixed")
+def half_plane_block(extent: float) -> tuple[float, float, Support]:
+    """Half-width, depth [m] and support of a block that takes a far field around |x| < extent."""
+    return FAR * extent, FAR * extent, Support("bonded", "fixed")
 
 
 def pressed(

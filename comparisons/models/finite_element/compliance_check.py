@@ -14,7 +14,7 @@ figures name the error:
 The finite elements' compliance against analytic surfaces, before any contact.
 
 Pressures lie where the mesh is refined for contact: single elements at its ends, its quarter points
-and its middle, and packets of waves from a few pressure elements to all of the refined ground. One
+and its middle, and packets of waves from a few pressure elements to the whole refined range. One
 batch of back-substitutions serves all. Of displacements that count from nowhere the mean over the
 grid is removed.
 
@@ -159,7 +159,7 @@ def _shared(differences: list[float]) -> float:
 
 PLACES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of the refined elements, from first to last
 SHORTEST = 4.0  # elements to a wave
-LONGER = 4  # waves from twice the shortest to the refined ground
+LONGER = 4  # waves from twice the shortest to the refined range
 PACKET = 2.0  # waves
 NEXT = 4  # elements on either side of a column's load that feel how it is meshed
 
@@ -174,7 +174,7 @@ def operator_check(
     """Compare on `grid`.
 
     model      the surface nearest to the scene's bodies, as `nearest_operator` gives it
-    intervals  (k, 2) [m] refined ground of the rough body
+    intervals  (k, 2) [m] refined ranges of the rough body
     """
     scene = problem.scene
     refined = _refined(grid, intervals)
@@ -240,7 +240,7 @@ def _differences(
 
 
 def _refined(grid: HatGrid, intervals: np.ndarray) -> np.ndarray:
-    """(n,) whether all of a hat is on refined ground."""
+    """(n,) whether all of a hat is in a refined range."""
     slack = 1e-6 * grid.pitch
     start, stop = grid.x - grid.pitch + slack, grid.x + grid.pitch - slack
     at = np.maximum(np.searchsorted(intervals[:, 0], start) - 1, 0)
@@ -260,7 +260,7 @@ def _span(refined: np.ndarray) -> int:
 
 
 def _wavelengths(refined: np.ndarray) -> list[float]:
-    """Elements to a wave. Longer ones than the shortest need ground for a packet."""
+    """Elements to a wave. Longer ones than the shortest need room for a packet."""
     span, second = _span(refined), 2.0 * SHORTEST
     if span < PACKET * second:
         return [SHORTEST]

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
 from comparisons.models.finite_element.bodies import BodyPair
+from comparisons.models.nearest_operator import solve_on
 from comparisons.models.problem import Problem
 from fem.body.elasticity import ElasticBody
 from fem.compliance.far_field import FarField
@@ -126,16 +126,14 @@ def solve_mutual(
     constraints: Constraints,
     start: np.ndarray,
 ) -> ContactSolution:
-    """The contact of the finite elements; where the model leads nowhere, on their whole matrix."""
-    if operator.coupled:
-        solution = solve_with_coupled_model(operator, model, gap, weights, constraints, start)
-    else:
-        solution = solve_with_model(operator, model, gap, weights, constraints, start)
+    """The contact of the finite elements; if the iteration with the model does not converge, on
+    their whole matrix."""
+    solve, dense = (
+        (solve_with_coupled_model, DenseCoupledCompliance)
+        if operator.coupled
+        else (solve_with_model, DenseCompliance)
+    )
+    solution = solve(operator, model, gap, weights, constraints, start)
     if solution.converged or len(gap) > MOST_DENSE:
         return solution
-    matrix = operator.matrix()
-    if operator.coupled:
-        dense = DenseCoupledCompliance(matrix)
-        return solve_coupled(dense, gap, weights, constraints, solution.pressure)
-    dense = DenseCompliance(matrix)
-    return solve_contact(dense, gap, weights, constraints, solution.pressure)
+    return solve_on(dense(operator.matrix()), gap, weights, constraints, solution.pressure)

@@ -15,9 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import solve_contact
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyStore, bodies_of
@@ -28,14 +26,14 @@ from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely, pressed_plastically
 from comparisons.models.finite_element.stress import pressed_linearly, stresses_of
 from comparisons.models.level import Level
-from comparisons.models.nearest_operator import nearest_operator
+from comparisons.models.nearest_operator import nearest_operator, solve_on
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window
 from comparisons.scenes.scene import ResolvedScene
 from meshes.refined_ranges import merge, unrefined_contact
 
-MOST_MESHES = 5  # of one level, while contact keeps reaching unrefined ground
+MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
 def finite_element_level(
@@ -50,8 +48,8 @@ def finite_element_level(
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
-    Ground to refine is predicted by the nearest analytic operator on the same pressure elements.
-    If contact reaches ground that was not refined it is refined too and the level solved again.
+    The ranges to refine are predicted by the nearest analytic operator on the same pressure
+    elements. Where contact spreads beyond them they are widened and the level is solved again.
     With `approach` [m], from first touch, it and not the load is prescribed. Levels that are given
     the same `store` share what meshes and factors they have in common. With `check` the bodies'
     compliance is compared with the analytic one first.
@@ -67,16 +65,15 @@ def finite_element_level(
     if scene.finite_element.plastic:  # the body's own flow limits the pressure
         constraints = replace(constraints, hardness=np.inf)
     with stages.stage("contact", "finite elements: predicting the contact"):
-        solve = solve_coupled if friction else solve_contact
-        guess = solve(model, weighted_gap, grid.weights, constraints)
-    ground, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
-    cost = expected(problem, plan, refinement, ground)
+        guess = solve_on(model, weighted_gap, grid.weights, constraints)
+    ranges, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
+    cost = expected(problem, plan, refinement, ranges)
     refuse_too_large(problem, cost, grid.pitch)
     if approach is not None:
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
     checked = None
     for _ in range(MOST_MESHES):
-        bodies = bodies_of(problem, plan, refinement, ground, stages, store)
+        bodies = bodies_of(problem, plan, refinement, ranges, stages, store)
         refined = bodies.rough.mesh.spec.intervals
         with stages.stage("contact", "finite elements: contact"):
             operator = mutual_compliance(problem, bodies, grid)
@@ -89,9 +86,9 @@ def finite_element_level(
         missed = unrefined_contact(refined, touching, reach=grid.pitch)
         if len(missed) == 0:
             break
-        ground, start = merge(np.vstack([ground, missed])), solution.pressure
+        ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
     else:
-        solution = replace(solution, converged=False)  # it touches ground that was not refined
+        solution = replace(solution, converged=False)  # it touches an unrefined range
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
             pressed = pressed_finitely(problem, operator, grid, solution, constraints)

@@ -14,15 +14,15 @@ from meshes.refined_ranges import refined_ranges
 from meshes.size_law import estimate_unknowns
 
 EDGES_PER_HAT = 1  # element edges under each pressure element
-MARGIN_HATS = 3.0  # refined ground beyond the predicted contact
+MARGIN_HATS = 3.0  # refined range beyond the predicted contact
 FIELD_SIZE = 0.05  # largest element in the stress window on the third level, in half-widths
 COARSER_GROWTH = np.sqrt(2.0)  # ratio of the growth from one level to the next
 STEEPEST_GROWTH = 0.5
 THICKEST_COATING = 0.9  # of the body: what is left below must hold elements
-LAYER_REACH = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
-# Over this length at least real roughness fades beside the ground that pressure may reach: pressure
+LAYER_EXTENT = 12.0  # thicknesses beyond the contact: a layer's displacements die off in one or two
+# The rough boundary fades beside the extent of pressures over this length at least: pressure
 # elements of the first level, four of the shortest waves; largest heights of the profile, which
-# keeps the fading's own slope below 0.4. Peak pressures do not change by 3e-6 from 10 to 160.
+# keeps the fading's own slope below 0.4. Peak pressures change by less than 3e-6 from 10 to 160.
 FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
 DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
 
@@ -31,8 +31,8 @@ DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of th
 class Refinement:
     """How fine a level is.
 
-    pitch    of the pressure elements [m]
-    half_block   hold an unbounded body at half its width and depth, on the same mesh
+    pitch        of the pressure elements [m]
+    half_block   support an unbounded body at half its width and depth, on the same mesh
     """
 
     pitch: float
@@ -45,19 +45,18 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     edge = refinement.pitch / EDGES_PER_HAT
     coarser = problem.coarser(refinement.pitch)
     depth = problem.block
-    reach = 0.5 * depth
+    across = 0.5 * depth
     if scene.thickness is not None:
         depth = scene.thickness
         # whole edges: the rounding of a predicted contact must not make another mesh
-        reach = edge * np.ceil((np.abs(problem.extent).max() + LAYER_REACH * depth) / edge)
+        across = edge * np.ceil((np.abs(problem.extent).max() + LAYER_EXTENT * depth) / edge)
     if scene.width is not None:
-        reach = 0.5 * scene.width
+        across = 0.5 * scene.width
     intervals = refined_ranges(
-        patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=reach
+        patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=across
     )
-    if is_rough(problem):  # real wherever pressure may come to act
-        ground = np.array([problem.extent])
-        intervals = refined_ranges(ground, edge, margin=0.0, half_width=reach)
+    if is_rough(problem):  # wherever pressure may come to act
+        intervals = refined_ranges(np.array([problem.extent]), edge, margin=0.0, half_width=across)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
         raise SceneError(
             f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "
@@ -68,11 +67,11 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
     window = None
     if scene.stress is not None:
         size = FIELD_SIZE * half_width * 2.0**coarser
-        across = min(reach, max(scene.stress.half_range.metres(half_width), half_width))
+        aside = min(across, max(scene.stress.half_range.metres(half_width), half_width))
         down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
-        window = (-across, across, down, size)
+        window = (-aside, aside, down, size)
     return BlockSpec(
-        reach,
+        across,
         depth,
         intervals,
         edge,
@@ -127,7 +126,7 @@ def expected_unknowns(
 
 
 def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
-    """Heights [m] of the real boundary anywhere on the block's top, the same on every level.
+    """Heights [m] of the rough boundary anywhere on the block's top, the same on every level.
 
     The profile wherever pressure may come to act; beyond it the roughness fades, so that elements
     which grow there need not follow waves that they cannot resolve.

@@ -132,7 +132,7 @@ def _on_window(
     von_mises: np.ndarray | None,
 ) -> StressResult:
     """`von_mises` (n,) [Pa] at the mesh's points where it does not follow from the stresses."""
-    bounds = (-window.reach, window.reach, window.z[-1])
+    bounds = (-window.extent, window.extent, window.z[-1])
     quantities = {
         "tau1": lambda stress: stress.tau1,
         "txz": lambda stress: np.abs(stress.txz),
@@ -143,7 +143,7 @@ def _on_window(
     }
     if von_mises is not None:
         x, z = body.points.T
-        inside = (np.abs(x) <= window.reach) & (z <= window.z[-1])
+        inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
         top = np.argmax(np.where(inside, von_mises, -np.inf))
         extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
     x, z = np.meshgrid(window.x, window.z)

@@ -7,16 +7,16 @@ import numpy as np
 from scipy.linalg import toeplitz
 from scipy.optimize import lsq_linear
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import KKT_TOLERANCE, ContactSolution, solve_contact
+from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
 from analytic.exact.cases import Curve
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.elements import hat_galerkin
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.models.level import Level
+from comparisons.models.nearest_operator import solve_on
 from comparisons.studies.checks import BoundedFigure, Findings, relative_error
 
 MOST_APPLICATIONS = 300  # of the operator, in one contact
@@ -79,9 +79,8 @@ def load_contact(
     operator: ModelOperator, x: np.ndarray, weighted_gap: np.ndarray, constraints: Constraints
 ) -> LoadedContact:
     """Solve the contact of a weighted gap (n,) [m^2] on nodes x (n,) [m]."""
-    solve = solve_coupled if hasattr(operator, "skew") else solve_contact
     weights = np.full(operator.count, operator.pitch)
-    solution = solve(operator, weighted_gap, weights, constraints)
+    solution = solve_on(operator, weighted_gap, weights, constraints)
     return LoadedContact(x, weighted_gap, operator, constraints, solution)
 
 

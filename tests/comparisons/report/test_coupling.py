@@ -10,7 +10,7 @@ import pytest
 
 import comparisons.assessment.normal_tangential_coupling
 from comparisons.assessment.effects.estimates import estimates
-from comparisons.assessment.normal_tangential_coupling import OFF_THE_GROUND, SHIFT, couplings
+from comparisons.assessment.normal_tangential_coupling import BEYOND_THE_END, SHIFT, couplings
 from comparisons.common.errors import SceneError
 from comparisons.common.numbers import UNKNOWN
 from comparisons.common.progress import Stages, no_progress
@@ -225,7 +225,7 @@ class TestSwitch:
         tables = RIGID | {"roller": {"radius": 8e-3, **STEEL}}
         one = solved(tables, friction=0.3)
         other = solved(tables, friction=0.3, coupled=True)
-        for key in ("contact", "coupling", "stress"):
+        for key in ("contact", "normal_tangential_coupling", "stress"):
             first, second = (o.result["models"]["half_plane"][0][key] for o in (one, other))
             assert first == second
 
@@ -294,7 +294,7 @@ class TestRoughGround:
         solution = replace(level.solution, pressure=level.solution.pressure[inside])
         ending = replace(run_of_it, levels=(replace(level, grid=grid, solution=solution),))
         [found] = couplings(ended, ending, None, no_progress)
-        assert found.changes == {} and found.why == OFF_THE_GROUND
+        assert found.changes == {} and found.why == BEYOND_THE_END
         assert found.as_dict() is None
 
 
@@ -309,7 +309,7 @@ class TestEstimate:
         effect = coupling_estimate(rigid.problem, ())
         size = 0.3 * rigid.problem.dundurs_beta
         assert effect["pressure_l2"] == pytest.approx(1.6 * size)
-        without = [replace(c, changes={}, why=OFF_THE_GROUND) for c in rigid.couplings]
+        without = [replace(c, changes={}, why=BEYOND_THE_END) for c in rigid.couplings]
         assert coupling_estimate(rigid.problem, tuple(without)) == effect
 
     def test_what_both_models_contain_is_not_missing(self, rigid_coupled):

@@ -74,7 +74,7 @@ class TestVerdict:
             ({n: off - 0.01 for n, off in RIGHT.items()}, 1e-4, "neither"),
             ({4.0: -0.6, 8.0: -0.6, 20.0: -0.4, 80.0: -0.2}, 0.2, "mesh"),
             (RIGHT, 6e-3, "block"),
-            ({4.0: -0.05}, 1e-4, "neither"),  # ground for no other wave
+            ({4.0: -0.05}, 1e-4, "neither"),  # room for no other wave
         ],
     )
     def test_by_figures(self, waves, beyond, word):
@@ -103,12 +103,12 @@ def test_a_known_difference_is_told_exactly_whatever_the_datum():
     problem = problem_of(scene())
     grid = problem.grid(problem.pitches[0])
     model = HalfPlane(grid.count, grid.pitch, problem.modulus)
-    ground = HALF_WIDTH * np.array([[-0.9, -0.2], [0.0, 0.8]])
-    found = operator_check(problem, Softer(grid, problem.modulus), model, grid, ground)
+    ranges = HALF_WIDTH * np.array([[-0.9, -0.2], [0.0, 0.8]])
+    found = operator_check(problem, Softer(grid, problem.modulus), model, grid, ranges)
     for column in found.nearest.columns:
         assert column.difference == pytest.approx(0.1, rel=1e-9)
         assert 0.01 < column.beyond < column.difference
-        assert np.any((ground[:, 0] < column.x) & (column.x < ground[:, 1]))
+        assert np.any((ranges[:, 0] < column.x) & (column.x < ranges[:, 1]))
     waves = found.nearest.waves
     assert [wave.elements for wave in waves][:2] == [4.0, 8.0] and len(waves) == 5
     assert [wave.difference for wave in waves] == pytest.approx([0.1] * 5, rel=1e-9)
