@@ -178,7 +178,7 @@ class _Surface:
         self.radius, self.modulus, self.constraints = radius, modulus, constraints
         self.origin = float(profile.x[0])
         self.whole = HatGrid.within(0.0, profile.length, pitch)
-        # no ground farther out is within reach, even if the highest peak stood there
+        # nothing farther out could touch, even if the highest peak stood there
         hertz = hertz_from_load(constraints.load, radius, modulus)
         carried = max(2.0 * hertz.half_width, constraints.load / constraints.hardness)
         reach = carried + np.sqrt(2.0 * radius * np.ptp(profile.height))

@@ -91,11 +91,8 @@ def hertz_case(
         half_range=1.5 * a,
         pressure=hertz.pressure,
         quantities={
-            "peak_pressure": hertz.peak_pressure,
+            **_figures(hertz.peak_pressure, -a, a),
             "peak_position": 0.0,
-            "contact_length": 2.0 * a,
-            "left_edge": -a,
-            "right_edge": a,
             "tau1_max": extremes.tau1.value,
             "tau1_max_depth": extremes.tau1.z,
             "txz_max_abs": max(extremes.txz_max.value, -extremes.txz_min.value),
@@ -125,12 +122,7 @@ def punch_case(
         gap=punch.gap,
         half_range=1.5 * half_width,
         pressure=punch.pressure,
-        quantities={
-            "peak_pressure": punch.peak_pressure,
-            "contact_length": 2.0 * half_width,
-            "left_edge": -half_width,
-            "right_edge": half_width,
-        },
+        quantities=_figures(punch.peak_pressure, -half_width, half_width),
         knots=(-b, b),
     )
 
@@ -157,11 +149,8 @@ def sliding_case(
         half_range=2.0 * contact.half_width,
         pressure=contact.pressure,
         quantities={
-            "peak_pressure": contact.peak_pressure,
+            **_figures(contact.peak_pressure, left, right),
             "peak_position": contact.peak_position,
-            "contact_length": right - left,
-            "left_edge": left,
-            "right_edge": right,
         },
         friction=friction,
     )
@@ -190,10 +179,7 @@ def capped_case(
         half_range=1.5 * flat.contact,
         pressure=flat.pressure,
         quantities={
-            "peak_pressure": hardness,
-            "contact_length": 2.0 * flat.contact,
-            "left_edge": -flat.contact,
-            "right_edge": flat.contact,
+            **_figures(hardness, -flat.contact, flat.contact),
             "flowed_length": 2.0 * flat.flowed,
         },
         hardness=hardness,
@@ -226,12 +212,19 @@ def wave_case(
         half_range=0.5 * wavelength,
         pressure=wave.pressure,
         quantities={
-            "peak_pressure": wave.peak_pressure,
+            **_figures(wave.peak_pressure, -wave.half_width, wave.half_width),
             "peak_position": 0.0,
-            "contact_length": 2.0 * wave.half_width,
-            "left_edge": -wave.half_width,
-            "right_edge": wave.half_width,
             "mean_gap": wave.mean_gap,
         },
         period=wavelength,
     )
+
+
+def _figures(peak_pressure: float, left: float, right: float) -> dict[str, float]:
+    """What every contact has, from its peak pressure [Pa] and its edges [m]."""
+    return {
+        "peak_pressure": peak_pressure,
+        "contact_length": right - left,
+        "left_edge": left,
+        "right_edge": right,
+    }

@@ -1,7 +1,7 @@
 """A smooth cylinder on a half-plane whose pressure a hardness caps: the crown that flow removes.
 
     P   load per length [N/m]     R   radius [m]      b   contact on |x| < b [m]
-    H   hardness [Pa]             E*  modulus [Pa]    c   flowed ground on |x| < c [m]
+    H   hardness [Pa]             E*  modulus [Pa]    c   flowed stretch on |x| < c [m]
     p   pressure [Pa]             d   overlap [m]     k   c / b
 
 With F(z) = int p(s)/(z - s) ds the slopes are F'+ + F'- = pi E*/R on c < |x| < b, where the gap is
@@ -43,7 +43,7 @@ class FlattenedCylinder:
         return self.contact**2 * (1.0 - ellipe(m) / ellipk(m))
 
     def pressure(self, x: ArrayLike) -> np.ndarray:
-        """H on the flowed ground, from there E*/(2R) {b E(t|m) - L/b F(t|m)}, zero from b on [Pa].
+        """H on the flowed stretch, from there E*/(2R) {b E(t|m) - L/b F(t|m)}, zero from b on [Pa].
 
         m = 1 - k^2 and sin^2 t = (b^2 - x^2)/(b^2 - c^2).
         """
@@ -64,7 +64,7 @@ class FlattenedCylinder:
 
     @property
     def volume(self) -> float:
-        """int d dx over the flowed ground [m^2]."""
+        """int d dx over the flowed stretch [m^2]."""
         b, m = self.contact, (self.flowed / self.contact) ** 2
         first, second = ellipk(m), ellipe(m)
         fourth_moment = b**3 * ((2.0 + m) * first - 2.0 * (1.0 + m) * second) / 3.0
@@ -76,7 +76,7 @@ def flattened_cylinder(
 ) -> FlattenedCylinder:
     """The contact under P [N/m] with R [m], E* [Pa] and H [Pa].
 
-    Raises ValueError unless H lies below Hertz' peak pressure p0, so that ground flows; then
+    Raises ValueError unless H lies below Hertz' peak pressure p0, so that some material flows; then
     (p0/H)^2 = (4/pi^2) K {2E - (1 - k^2) K} has one root k.
     """
     peak = hertz_from_load(load_per_length, radius, combined_modulus).peak_pressure

@@ -37,7 +37,8 @@ _SWING = 12.0  # phase of a cosine on one panel [rad]
 
 @dataclass(frozen=True)
 class _Response:
-    """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the `ground`.
+    """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the half-plane of
+    the `base`.
 
     odd     the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
     finest  w below which nothing of a scale of its own is left
@@ -45,7 +46,7 @@ class _Response:
 
     share: Callable[[np.ndarray], np.ndarray]
     surface: float
-    ground: float
+    base: float
     odd: bool
     finest: float
 
@@ -56,17 +57,17 @@ def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float =
     ratio      h/t
     log_datum  ln(L/h) of the datum L; without effect on a rigid base
     """
-    surface, ground = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
-    response = _Response(lambda w: normal(layer, w), surface, ground, False, finest_scale(layer))
+    surface, base = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
+    response = _Response(lambda w: normal(layer, w), surface, base, False, finest_scale(layer))
     smooth = _by_intervals(count, ratio, response)
-    return smooth - surface * hat_galerkin(np.arange(float(count))) + ground * log_datum
+    return smooth - surface * hat_galerkin(np.arange(float(count))) + base * log_datum
 
 
 def hat_coupling(count: int, ratio: float, layer: Contrast) -> np.ndarray:
     """2 pi G T(d) / h^2 of uz under tractions in +x at d = 0 … count - 1, (count,), odd in d."""
-    ground = 0.5 * (1.0 - layer.e) if layer.slides else -layer.softness * layer.base_e
+    base = 0.5 * (1.0 - layer.e) if layer.slides else -layer.softness * layer.base_e
     response = _Response(
-        lambda w: coupling(layer, w) / w, -layer.e, ground, True, finest_scale(layer)
+        lambda w: coupling(layer, w) / w, -layer.e, base, True, finest_scale(layer)
     )
     smooth = _by_intervals(count, ratio, response)
     return 0.5 * np.pi * layer.e * hat_sign(np.arange(float(count))) - smooth
@@ -100,7 +101,7 @@ def _interpolated(
 
 def _smooth(distance: np.ndarray, ratio: float, response: _Response, near: bool) -> np.ndarray:
     """All but the singular term and the datum, on the real path or the turned one."""
-    gain = response.ground - response.surface
+    gain = response.base - response.surface
     depth = max(2.0, 3.0 * ratio)  # s/t; no less than three pitches
     reach = 2.0 * ratio * (np.max(distance, initial=0.0) + 2.0)
     # on the turned path the factor e^ikx ends the integral early

@@ -15,7 +15,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from scipy.linalg import solve_toeplitz
 from scipy.linalg.lapack import dposv
 
-_KEPT = 31 * 2**20  # bytes; glibc's own limit is 32 MiB
+_BUFFER = 31 * 2**20  # bytes; glibc's own limit is 32 MiB
 DIRECT = 160  # nodes from which iterating is faster than a Cholesky factor
 LEVINSON, DIRECT_IN_A_ROW = 64, 256  # nodes in a row between which Levinson's recursion is fastest
 CROPS, CROPPED_FROM = 8, 4096  # lengths of stretches, and nodes from which they pay
@@ -23,16 +23,16 @@ _MARGIN = 8  # a line is closed to a ring for the inverse by an eighth of its le
 
 
 def made_once(method: Callable) -> Callable:
-    """A method without arguments whose value is made at the first call and kept."""
+    """A method without arguments whose value is cached at the first call."""
     name = f"_{method.__name__}"
 
     @wraps(method)
-    def kept(self):
+    def cached(self):
         if name not in self.__dict__:
             self.__dict__[name] = method(self)
         return self.__dict__[name]
 
-    return kept
+    return cached
 
 
 class Convolution:
@@ -112,7 +112,7 @@ class Convolution:
         return cholesky_solve(self.block(nodes), right)
 
     def cropped(self, span: int) -> "Convolution | None":
-        """The same on a stretch of the line that holds `span` nodes, of a few lengths; kept.
+        """The same on a shorter stretch of the line that holds `span` nodes; cached.
 
         None where it would not be much shorter, and on a periodic line.
         """
@@ -166,4 +166,4 @@ def _keep_large_buffers() -> None:
     glibc maps fresh pages for every array above a threshold and gives them back when it is
     freed. The threshold rises to the size of the largest block ever freed.
     """
-    np.empty(_KEPT, dtype=np.uint8)
+    np.empty(_BUFFER, dtype=np.uint8)

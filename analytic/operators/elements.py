@@ -117,7 +117,7 @@ def hat_galerkin(offset: ArrayLike) -> np.ndarray:
 
 
 def at_whole_offsets(kernel: _Curve, count: int) -> np.ndarray:
-    """`kernel`, one of this module, at 0, 1, … `count` - 1 pitches (count,); near ones are kept."""
+    """`kernel`, one of this module, at 0, 1, … `count` - 1 pitches (count,); near ones cached."""
     near = _near(kernel)[:count]
     return np.concatenate((near, kernel(np.arange(len(near), count, dtype=float))))
 

@@ -75,9 +75,7 @@ def circle(
 
     def beside(block: slice) -> tuple[np.ndarray, ...]:
         unit = unit_stress(*np.broadcast_arrays(offsets, depths[block, None]), element)
-        normal = unit.normal
-        kernels = (normal.sx, normal.sz, normal.txz, unit.traction_sx)
-        return tuple(rfft(kernel, size) for kernel in kernels)
+        return tuple(rfft(kernel, size) for kernel in unit.parts)
 
     return Circle(size, 0, slice(sources - 1, len(offsets), stride), beside)
 
@@ -140,15 +138,8 @@ def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
 
 def as_potential(unit: FrictionStress) -> np.ndarray:
     """Re I, Im I, z Re I', z Im I' (4, …) of these stresses."""
-    normal = unit.normal
-    return np.array(
-        [
-            -0.5 * (unit.traction_sx + normal.txz),
-            0.5 * (normal.sx + normal.sz),
-            0.5 * (normal.sx - normal.sz),
-            -normal.txz,
-        ]
-    )
+    sx, sz, txz, sx_traction = unit.parts
+    return np.array([-0.5 * (sx_traction + txz), 0.5 * (sx + sz), 0.5 * (sx - sz), -txz])
 
 
 def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:

@@ -36,6 +36,16 @@ class FrictionStress:
     normal: StressState
     traction_sx: np.ndarray
 
+    @classmethod
+    def of(cls, parts: np.ndarray) -> "FrictionStress":
+        """From sx, sz, txz under p and sx under q (4, …) [Pa]."""
+        return cls(StressState(*parts[:3]), parts[3])
+
+    @property
+    def parts(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """sx, sz, txz under p and sx under q [Pa]."""
+        return self.normal.sx, self.normal.sz, self.normal.txz, self.traction_sx
+
     @property
     def traction(self) -> StressState:
         """Under q = p in +x alone."""
@@ -107,7 +117,7 @@ def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     near = np.hypot(x, z) < NEAREST
     parts[:, near] = _hat_closed(x[near], z[near])
     parts[:, ~near] = hat_multipoles(x[~near], z[~near])
-    return FrictionStress(StressState(*parts[:3]), parts[3])
+    return FrictionStress.of(parts)
 
 
 def unit_stress(x: np.ndarray, z: np.ndarray, element: Element) -> FrictionStress:

@@ -68,8 +68,8 @@ def stress_field(
     within and beyond the nodes' extent. On z = 0, sz = -p and txz = -q exactly. Each level is
     right to rounding of its own largest stress.
 
-    With `periodic` the nodes are one period of n pitches, repeated without end; what the mean
-    pressure then does to sx is told in `analytic.stress.periodic`.
+    With `periodic` the nodes are one period of n pitches, repeated without end; see there
+    (`analytic.stress.periodic`) for the sx of their mean.
 
     Raises ValueError for input out of these bounds, for a window without a grid point, and for
     strips whose ends, where sx under q is infinite, fall on points of the surface.
@@ -105,20 +105,20 @@ def friction_field(
     *,
     periodic: bool = False,
 ) -> FrictionField:
-    """`stress_field` for every friction at once; of the grid's points every `stride`-th is kept."""
+    """`stress_field` for every friction at once; at every `stride`-th of the grid's points."""
     load = np.array(pressure, dtype=float)
     grid = _grid(x_nodes, load, x_range, z, subdivisions, element, stride)
     parts, on_surface = _fields(grid, load[None], EACH, periodic)
     if on_surface is not None:
         parts[:2, 0] = -on_surface[0]
-    return FrictionField(grid.x, grid.z, FrictionStress(StressState(*parts[:3]), parts[3]))
+    return FrictionField(grid.x, grid.z, FrictionStress.of(parts))
 
 
 @dataclass(frozen=True)
 class _Grid:
     """Columns `x` and levels `z` [m]; each pitch [m] of the nodes divided into `subdivisions`.
 
-    `first` and `last` column, counted in these steps from the first node; every `stride`-th kept.
+    `first` and `last` column, counted in these steps from the first node; every `stride`-th counts.
     """
 
     x: np.ndarray

@@ -32,25 +32,23 @@ import numpy as np
 from scipy.special import comb, zetac
 
 from analytic.stress.convolution import MIRRORED, Circle, half_line, mirrored_spectra
-from analytic.stress.potential import ORDER, Element, element_moments, far_moments, stresses
-from analytic.stress.tree import line_stress
+from analytic.stress.potential import (
+    ORDER,
+    Element,
+    element_moments,
+    far_moments,
+    polynomial,
+    stresses,
+)
+from analytic.stress.tree import LoadedLine, line_stress
 
 DEEP = 0.25  # periods: below, the waves alone
 _WAVES = 25  # exp(-2 pi 0.25 * 25) is 1e-17
 
 
-def periodic_stress(
-    nodes: np.ndarray,
-    load: np.ndarray,
-    pitch: float,
-    x: np.ndarray,
-    z: np.ndarray,
-    element: Element,
-) -> np.ndarray:
-    """sx, sz, txz under p = `load` and sx under q = `load` (4, m) [Pa], at x, z (m,) [m].
-
-    The nodes (n,) [m] and `load` (n,) [Pa] are one period of n pitches.
-    """
+def periodic_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """`line_stress` of a line that is one period of n pitches."""
+    nodes, load, pitch, element = line.nodes, line.load, line.pitch, line.element
     period = len(nodes) * pitch
     middle = 0.5 * (nodes[0] + nodes[-1])
     x = x - period * np.round((x - middle) / period)
@@ -63,7 +61,7 @@ def periodic_stress(
     if shallow.any():
         x, z = x[shallow], z[shallow]
         three = np.concatenate([nodes - period, nodes, nodes + period])
-        parts[:, shallow] = line_stress(three, np.tile(load, 3), pitch, x, z, element)
+        parts[:, shallow] = line_stress(LoadedLine(three, np.tile(load, 3), pitch, element), x, z)
         half = 0.5 * period
         outer = far_moments(nodes - middle, load, pitch, half, element)[:ORDER]
         u = _complex((x - middle) / half, z / half)
@@ -74,14 +72,8 @@ def periodic_stress(
 def images(outer: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """pi I and pi z I' of all periods but the three about u, from the moments over R^k of one."""
     inner = _lattice() @ np.pad(outer, (0, ORDER - len(outer)))
-    value, slope = np.zeros_like(u), np.zeros_like(u)
-    for coefficient in inner[::-1]:
-        slope *= u
-        slope += value
-        value *= u
-        value += coefficient
-    slope *= u.imag
-    return value, slope
+    value, slope = polynomial(inner[::-1], u)
+    return value, slope * u.imag
 
 
 def shape_factor(waves: np.ndarray, element: Element) -> np.ndarray:

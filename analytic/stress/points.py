@@ -22,7 +22,7 @@ from analytic.numerics import points_below
 from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
 from analytic.stress.periodic import periodic_stress
 from analytic.stress.potential import Element
-from analytic.stress.tree import line_stress
+from analytic.stress.tree import LoadedLine, line_stress
 from analytic.stress_state import StressState
 
 
@@ -41,8 +41,8 @@ def stress_at(
 
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
     traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
-    any sign. With `periodic` the nodes are one period of n pitches, repeated without end; what
-    the mean pressure then does to sx is told in `analytic.stress.periodic`.
+    any sign. With `periodic` the nodes are one period of n pitches, repeated without end; see
+    `analytic.stress.periodic` for the sx of their mean.
 
     Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
     """
@@ -69,6 +69,6 @@ def friction_stress_at(
     check_element(element)
     x, z = points_below(x, z)
     sum_up = periodic_stress if periodic else line_stress
-    parts = sum_up(x_nodes, pressure, pitch, x.ravel(), z.ravel(), element)
-    parts = parts.reshape(4, *x.shape)
-    return FrictionStress(StressState(*parts[:3]), parts[3])
+    line = LoadedLine(x_nodes, pressure, pitch, element)
+    parts = sum_up(line, x.ravel(), z.ravel())
+    return FrictionStress.of(parts.reshape(4, *x.shape))

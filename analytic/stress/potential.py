@@ -34,6 +34,7 @@ cancels in front of the factors z^3, z^2, z, x.
 """
 
 import math
+from collections.abc import Iterable
 from functools import cache
 from typing import Literal
 
@@ -146,8 +147,8 @@ def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:
     )
 
 
-# Coefficients kept: with the boxes of `analytic.stress.tree` the rest is less than 1e-15 of the
-# load.
+# Coefficients of an expansion: with the boxes of `analytic.stress.tree` the rest is less than 1e-15
+# of the load.
 ORDER = 56
 _K = np.arange(ORDER)
 
@@ -178,6 +179,19 @@ def nodes_to_outer(count: int, element: Element) -> np.ndarray:
     moments = element_moments(element, ORDER) * (0.5 * count) ** -_K.astype(float)
     powers = place[:, None] ** _K
     return np.array([powers[:, k::-1] @ (comb(k, _K[: k + 1]) * moments[: k + 1]) for k in _K])
+
+
+def polynomial(
+    coefficients: Iterable[float | np.ndarray], u: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """sum c_k u^k and its derivative by Horner's rule, from the highest coefficient down."""
+    value, slope = np.zeros_like(u), np.zeros_like(u)
+    for coefficient in coefficients:
+        slope *= u
+        slope += value
+        value *= u
+        value += coefficient
+    return value, slope
 
 
 def _power(base: float, exponent: np.ndarray) -> np.ndarray:

@@ -24,8 +24,6 @@ from analytic.numerics import for_each
 from analytic.stress.elements import (
     FrictionStress,
     from_nearest,
-    hat_at,
-    strip_between,
     unit_stress,
 )
 from analytic.stress.potential import (
@@ -38,6 +36,7 @@ from analytic.stress.potential import (
     nodes_to_outer,
     outer_to_inner,
     outer_to_parent,
+    polynomial,
     stresses,
 )
 
@@ -122,13 +121,7 @@ def inside(box: np.ndarray, count: int) -> np.ndarray:
 def inner_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """sum L_l u^l of each point's box (points,), and its derivative in u."""
     column = np.searchsorted(tree.ids, box)
-    value, slope = np.zeros_like(u), np.zeros_like(u)
-    for row in tree.inner[::-1]:
-        slope *= u
-        slope += value
-        value *= u
-        value += row[column]
-    return value, slope
+    return polynomial((row[column] for row in tree.inner[::-1]), u)
 
 
 def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -137,27 +130,29 @@ def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarra
     for away in range(-NEIGHBOURS, NEIGHBOURS + 1):
         column = inside(box + away, tree.outer.shape[1] - 1)
         v = 1.0 / (u - 2.0 * away)
-        value, slope = np.zeros_like(u), np.zeros_like(u)
-        for row in tree.outer[_OUTER_ORDERS[abs(away)] - 1 :: -1]:
-            slope *= v
-            slope += value
-            value *= v
-            value += row[column]
+        rows = tree.outer[_OUTER_ORDERS[abs(away)] - 1 :: -1]
+        value, slope = polynomial((row[column] for row in rows), v)
         total += v * value
         change -= v * v * (value + v * slope)
     return total, change
 
 
 @dataclass(frozen=True)
-class Line:
-    """The load (n,) [Pa], one pitch from node to node."""
+class LoadedLine:
+    """Elements with nodes (n,) [m], a uniform `pitch` [m] apart, under `load` (n,) [Pa]."""
 
+    nodes: np.ndarray
     load: np.ndarray
+    pitch: float
     element: Element
+
+    def part(self, some: slice | np.ndarray) -> "LoadedLine":
+        """Some of the elements."""
+        return LoadedLine(self.nodes[some], self.load[some], self.pitch, self.element)
 
 
 def near_stress(
-    line: Line,
+    line: LoadedLine,
     nearest: np.ndarray,
     rest: np.ndarray,
     z: np.ndarray,
@@ -186,9 +181,7 @@ def near_stress(
 
 
 def _weighted(unit: FrictionStress, load: np.ndarray) -> np.ndarray:
-    normal = unit.normal
-    rows = (normal.sx, normal.sz, normal.txz, unit.traction_sx)
-    return np.array([np.einsum("ij,ij->i", row, load) for row in rows])
+    return np.array([np.einsum("ij,ij->i", row, load) for row in unit.parts])
 
 
 def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> np.ndarray:
@@ -226,29 +219,23 @@ _DEEPEST = 3.5  # half-widths of a box: points below belong to a larger one
 _BLOCK, _NEAR_BLOCK = 4096, 256  # points at a time
 
 
-def tree_stress(
-    nodes: np.ndarray,
-    load: np.ndarray,
-    pitch: float,
-    x: np.ndarray,
-    z: np.ndarray,
-    element: Element,
-) -> np.ndarray:
-    """sx, sz, txz under p = `load` and sx under q = `load` (4, m) [Pa], at x, z (m,) [m]."""
+def tree_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m]."""
+    nodes, pitch = line.nodes, line.pitch
     parts = np.empty((4, len(x)))
     middle, half = 0.5 * (nodes[0] + nodes[-1]), 0.5 * (nodes[-1] - nodes[0]) + pitch
     far = np.hypot(x - middle, z) >= FARTHER * half
     if far.any():
-        moments = far_moments(nodes - middle, load, pitch, half, element)
+        moments = far_moments(nodes - middle, line.load, pitch, half, line.element)
         parts[:, far] = line_multipoles((x[far] - middle) / half, z[far] / half, moments)
     among = np.flatnonzero(~far)
     if len(among):
         _, nearest, rest = from_nearest(nodes, pitch, x[among])
-        parts[:, among] = _among(Line(load, element), nearest, rest, z[among] / pitch)
+        parts[:, among] = _among(line, nearest, rest, z[among] / pitch)
     return parts
 
 
-def _among(line: Line, nearest: np.ndarray, rest: np.ndarray, down: np.ndarray) -> np.ndarray:
+def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.ndarray) -> np.ndarray:
     """Between and next to the elements: `rest` pitches from the `nearest` node, and so far down."""
     along = nearest + (rest + 0.5)
     level = np.ceil(np.log2(np.maximum(down / (0.5 * LEAF * _DEEPEST), 1.0))).astype(int)
@@ -297,51 +284,32 @@ _PAIRS = 2**14  # pairs of point and element at a time, which stay in the cache
 _TREE_ELEMENTS, _TREE_PAIRS = 64, 20_000
 
 
-def line_stress(
-    nodes: np.ndarray,
-    load: np.ndarray,
-    pitch: float,
-    x: np.ndarray,
-    z: np.ndarray,
-    element: Element,
-) -> np.ndarray:
-    """sx, sz, txz under p = `load` and sx under q = `load` (4, m) [Pa], at x, z (m,) [m].
+def line_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m].
 
     Idle nodes at the ends cost nothing.
     """
-    loaded = np.flatnonzero(load)
+    loaded = np.flatnonzero(line.load)
     if len(loaded) == 0:
         return np.zeros((4, len(x)))
     if len(loaded) < _TREE_ELEMENTS or len(loaded) * len(x) < _TREE_PAIRS:
-        return direct_stress(nodes[loaded], load[loaded], pitch, x, z, element)
-    run = slice(loaded[0], loaded[-1] + 1)
-    return tree_stress(nodes[run], load[run], pitch, x, z, element)
+        return direct_stress(line.part(loaded), x, z)
+    return tree_stress(line.part(slice(loaded[0], loaded[-1] + 1)), x, z)
 
 
-def direct_stress(
-    nodes: np.ndarray,
-    load: np.ndarray,
-    pitch: float,
-    x: np.ndarray,
-    z: np.ndarray,
-    element: Element,
-) -> np.ndarray:
+def direct_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """`line_stress` as the sum over all elements, each component with its own digits."""
     parts = np.empty((4, len(x)))
-    step = max(1, _PAIRS // len(nodes))
-    whole, nearest, rest = from_nearest(nodes, pitch, x)
-    down = z / pitch
+    step = max(1, _PAIRS // len(line.nodes))
+    whole, nearest, rest = from_nearest(line.nodes, line.pitch, x)
+    down = z / line.pitch
 
     def add_up(here: slice) -> None:
         offset = rest[here, None] + (nearest[here, None] - whole)
         depth = np.broadcast_to(down[here, None], offset.shape)
-        if element == "hat":
-            unit = hat_at(offset, depth)
-        else:
-            unit = strip_between(offset + 0.5, offset, offset - 0.5, depth)
-        normal = unit.normal
-        for row, values in enumerate((normal.sx, normal.sz, normal.txz, unit.traction_sx)):
-            parts[row, here] = values @ load
+        unit = unit_stress(offset, depth, line.element)
+        for row, values in enumerate(unit.parts):
+            parts[row, here] = values @ line.load
 
     for_each(add_up, (slice(i, i + step) for i in range(0, len(x), step)))
     return parts

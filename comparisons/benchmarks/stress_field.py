@@ -28,7 +28,7 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.stress.elements import FrictionStress
 from analytic.stress.field import friction_field, stress_field
 from analytic.stress.points import stress_at
-from analytic.stress.tree import direct_stress
+from analytic.stress.tree import LoadedLine, direct_stress
 from analytic.stress_state import StressState
 from comparisons.benchmarks.harness import (
     Demand,
@@ -182,7 +182,7 @@ def _direct_times(
 def _difference(line: Line, x: np.ndarray, z: np.ndarray, found: np.ndarray) -> float:
     """To the sum over all elements in the form that keeps each one's digits, on some points."""
     some = np.random.default_rng(9).permutation(len(x))[:CHECKED_POINTS]
-    parts = direct_stress(*line, line.pitch, x[some], z[some], "hat")
+    parts = direct_stress(LoadedLine(*line, line.pitch, "hat"), x[some], z[some])
     expected = _stacked(_with_friction(parts))
     return float(np.abs(found[:, some] - expected).max() / np.abs(expected).max())
 

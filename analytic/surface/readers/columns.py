@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from analytic.numerics import check_positive
 from analytic.profile import MAX_SAMPLES, Profile
 from analytic.surface.readers.text import (
     DECIMAL_COMMAS,
@@ -21,7 +22,7 @@ def bridge(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x and height (m,) [m] without gaps, and the m samples that they come from.
 
-    x      (n,) [m] in any order; NaN only where nothing is to be kept
+    x      (n,) [m] in any order; NaN only at ends that are left out
     lost   (n,) which heights are; at least one is not
     Lost samples beyond the outermost ones that are known are left out.
     """
@@ -82,9 +83,8 @@ def read_profile(
     Raises ProfileError (one line with the file, the line number, what is wrong, what is allowed)
     for a file that cannot be read or trusted, ValueError for arguments that make no sense.
     """
-    for name, value in (("x_scale", x_scale), ("height_scale", height_scale), ("spacing", spacing)):
-        if value is not None and not (np.isfinite(value) and value > 0.0):
-            raise ValueError(f"{name} must be positive and finite, not {value:g}")
+    given = {} if spacing is None else {"spacing": spacing}
+    check_positive(x_scale=x_scale, height_scale=height_scale, **given)
     if dropouts not in ("refuse", "bridge"):
         raise ValueError(f"dropouts is {dropouts!r}; allowed: refuse, bridge")
     max_bytes = BYTES_PER_SAMPLE * max_samples + BYTES_OF_HEADER

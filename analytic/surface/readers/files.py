@@ -28,7 +28,7 @@ from analytic.surface.readers.text import (
 )
 from analytic.surface.readers.topography import MapLine, Topography, is_sdf, read_sdf, trace_of
 
-HEAD = 4096  # bytes that tell text from other files without reading them
+HEAD = 4096  # bytes by which text is recognised
 MAX_BYTES = 2**31  # of a topography
 SAME_UNIT = 1e-9  # relative
 

@@ -15,7 +15,7 @@ from analytic.stress.potential import (
     outer_to_parent,
     stresses,
 )
-from analytic.stress.tree import direct_stress, tree_stress
+from analytic.stress.tree import LoadedLine, direct_stress, tree_stress
 from analytic.stress_state import StressState
 
 PITCH = 2.0**-9
@@ -58,8 +58,8 @@ def test_tree_equals_direct_sum(rng, count, element, signs):
     """White noise: neighbours differ by as much as they are, which is the worst for the sums."""
     nodes, load = line(rng, count, signs)
     x, z = points(rng, nodes, 0.0 if element == "hat" else 1e-13)
-    direct = direct_stress(nodes, load, PITCH, x, z, element)
-    tree = tree_stress(nodes, load, PITCH, x, z, element)
+    direct = direct_stress(LoadedLine(nodes, load, PITCH, element), x, z)
+    tree = tree_stress(LoadedLine(nodes, load, PITCH, element), x, z)
     assert np.abs(tree - direct).max() < 1e-13 * np.abs(direct).max()
 
 
@@ -80,9 +80,9 @@ def test_nodes_that_binary_numbers_do_not_hit(origin, element):
     if element == "hat":
         down[: len(at_nodes)] = 0.0
     x = np.concatenate([nodes[at_nodes], origin + along[len(at_nodes) :] * pitch])
-    direct = direct_stress(nodes, load, pitch, x, down * pitch, element)
-    tree = tree_stress(nodes, load, pitch, x, down * pitch, element)
-    ideal = direct_stress(whole.astype(float), load, 1.0, along, down, element)
+    direct = direct_stress(LoadedLine(nodes, load, pitch, element), x, down * pitch)
+    tree = tree_stress(LoadedLine(nodes, load, pitch, element), x, down * pitch)
+    ideal = direct_stress(LoadedLine(whole.astype(float), load, 1.0, element), along, down)
     assert np.abs(tree - direct).max() < 1e-13
     error = np.abs(direct - ideal)
     assert error[:, : len(at_nodes)].max() < 1e-14
@@ -100,8 +100,8 @@ def test_far_from_all_load_each_component_keeps_its_digits(rng, element):
     )
     x = 0.5 * (nodes[0] + nodes[-1]) + (distance * np.cos(angle)).ravel()
     z = (distance * np.sin(angle)).ravel()
-    direct = direct_stress(nodes, load, PITCH, x, z, element)
-    tree = tree_stress(nodes, load, PITCH, x, z, element)
+    direct = direct_stress(LoadedLine(nodes, load, PITCH, element), x, z)
+    tree = tree_stress(LoadedLine(nodes, load, PITCH, element), x, z)
     np.testing.assert_allclose(tree, direct, rtol=1e-12)
 
 
@@ -161,8 +161,8 @@ def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
     nodes, load = line(rng, 900, signs=False)
     load[:90], load[400:700], load[850:] = 0.0, 0.0, 0.0
     x, z = rng.uniform(-1.0, 2.0, 500), rng.uniform(0.0, 0.3, 500)
-    found = tree_stress(nodes, load, PITCH, x, z, "hat")
-    assert np.abs(found - direct_stress(nodes, load, PITCH, x, z, "hat")).max() < 1e-13
+    found = tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)
+    assert np.abs(found - direct_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z)).max() < 1e-13
     alone = friction_stress_at(nodes, np.zeros(900), x, z)
     assert not np.any(alone.normal.sx) and not np.any(alone.traction_sx)
 
@@ -173,7 +173,7 @@ def test_threads_change_nothing(rng, monkeypatch):
     found = []
     for threads in ("1", "3"):
         monkeypatch.setenv("OMP_NUM_THREADS", threads)
-        found.append(tree_stress(nodes, load, PITCH, x, z, "hat"))
+        found.append(tree_stress(LoadedLine(nodes, load, PITCH, "hat"), x, z))
     np.testing.assert_array_equal(*found)
 
 
@@ -191,7 +191,7 @@ SPHERE = np.exp(1j * np.linspace(0.0, np.pi, 9))
 
 def potential_of_nodes(places: np.ndarray, w: np.ndarray, element: str) -> np.ndarray:
     """I from each element's stresses, by w in pitches."""
-    unit = direct_stress(places, LOAD, 1.0, w.real, w.imag, element)
+    unit = direct_stress(LoadedLine(places, LOAD, 1.0, element), w.real, w.imag)
     return 0.5j * (unit[0] + unit[1]) - 0.5 * (unit[3] + unit[2])
 
 
@@ -241,7 +241,7 @@ def test_potential_of_an_element_from_its_first_moments(start, terms, element):
     parts = element_potential(x, z, element, terms)
     found = stresses(parts[0] + 1j * parts[1], parts[2] + 1j * parts[3])
     across, down = (a.ravel() for a in np.meshgrid(x, z))
-    expected = direct_stress(np.zeros(1), np.ones(1), 1.0, across, down, element)
+    expected = direct_stress(LoadedLine(np.zeros(1), np.ones(1), 1.0, element), across, down)
     assert np.abs(found.reshape(4, -1) - expected).max() < 5e-16 / start
     assert len(element_moments(element, ORDER)) == ORDER
 
