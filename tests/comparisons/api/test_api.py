@@ -218,7 +218,7 @@ def test_a_finished_map_prints_and_draws(pyplot):
     content = read_map(PROJECT / "comparisons/studies/maps/finished/thickness-friction.json")
     shown = Map(content, None)
     assert "points" in repr(shown) and "map.json" not in repr(shown)
-    assert "The half-plane's own error" in shown.plot()[0].get_title(loc="left")
+    assert "Model error of the half-plane" in shown.plot()[0].get_title(loc="left")
     assert issubclass(CostStudy, type(shown).__mro__[1])
 
 

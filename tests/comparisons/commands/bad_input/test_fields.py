@@ -1,4 +1,4 @@
-"""Fields that do not go together: the line names one of them and what is allowed."""
+"""Wrong fields of a scene, alone and together: the line names one and what is allowed."""
 
 import pytest
 
@@ -19,6 +19,73 @@ SELF_AFFINE = {
 }
 LAYER = {"body.thickness": '"5 mm"'}
 
+# field, what the file says, how the line goes on after "scene.toml: field: "
+VALUES = [
+    (
+        "roller.radius",
+        '"-3 mm"',
+        'is "-3 mm"; allowed is a length above 0: a number in m or "8.2 mm"',
+    ),
+    ("body.youngs_modulus", "0.0", "is 0.0; allowed is a pressure above 0"),
+    (
+        "body.poissons_ratio",
+        "0.5",
+        "is 0.5; allowed is a number without unit at least 0 and below 0.5",
+    ),
+    ("load.per_length", "-1.0", "is -1.0; allowed is a load per length above 0"),
+    ("load.friction", "-0.1", "is -0.1; allowed is a number"),
+    ("load.friction", "1.6", "is 1.6; allowed is a number without unit at least 0 and at most 1.5"),
+    ("load.friction", "[]", "is an empty list; allowed is"),
+    ("load.friction", "[0.1, 0.2, 0.1]", "lists 0.1 twice; allowed is"),
+    ("load.friction", "[0, -0.0]", "lists 0 twice"),
+    ("load.friction", '[0, "a"]', 'is "a", which is not a number and a unit'),
+    ("roller.radius", "inf", "is inf, which is not finite; allowed"),
+    ("roller.radius", "1" + "0" * 400, "is 1.000e+400, which is not finite"),
+    ("load.per_length", "1e300", "is 1.000e+300, whose size is not from 1e-30 to 1e+30 in SI; a"),
+    ("roller.radius", "1e-320", "is 1e-320, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
+    ("stress.depth", "1e31", "is 1.000e+31, whose size is not from 1e-30 to 1e+30 in SI; allowed"),
+    ("roller.radius", '"8.2"', 'is "8.2", which has no unit; allowed is a length'),
+    ("roller.radius", '"8.2 GPa"', 'is "8.2 GPa", a pressure; allowed is a length'),
+    ("load.per_length", '"3 kN"', 'is "3 kN", of dimension ['),
+    ("roller.radius", '"8.2 furlogs"', 'is "8.2 furlogs", and "furlogs" is no known unit; allowed'),
+    ("body.hardness", '"7 gpa"', 'is "7 gpa", and "gpa" is no known unit (did you mean "GPa"?)'),
+    ("roller.radius", '"8,2 mm"', 'is "8,2 mm", and ",2 mm" is not a unit'),
+    ("roller.radius", '"2 mm + 1 mm"', 'is "2 mm + 1 mm", and "mm + 1 mm" is not a unit'),
+    ("budget.memory", '"8 rad"', 'is "8 rad", without dimension; allowed is an amount of memory'),
+    ("roller.radius", "[1, 2]", "is a list; allowed is a length"),
+    ("roller.radius", "true", "is true; allowed is a length"),
+    ("roller.radius", "{m = 1}", "is a table; allowed is a length"),
+    ("load.per_length", "1991-06-01", "is a date or time; allowed is a load per length"),
+    ("title", "3", "is 3; allowed is a string"),
+    ("title", '" "', "is blank; allowed is a string"),
+    ("title", '"a\\nb"', "holds a control character; allowed is a string of one line"),
+    ("finite_element.geometry", "3", 'is 3; allowed is "flat" or "rough"'),
+    ("roller.rigid", '"yes"', 'is "yes"; allowed is true or false'),
+    ("resolution.levels", "2.5", "is 2.5; allowed is a whole number from 2 to 6"),
+    ("roller.raduis", "1", "is no known field; the nearest is roller.radius"),
+    ("roller.friction", "0.1", "is no known field; the nearest is load.friction"),
+    ("frictoin", "0.1", "is no known field; the nearest is load.friction"),
+    ("Titel", "1", "is no known field; the nearest is title"),
+    ("roller.radius", None, "is missing; allowed is a length above 0"),
+    ("roller.youngs_modulus", None, "is missing; allowed is youngs_modulus with poissons_ratio"),
+    ("load.hertz_peak_pressure", '"1 GPa"', "is given beside per_length; allowed is exactly one"),
+    ("body.base", '"bonded"', "is given for a half-plane, which has none; allowed only with"),
+    ("stress.depth", "0", "is 0; allowed is a number of half-widths above 0 or a length"),
+    ("stress.depth", '"1 a"', 'is "1 a", a time; allowed is a number of half-widths'),
+    (
+        "stress.points",
+        "[200, 2]",
+        "holds 2; allowed is a list of two whole numbers [along x, along z], at least 3 each",
+    ),
+    ("stress.points", "[1, 2, 3]", "is a list of 3; allowed is a list of two"),
+    ("stress.points", "600", "is 600; allowed is a list of two"),
+    ("stress.points", "[600, 2.5]", "holds 2.5; allowed is a list of two"),
+    ("stress.points", "[100_000, 100_000]", "asks for 10000000000 points; allowed is a list"),
+    ("tolerance.tau1_max", "0", "is 0; allowed is a number without unit above 0 and below 1"),
+    ("finite_element.block", "9", "is 9; allowed is a number without unit at least 10"),
+    ("budget.time", '"0 s"', 'is "0 s"; allowed is a time above 0: a number in s or "300 s"'),
+    ("budget.memory", "-1", "is -1; allowed is an amount of memory above 0: a number in byte"),
+]
 # changes, and how the line goes on after "scene.toml: "
 COMBINATIONS = [
     (
@@ -141,8 +208,11 @@ COMBINATIONS = [
 ]
 
 
-@pytest.mark.parametrize(("changes", "rest"), COMBINATIONS)
-def test_wrong_combination(folder, changes, rest, toml, trace, complaint):
+@pytest.mark.parametrize(
+    ("changes", "rest"),
+    [*(({field: text}, f"{field}: {rest}") for field, text, rest in VALUES), *COMBINATIONS],
+)
+def test_wrong_fields(folder, changes, rest, toml, trace, complaint):
     (folder / "scene.toml").write_text(toml(changes))
     (folder / "trace.csv").write_text(trace)
     line = complaint("run", "scene.toml")
