@@ -5,6 +5,7 @@ with a structured mesh beside it: what shows results needs results, not a factor
 """
 
 import os
+import pickle
 import signal
 import subprocess
 import time
@@ -217,24 +218,25 @@ def undrawn(no_pictures: Callable[[Outcome], Pictures]) -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def meshed() -> dict[str, dict[str, np.ndarray]]:
-    """What gmsh has answered so far, by what it was asked."""
+def meshed() -> dict[bytes, tuple[np.ndarray, np.ndarray]]:
+    """gmsh's answers so far, by the pickled task."""
     return {}
 
 
 @pytest.fixture(scope="module", autouse=True)
-def meshed_once(meshed: dict[str, dict[str, np.ndarray]]) -> Iterator[None]:
-    """gmsh is asked for each mesh once: most of its time goes into its start, and it gives the same
-    to the last bit, as scenes of many modules do. Not so in `tests/meshes`, which tell of that."""
-    mesh, made = meshes.build.run_worker, meshed
+def meshed_once(meshed: dict[bytes, tuple[np.ndarray, np.ndarray]]) -> Iterator[None]:
+    """gmsh makes each mesh once: its start takes most of its time, and many modules have the same
+    scenes. `tests/meshes` show that equal tasks give equal meshes to the last bit."""
+    mesh = meshes.build.run_worker
 
-    def kept(task: dict[str, np.ndarray], timeout: float) -> dict[str, np.ndarray]:
-        asked = digest(*(np.frombuffer(task[name].tobytes(), np.uint8) for name in sorted(task)))
-        if asked not in made:
-            made[asked] = mesh(task, timeout)
-        return {name: values.copy() for name, values in made[asked].items()}
+    def cached(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+        key = pickle.dumps(task)
+        if key not in meshed:
+            meshed[key] = mesh(task, timeout)
+        vertices, triangles = meshed[key]
+        return vertices.copy(), triangles.copy()
 
-    with patch("meshes.build.run_worker", kept):
+    with patch("meshes.build.run_worker", cached):
         yield
 
 
