@@ -89,7 +89,7 @@ def double_areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def check_spec(spec: BlockSpec) -> None:
-    """Raises MeshError, naming the field and what is allowed, when spec cannot be meshed."""
+    """Raises MeshError, naming the field and what is allowed, if spec cannot be meshed."""
 
     def demand(holds: bool, what: str) -> None:
         if not holds:
@@ -97,48 +97,42 @@ def check_spec(spec: BlockSpec) -> None:
 
     for name in ("half_width", "depth", "surface_size"):
         value = getattr(spec, name)
-        demand(np.isfinite(value) and value > 0.0, f"{name} is {value}: a positive length in m")
+        demand(0.0 < value < np.inf, f"{name} is {value}: a positive length in m")
     demand(0.0 <= spec.growth <= 0.5, f"growth is {spec.growth}: allowed is 0 to 0.5")
     intervals = np.asarray(spec.intervals, dtype=float)
     demand(
         intervals.ndim == 2 and intervals.shape[1] == 2 and len(intervals) > 0,
         f"intervals have the shape {intervals.shape}: at least one row of two ends is needed",
     )
-    flat = intervals.ravel()
-    slack = 1e-9 * spec.surface_size
+    flat, slack = intervals.ravel(), 1e-9 * spec.surface_size
     demand(
-        bool(
-            np.isfinite(flat).all()
-            and (np.diff(flat) >= -slack).all()
-            and (np.diff(intervals, axis=1) > 0.0).all()
-        ),
+        np.isfinite(flat).all()
+        and (np.diff(flat) >= -slack).all()
+        and (np.diff(intervals, axis=1) > 0.0).all(),
         "intervals must be finite, ascending and disjoint",
     )
     demand(
-        bool(np.abs(flat[[0, -1]]).max() <= spec.half_width + slack),
+        np.abs(flat[[0, -1]]).max() <= spec.half_width + slack,
         f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {spec.half_width:g} m",
     )
     if spec.window is not None:
         x0, x1, z1, size = spec.window
         demand(
-            bool(np.isfinite(spec.window).all()) and x0 < x1 and z1 > 0.0 and size > 0.0,
+            np.isfinite(spec.window).all() and x0 < x1 and z1 > 0.0 and size > 0.0,
             f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
         )
     if spec.vertices is not None:
         vertices = np.asarray(spec.vertices, dtype=float)
         demand(
-            bool(
-                vertices.ndim == 1
-                and len(vertices) > 1
-                and np.isfinite(vertices).all()
-                and (np.diff(vertices) > 0.0).all()
-                and np.abs(vertices[[0, -1]] - flat[[0, -1]]).max() <= slack
-            ),
+            vertices.ndim == 1
+            and len(vertices) > 1
+            and (np.diff(vertices) > 0.0).all()
+            and np.abs(vertices[[0, -1]] - flat[[0, -1]]).max() <= slack,
             "vertices must be finite, ascending, and reach from the first interval's start to the "
             "last one's end",
         )
     if spec.interface is not None:
         demand(
-            bool(0.0 < spec.interface < spec.depth),
+            0.0 < spec.interface < spec.depth,
             f"interface is {spec.interface}: between 0 and the depth, {spec.depth:g} m",
         )

@@ -6,7 +6,8 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -28,19 +29,13 @@ UNIT_DECIMALS = 9
 def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
     """spec with all lengths divided by unit [m] and rounded to UNIT_DECIMALS."""
 
-    def scaled(value):
-        return np.round(np.asarray(value, dtype=float) / unit, UNIT_DECIMALS)
+    def scaled(value: float | Sequence | None) -> float | list | None:
+        if value is None:
+            return None
+        return np.round(np.asarray(value, dtype=float) / unit, UNIT_DECIMALS).tolist()
 
-    return replace(
-        spec,
-        half_width=float(scaled(spec.half_width)),
-        depth=float(scaled(spec.depth)),
-        intervals=scaled(spec.intervals),
-        surface_size=float(scaled(spec.surface_size)),
-        window=None if spec.window is None else tuple(scaled(spec.window).tolist()),
-        interface=None if spec.interface is None else float(scaled(spec.interface)),
-        vertices=None if spec.vertices is None else scaled(spec.vertices),
-    )
+    lengths = (each.name for each in fields(spec) if each.name != "growth")
+    return replace(spec, **{name: scaled(getattr(spec, name)) for name in lengths})
 
 
 def field_in_units(sizes: SizeField, unit: float) -> SizeField:

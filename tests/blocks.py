@@ -1,10 +1,11 @@
-"""Blocks that tests of meshes start from, by name."""
+"""Blocks that tests of meshes start from, by name; Hooke's law in plane strain."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from analytic.material import Material
 from meshes.block import BlockSpec
 
 BLOCK = BlockSpec(20.0, 40.0, np.array([[-1.5, 1.5]]), 0.05)
@@ -70,3 +71,10 @@ def of_kinds(*kinds: str) -> pytest.MarkDecorator:
     """One test for the mesh of each of these kinds of blocks."""
     names = [name for kind in kinds for name in SPECS[kind]]
     return pytest.mark.parametrize("mesh", names, indirect=True)
+
+
+def hooke(material: Material, exx, ezz, gxz) -> tuple:
+    """sx, sz, txz [Pa] of strains exx, ezz, gxz."""
+    shear, nu = material.shear_modulus, material.poissons_ratio
+    mean = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
+    return mean + 2 * shear * exx, mean + 2 * shear * ezz, shear * gxz

@@ -151,10 +151,10 @@ def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
     area = np.abs(np.linalg.det(jacobian)) * weight
     # [m, a, i, b, j]: integral of (dN_a / dx_i) (dN_b / dx_j)
     product = np.einsum("mq,mqai,mqbj->maibj", area, slope, slope, optimize=True)
-    alike = np.einsum("maibi->mab", product)[:, :, None, :, None] * np.eye(2)[:, None, :]
+    same_component = np.einsum("maibi->mab", product)[:, :, None, :, None] * np.eye(2)[:, None, :]
     shear, nu = body.material.shear_modulus, body.material.poissons_ratio
     lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
-    stiffness = lame * product + shear * (product.swapaxes(2, 4) + alike)
+    stiffness = lame * product + shear * (product.swapaxes(2, 4) + same_component)
 
     def whole(number: np.ndarray) -> np.ndarray:
         return np.broadcast_to(number, stiffness.shape)

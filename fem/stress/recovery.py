@@ -142,8 +142,8 @@ def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
     middle, first = np.unique(nodes.triangles[:, 3:].ravel(), return_index=True)
     ends = corner[:, EDGES].reshape(-1, 2)[first]
     inner = ~_outer(body, nodes)[vertex][ends]
-    alike = inner[:, :1] == inner[:, 1:]
-    shares = np.where(alike, 0.5, inner.astype(float))
+    equal = inner[:, :1] == inner[:, 1:]
+    shares = np.where(equal, 0.5, inner.astype(float))
     return Patches(vertex, coated, start, element, beside, ends, middle, shares)
 
 

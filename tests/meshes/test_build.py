@@ -101,7 +101,7 @@ def test_edges_follow_the_size_law(mesh):
     ends = mesh.points[edges]
     middle = ends.mean(axis=1)
     ratio = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) / wanted_size(mesh.spec, *middle.T)
-    # A growth of 0.5 changes the size by half within one edge: its middle is a poor witness.
+    # A growth of 0.5 changes the size by half within one edge: its middle says little.
     slack = 0.2 * mesh.spec.growth
     assert 0.85 - slack < np.median(ratio) < 1.08
     assert np.quantile(ratio, 0.05) > 0.66 - slack

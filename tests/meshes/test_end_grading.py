@@ -51,7 +51,7 @@ def test_in_a_gap_edges_grow_away_from_both_ends():
     wanted = np.minimum(
         shortest[0] + OUTWARD * (middle - 0.3), shortest[1] + OUTWARD * (1.0 - middle)
     )
-    # The largest edge spans both slopes: its middle is a poor witness.
+    # The largest edge spans both slopes: its middle says little.
     assert np.quantile(edge / wanted, [0.1, 0.9]) == pytest.approx(1.0, abs=0.35)
 
 
@@ -66,6 +66,6 @@ def test_no_edge_inside_is_longer_than_the_largest():
 def test_mirrored_patches_give_mirrored_vertices_and_units_do_not_matter():
     x = graded_vertices(THREE, EDGES)
     mirrored = graded_vertices(-THREE[::-1, ::-1], EDGES[::-1])
-    # Rounding decides which cells of the integral are halved once more.
+    # Rounding decides which cells of the integral are bisected once more.
     assert mirrored == pytest.approx(-x[::-1], abs=1e-3)
     assert graded_vertices(1e-6 * THREE, EDGES) == pytest.approx(1e-6 * x, abs=1e-9)

@@ -24,7 +24,7 @@ def mesh():
 
 @pytest.fixture(scope="module")
 def path(mesh, tmp_path_factory):
-    path = tmp_path_factory.mktemp("store") / "mesh.msh"
+    path = tmp_path_factory.mktemp("mesh") / "mesh.msh"
     write_msh(mesh, path)
     return path
 

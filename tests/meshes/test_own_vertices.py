@@ -1,4 +1,4 @@
-"""Given surface vertices: kept exactly, followed by the sizes below."""
+"""Given surface vertices: exact, followed by the sizes below."""
 
 import numpy as np
 import pytest

@@ -69,7 +69,7 @@ def test_base_stays_and_nothing_moves_more_than_the_profile(flat):
     assert not mesh.shift[bottom].any()
     assert np.abs(mesh.shift).max() <= np.abs(height(mesh.points[top(mesh), 0])).max() * 1.01
     deep = mesh.points[:, 1] > 3.0 * WAVELENGTH
-    # A sinusoid has died off to exp(-2 pi) there; coarse ground at the sides adds its aliases.
+    # A sinusoid has decayed to exp(-2 pi) there; the coarse sides add its aliases.
     assert np.abs(mesh.shift[deep & (np.abs(mesh.points[:, 0]) < 1.0)]).max() < 0.05 * 0.05
 
 
@@ -126,7 +126,7 @@ def test_rough_profiles_of_many_wavelengths(flat, rms_slope, hurst):
     assert mesh.quality["least_angle_degrees"] > 15.0
 
 
-def test_slope_beyond_one_is_followed_where_the_ground_is_refined(determinants, triangle_rule):
+def test_slope_beyond_one_is_followed_where_the_surface_is_refined(determinants, triangle_rule):
     mesh = roughen(build_block(FINE_SPEC), sinusoid(0.75))
     assert mesh.quality["least_angle_degrees"] > 10.0
     assert determinants(mesh, triangle_rule[0]).min() > 0.0

@@ -29,7 +29,7 @@ def mesh_in_edges(scene: ResolvedScene) -> tuple:
     )
     spec = block_spec(problem, refinement, contact_patches(grid.x, solution.pressure, solution.gap))
     small = in_units(spec, spec.surface_size)
-    return small.half_width, small.depth, small.growth, small.window, small.intervals.tolist()
+    return small.half_width, small.depth, small.growth, small.window, small.intervals
 
 
 @pytest.mark.parametrize("thickness", [None, 1e-3])

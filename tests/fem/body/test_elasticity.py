@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from blocks import hooke
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
@@ -24,16 +25,6 @@ def small(structured_block):
         )
 
     return make
-
-
-def stress_of(material, exx, ezz, gxz):
-    nu, modulus = material.poissons_ratio, material.youngs_modulus
-    factor = modulus / ((1 + nu) * (1 - 2 * nu))
-    return (
-        factor * ((1 - nu) * exx + nu * ezz),
-        factor * ((1 - nu) * ezz + nu * exx),
-        material.shear_modulus * gxz,
-    )
 
 
 # Linear displacements on curved elements are no polynomials of the coordinates: no patch test.
@@ -59,7 +50,7 @@ def test_constant_strain_is_reproduced_exactly(
     exx, ezz, gxz = strain
     x, z = body.nodes.T
     exact = np.column_stack([exx * x + gxz * (z - 1.0), ezz * (z - 1.0)])
-    sx, sz, txz = stress_of(MATERIAL, exx, ezz, gxz)
+    sx, sz, txz = hooke(MATERIAL, exx, ezz, gxz)
     load = exact_forces(mesh, lambda x, z: (sx + 0 * x, sz, txz), degree=degree)
     np.testing.assert_allclose(body.solve(load), exact, atol=1e-11 * np.abs(exact).max())
 
@@ -84,7 +75,7 @@ def test_a_coating_under_uniform_traction_is_reproduced_exactly(
     exact = np.zeros(body.nodes.shape)
     for material, height in ((MATERIAL, below), (coat, above)):
         # bonded below, so exx = 0; moved along by shear, down by pressure
-        mass, shear = stress_of(material, 0.0, 1.0, 1.0)[1:]
+        mass, shear = hooke(material, 0.0, 1.0, 1.0)[1:]
         exact += np.outer(height, [-0.4 / shear, 1.0 / mass])
 
     def stress(x, z):

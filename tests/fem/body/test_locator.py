@@ -57,7 +57,7 @@ def test_points_just_below_and_above_a_rough_surface(structured_block):
 
 
 def test_a_block_bent_along_x_too(structured_block):
-    """A sector of a ring: inside and outside are told apart on its curved sides and its top."""
+    """A sector of a ring: points just inside and outside of its curved sides and its top."""
     mesh = structured_block(np.linspace(-1, 1, 33), np.linspace(0, 1, 17), seed=6)
     angle, radius = mesh.points[:, 0], 2.0 - mesh.points[:, 1]
     points = np.column_stack([radius * np.sin(angle), 2.0 - radius * np.cos(angle)])

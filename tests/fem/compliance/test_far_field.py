@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from blocks import hooke
 from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
@@ -55,10 +56,10 @@ def test_first_terms_are_line_loads_of_the_half_plane():
     place = 1.7 * np.exp(1j * angle)
     along_x = (field(place + step) - field(place - step)) / (2 * step)
     along_z = (field(place + 1j * step) - field(place - 1j * step)) / (2 * step)
-    dilation = along_x[..., 0] + along_z[..., 1]
-    mean = 2.0 * shear * NU / (1.0 - 2.0 * NU) * dilation
-    sx, sz = mean + 2 * shear * along_x[..., 0], mean + 2 * shear * along_z[..., 1]
-    txz = shear * (along_x[..., 1] + along_z[..., 0])
+    material = Material(2.0 * shear * (1.0 + NU), NU)
+    sx, sz, txz = hooke(
+        material, along_x[..., 0], along_z[..., 1], along_x[..., 1] + along_z[..., 0]
+    )
     radial = -2.0 / (np.pi * 1.7) * np.array([np.cos(angle), np.sin(angle)])
     np.testing.assert_allclose(sx, radial * np.cos(angle) ** 2, atol=1e-7)
     np.testing.assert_allclose(sz, radial * np.sin(angle) ** 2, atol=1e-7)

@@ -122,7 +122,7 @@ class Stiffening:
         self.accepted = []
 
     def linearised(self, displacement):
-        """Componentwise strengthening of springs to the ground beside the linear body."""
+        """Componentwise stiffening of springs beside the linear body."""
         from scipy.sparse import diags
 
         u = displacement.ravel()
@@ -149,7 +149,7 @@ def test_newton_converges_quadratically(grid, block, contact, solve):
 
 
 def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, contact, solve):
-    """Increments are halved, each is accepted once, and the end is where it is without limit."""
+    """Increments are bisected, each is accepted once, and the end is where it is without limit."""
     free = solve([(Stiffening(block, 0.02), contact(block))], grid.smooth, load=0.6)
     reach = np.abs(free.state.displacements[0]).max()
     limited = Stiffening(block, 0.02, 1.02 * reach)

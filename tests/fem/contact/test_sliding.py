@@ -49,7 +49,7 @@ class Sliding:
 
 
 @cache
-def ground(extent: float = 1000.0, mirrored: bool = False):
+def block_of(extent: float = 1000.0, mirrored: bool = False):
     mesh = build_block(BlockSpec(extent, extent, np.array([[-1.8, 1.8]]), GRID.pitch))
     if not mirrored:
         return mesh
@@ -61,7 +61,7 @@ def ground(extent: float = 1000.0, mirrored: bool = False):
 @cache
 def surface(material: Material, extent: float = 1000.0, mirrored: bool = False):
     """Of so large a block that it stands for a half-plane."""
-    body = elastic_body(ground(extent, mirrored), material, Support(sides="fixed"))
+    body = elastic_body(block_of(extent, mirrored), material, Support(sides="fixed"))
     return FiniteElementCompliance(body, HATS)
 
 

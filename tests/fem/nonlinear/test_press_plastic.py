@@ -21,15 +21,15 @@ STEEL = Material(200.0, NU)
 class Scene:
     """A roller that an elastic body would meet on half-width 1 under the peak pressure `ratio` Y.
 
-    It is rigid, or `alike`: elastic and of the body's material.
+    It is rigid, or `elastic` and of the body's material.
     """
 
     def __init__(
-        self, mesh, ratio, edges, reach=1.6, support=None, hardening=0.0, unit=1.0, alike=False
+        self, mesh, ratio, edges, reach=1.6, support=None, hardening=0.0, unit=1.0, elastic=False
     ):
         material = Material(STEEL.youngs_modulus * unit, NU)
-        modulus = material.plane_strain_modulus / (1 + alike)
-        self.alike = alike
+        modulus = material.plane_strain_modulus / (1 + elastic)
+        self.elastic = elastic
         self.metal = ElasticPlastic(material, unit, hardening * unit)
         self.hertz = hertz_from_peak_pressure(ratio * unit, 0.5 * modulus / (ratio * unit), modulus)
         body = elastic_body(mesh, material, support or Support("bonded", "fixed"))
@@ -48,7 +48,7 @@ class Scene:
             [load * self.hertz.load_per_length for load in loads],
             self.hertz.pressure(self.x),
             friction,
-            self.pressed if self.alike else None,
+            self.pressed if self.elastic else None,
             increments,
         )
 
@@ -103,7 +103,7 @@ def test_first_flow(large, friction):
         assert ratio == pytest.approx(1.79, abs=0.01)
         assert z == pytest.approx(0.70, abs=0.01)
     for part, flows in ((0.98, False), (1.02, True)):
-        scene = Scene(large, ratio * part, 10, reach=1.2, alike=True)
+        scene = Scene(large, ratio * part, 10, reach=1.2, elastic=True)
         body, (contact,) = scene.press([1.0], friction, increments=1)
         plastic = contact.state.equivalent
         assert plastic.any() == flows

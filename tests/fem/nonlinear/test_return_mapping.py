@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from blocks import hooke
 from scipy.integrate import solve_ivp
 
 from analytic.material import Material
@@ -71,11 +72,9 @@ def test_below_yield_it_is_elastic_and_forgets(hardening):
     strain = np.array([[1e-3, -4e-4, 7e-4]])
     step = return_mapping(law, strain, PlasticState.virgin(1))
     (inside,), (across,) = stress(law, strain, step.state)
-    shear, nu = law.elastic.shear_modulus, 0.3
-    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu) * 6e-4
-    expected = [lame + 2e-3 * shear, lame - 8e-4 * shear, 7e-4 * shear]
+    expected = hooke(law.elastic, *strain[0])
     np.testing.assert_allclose(inside, expected, rtol=1e-13)
-    assert across == pytest.approx(lame, rel=1e-13)
+    assert across == pytest.approx(0.3 * (expected[0] + expected[1]), rel=1e-13)
     assert equivalent(inside, across) < Y
     assert not step.yields.any()
     assert step.softening.shape == (0, 3, 3)
@@ -85,7 +84,8 @@ def test_below_yield_it_is_elastic_and_forgets(hardening):
 def stretched(law, poisson, hardening, strain):
     """Plane-strain tension (sz = 0, exx given) by integrating the rates of Prandtl and Reuss.
 
-    Written in full tensors with eyy = 0 and the rate of ezz from sz = 0: another road.
+    Written in full tensors with eyy = 0 and the rate of ezz from sz = 0: an independent
+    computation.
     """
     compliance = (np.eye(3) * (1.0 + poisson) - poisson * np.ones((3, 3))) / E
     stiffness = np.linalg.inv(compliance)
@@ -156,9 +156,7 @@ def test_tangent_is_the_derivative(hardening, size):
     step = return_mapping(law, strain, before)
     assert step.yields.sum() > 5
     h = 1e-6 * size * Y / E
-    shear, nu = law.elastic.shear_modulus, 0.3
-    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
-    elastic = np.array([[lame + 2 * shear, lame, 0], [lame, lame + 2 * shear, 0], [0, 0, shear]])
+    elastic = np.array(hooke(law.elastic, *np.eye(3)))
     for column in range(3):
         ahead, behind = strain.copy(), strain.copy()
         ahead[:, column] += h

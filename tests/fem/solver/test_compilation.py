@@ -61,7 +61,7 @@ def start(cache) -> subprocess.Popen:
 
 
 def unmarked(cache) -> list[Path]:
-    """Sources that are being compiled, or that nobody finished."""
+    """Sources that are being compiled, or left over."""
     sources = cache.rglob("libffcx_*.c")
     return [source for source in sources if not source.with_suffix(".c.cached").exists()]
 
@@ -135,7 +135,7 @@ def test_another_process_at_the_same_form_is_waited_for(monkeypatch, tmp_path):
     stale.touch()
     os.utime(stale, (time.time() - 2.0 * STALE_SECONDS,) * 2)
     assert compiled(lambda: "another") == "another"
-    assert stale.exists()  # nobody has waited for it
+    assert stale.exists()  # no process has waited for it
     busy[:] = [True, False]
     assert compiled(make) == "form"
     assert not stale.exists()

@@ -80,7 +80,9 @@ def test_what_petsc_holds_goes_with_its_owner(positive):
     assert not any(held)  # PETSc's objects are false once they are destroyed
 
 
-@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is told by Linux's /proc")
+@pytest.mark.skipif(
+    not Path("/proc/self/statm").exists(), reason="memory is read from Linux's /proc"
+)
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_systems_that_are_solved_once_leave_nothing_behind(symmetric):
     """Each holds 4 to 7 MB while it is solved."""

@@ -106,7 +106,7 @@ def test_the_window_limits_the_search(body):
 
 
 def test_each_material_has_its_own_poissons_ratio(structured_block):
-    """Strain alike on both sides: the quantity tells them apart only by Poisson's ratio."""
+    """Equal strain on both sides: the quantity differs only by Poisson's ratio."""
     mesh = structured_block(np.linspace(-1, 1, 9), np.linspace(0, 1, 5))
     coating = Coating(Material(1.0, 0.1), 0.25)
     body = elastic_body(mesh, Material(1.0, 0.4), Support(), coating=coating)
