@@ -38,7 +38,7 @@ import argparse
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -156,8 +156,7 @@ class RollerCase:
         ).spline()
 
 
-@dataclass(frozen=True)
-class ModelFigures:
+class ModelFigures(NamedTuple):
     """Peak pressure, contact length, largest principal shear and Newton's iterations."""
 
     peak: float
@@ -166,13 +165,10 @@ class ModelFigures:
     iterations: int
 
 
-@dataclass(frozen=True)
-class ModelChanges:
-    """Relative to the half-plane's assumptions: the change of the peak pressure by each step
-    (`circle`, `geometry`, `place`, `strain`), and by all of them in `peak`, `length` and `shear`;
-    the peak `pressure` itself."""
+class ModelChanges(NamedTuple):
+    """Relative to the half-plane: what each step changes in the peak pressure (circle, geometry,
+    place, strain), and what all of them change in the peak, the length and the shear."""
 
-    case: RollerCase
     circle: float
     geometry: float
     place: float
@@ -180,19 +176,13 @@ class ModelChanges:
     peak: float
     length: float
     shear: float
-    pressure: float
-    iterations: int
 
 
-def changes(case: RollerCase) -> ModelChanges:
-    """Solve a case by all models."""
-    models = model_series(case)
+def changes(models: list[ModelFigures]) -> ModelChanges:
+    """From the figures of all models of one case."""
     first, last = models[0], models[-1]
     steps = [(b.peak - a.peak) / first.peak for a, b in pairwise(models)]
-    whole = [
-        getattr(last, name) / getattr(first, name) - 1.0 for name in ("peak", "length", "shear")
-    ]
-    return ModelChanges(case, *steps, *whole, last.peak, last.iterations)
+    return ModelChanges(*steps, *(last[i] / first[i] - 1.0 for i in range(3)))
 
 
 def model_series(case: RollerCase) -> list[ModelFigures]:
@@ -284,25 +274,19 @@ def main(arguments: list[str] | None = None) -> int:
         for seed in options.seeds
     ]
     for title, name, cases in (("Smooth", "curvature", smooth), ("Rough", "slope", rough)):
-        rows = [changes(case) for case in cases]
-        print_table(f"{title}, differences in per cent", COLUMNS, map(_cells, rows))
-        points = [(getattr(row.case, name), abs(row.peak)) for row in rows]
+        rows, points = [], []
+        for case in cases:
+            models = model_series(case)
+            found = changes(models)
+            numbers = (f"{case.curvature:g}", f"{case.slope:g}", f"{case.seed}")
+            percents = (f"{100.0 * change:+.3f}" for change in found)
+            rows.append((*numbers, f"{models[-1].peak:.3g}", *percents, f"{models[-1].iterations}"))
+            points.append((getattr(case, name), abs(found.peak)))
+        print_table(f"{title}, differences in per cent", COLUMNS, rows)
         place = threshold(points, MATTERS)
         where = "at no case" if place is None else f"from a {name} of {place:.2g}"
         print(f"linear kinematics misses {100.0 * MATTERS:g} % of the peak pressure {where}")
     return 0
-
-
-def _cells(row: ModelChanges) -> list[str]:
-    steps = (row.circle, row.geometry, row.place, row.strain)
-    return [
-        f"{row.case.curvature:g}",
-        f"{row.case.slope:g}",
-        f"{row.case.seed}" if row.case.slope else "",
-        f"{row.pressure:.3g}",
-        *(f"{100.0 * value:+.3f}" for value in (*steps, row.peak, row.length, row.shear)),
-        str(row.iterations),
-    ]
 
 
 if __name__ == "__main__":

@@ -26,14 +26,8 @@ from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.operators.convolution import Convolution
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.benchmarks import harness
 from comparisons.benchmarks.half_plane_peers import cases
-from comparisons.benchmarks.harness import (
-    Demand,
-    print_demands,
-    print_table,
-    run_on_one_thread,
-    timed,
-)
 from comparisons.common.processes import fresh_process
 
 SIZES = tuple(2**power for power in range(10, 21, 2))
@@ -151,10 +145,10 @@ def growth(make: Callable[[int], ScaledProblem], count: int, repeats: int) -> Gr
         memory = call(_peak_memory, make, count)
     return Growth(
         count=problem.count,
-        seconds=timed(lambda: problem.solved(problem.operator()), repeats, BUDGET)[0],
+        seconds=harness.timed(lambda: problem.solved(problem.operator()), repeats, BUDGET)[0],
         exchanges=solution.iterations["exchanges"],
         pairs=sum(lengths) / longest,
-        pair=timed(lambda: irfft(rfft(wave), longest), PAIRS)[0],
+        pair=harness.timed(lambda: irfft(rfft(wave), longest), PAIRS)[0],
         memory=memory,
     )
 
@@ -176,23 +170,23 @@ def _peak_memory(make: Callable[[int], ScaledProblem], count: int) -> int:
     return highest() - before
 
 
-def demands(title: str, rows: list[Growth]) -> list[Demand]:
+def demands(title: str, rows: list[Growth]) -> list[harness.Demand]:
     """Demands on the rows of one surface, in ascending order of size."""
     found = []
     if len(rows) > 1:
         slope = np.polyfit(*np.log([(row.count, row.seconds) for row in rows]).T, 1)[0]
         text = f"{title}: time as n^{slope:.3f}, at most {STEEPEST:g}"
-        found.append(Demand(bool(slope <= STEEPEST), text))
+        found.append(harness.Demand(bool(slope <= STEEPEST), text))
     large = [row for row in rows if row.count >= JUDGED]
     if large:
         worst = max(row.overhead for row in large)
         text = f"{title}: {worst:.2f} times the transforms' own time, at most {OVERHEAD:g}"
-        found.append(Demand(worst <= OVERHEAD, text))
+        found.append(harness.Demand(worst <= OVERHEAD, text))
     if len(large) > 1:
         each = [row.memory / row.count for row in large]
         spread = max(each) / min(each)
         text = f"{title}: memory per node differs by {spread:.2f}, at most {UNEVEN:g}"
-        found.append(Demand(spread <= UNEVEN, text))
+        found.append(harness.Demand(spread <= UNEVEN, text))
     return found
 
 
@@ -202,26 +196,26 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, help="numbers of nodes")
     parser.add_argument("--repeats", type=int, default=9, help="most timed runs of one size")
     options = parser.parse_args(arguments)
-    found, cells = [], []
+    found, rows = [], []
     for title, make in (("self-affine, periodic", rough), ("cylinder, unbounded", cylinder)):
-        rows = [growth(make, count, options.repeats) for count in sorted(options.sizes)]
-        found += demands(title, rows)
-        cells += [(title, *_cells(row)) for row in rows]
-    print_table("One solution", COLUMNS, cells)
-    return print_demands(found)
-
-
-def _cells(row: Growth) -> list[str]:
-    return [
-        str(row.count),
-        f"{1e3 * row.seconds:.4g}",
-        str(row.exchanges),
-        f"{row.pairs:.1f}",
-        f"{1e3 * row.pair:.4g}",
-        f"{row.overhead:.2f}",
-        f"{row.memory / row.count:.0f}",
-    ]
+        costs = [growth(make, count, options.repeats) for count in sorted(options.sizes)]
+        found += demands(title, costs)
+        rows += [
+            (
+                title,
+                f"{cost.count}",
+                f"{1e3 * cost.seconds:.4g}",
+                f"{cost.exchanges}",
+                f"{cost.pairs:.1f}",
+                f"{1e3 * cost.pair:.4g}",
+                f"{cost.overhead:.2f}",
+                f"{cost.memory / cost.count:.0f}",
+            )
+            for cost in costs
+        ]
+    harness.print_table("One solution", COLUMNS, rows)
+    return harness.print_demands(found)
 
 
 if __name__ == "__main__":
-    run_on_one_thread(main)
+    harness.run_on_one_thread(main)

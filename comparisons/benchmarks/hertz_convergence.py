@@ -28,13 +28,7 @@ from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.benchmarks.harness import (
-    Demand,
-    print_demands,
-    print_table,
-    processor_seconds,
-    run_on_one_thread,
-)
+from comparisons.benchmarks import harness
 from comparisons.models.finite_element.adaptive import (
     GROWTH,
     Pressing,
@@ -58,8 +52,6 @@ BETWEEN = 0.25  # of a pitch: the contact ends between two nodes, as it does in 
 BLOCK = 200.0, 400.0  # half-width and depth of a block without far field, in half-widths
 # Growth of the elements at 20 edges a half-width; with finer edges it falls like their root.
 GROWTH_AT_20, STEEPEST = 0.2, 0.5
-# Error of the peak pressure, and the processor seconds that it may take at most.
-WANTED = ((1e-3, 1.0), (1e-4, 10.0))
 LEAST_RATIO = 3.5  # unknowns of equal edges over those of adapted ones at the same pressure
 FEWEST, ADAPTED = "degree 2, steep growth", "degree 2, adapted"
 # Orders, each with its allowed deviation: a method, its size, its error.
@@ -106,7 +98,7 @@ def equal_edges(
     growth: float | None = None,
 ) -> HertzRun:
     """Equal edges all over the contact, each under one hat or more; `growth` that does not fall."""
-    start = processor_seconds()
+    start = harness.processor_seconds()
     edge = 1.0 / (per_half + BETWEEN)
     edges = per_half + BEYOND
     grid = HatGrid.within(-edges * edge, edges * edge, edge / hats_per_edge)
@@ -133,7 +125,7 @@ def equal_edges(
 
 def adapted(tolerance: float, degree: int = 2) -> HertzRun:
     """Meshes and hats that the contact chooses, until its error estimate meets the tolerance."""
-    start = processor_seconds()
+    start = harness.processor_seconds()
     pressing = Pressing(_gap, HERTZ.load_per_length, BODY, (-1.5, 1.5), degree=degree)
     contact = adapted_contact(pressing, tolerance)
     (patch,) = contact.patches
@@ -151,7 +143,7 @@ def _assessed(
     patch: Patch,
     start: float,
 ) -> HertzRun:
-    seconds = processor_seconds() - start
+    seconds = harness.processor_seconds() - start
     hats, body = compliance.hats, compliance.body
     nodal = nodal_stress(body, compliance.displacement(pressure), hats, pressure)
     shear = maximum(body, nodal, lambda stress: stress.tau1).value
@@ -206,16 +198,6 @@ def order(series: Series, size: str, error: str) -> float:
     return float(np.polyfit(*values, 1)[0])
 
 
-def cheapest(series: Series, wanted: float) -> HertzRun | None:
-    """The coarsest run with this error of the peak pressure which all finer ones have, too."""
-    found = None
-    for run in reversed(series):
-        if run.peak > wanted:
-            break
-        found = run
-    return found
-
-
 def unknowns_ratio(equal: Series, other: Series) -> list[tuple[float, float]]:
     """For each run of `other` its L2 error, and how many times its unknowns `equal` needs for it.
 
@@ -226,22 +208,17 @@ def unknowns_ratio(equal: Series, other: Series) -> list[tuple[float, float]]:
     return [(run.hats, float(np.exp(needed(np.log(run.hats))) / run.unknowns)) for run in other]
 
 
-def demands(found: dict[str, Series]) -> list[Demand]:
+def demands(found: dict[str, Series]) -> list[harness.Demand]:
     verdicts = []
-    for wanted, most in WANTED:
-        runs = [(run.seconds, name) for name in found if (run := cheapest(found[name], wanted))]
-        seconds, name = min(runs, default=(np.inf, "no method"))
-        text = f"{wanted:g} in peak pressure in {seconds:.2f} s ({name}), at most {most:g} s"
-        verdicts.append(Demand(seconds <= most, text))
     for name, size, error, wanted, slack in ORDERS:
         slope = order(found[name], size, error)
         text = f"{name}: order of {error} in {size} {slope:.2f}, wanted {wanted:g} within {slack:g}"
-        verdicts.append(Demand(abs(slope - wanted) <= slack, text))
+        verdicts.append(harness.Demand(abs(slope - wanted) <= slack, text))
     ratios = unknowns_ratio(found[FEWEST], found[ADAPTED])
     least = min(ratio for _, ratio in ratios)
     each = ", ".join(f"{ratio:.1f} at {error:.1e}" for error, ratio in ratios)
     text = f"equal edges need {each} times the unknowns, at least {LEAST_RATIO:g}"
-    return [*verdicts, Demand(least >= LEAST_RATIO, text)]
+    return [*verdicts, harness.Demand(least >= LEAST_RATIO, text)]
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -258,9 +235,11 @@ def main(arguments: list[str] | None = None) -> int:
             rows.append((name, *sizes, *(f"{getattr(run, error):.1e}" for error in ERRORS)))
         slopes = (f"{order(series, 'unknowns', error):.2f}" for error in ERRORS)
         rows.append(("  order in unknowns", "", "", "", "", *slopes))
-    print_table("Relative errors", ("method", "size", "unknowns", "hats", "s", *ERRORS), rows)
-    return print_demands(demands(found))
+    harness.print_table(
+        "Relative errors", ("method", "size", "unknowns", "hats", "s", *ERRORS), rows
+    )
+    return harness.print_demands(demands(found))
 
 
 if __name__ == "__main__":
-    run_on_one_thread(main)
+    harness.run_on_one_thread(main)

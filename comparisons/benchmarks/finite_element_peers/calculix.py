@@ -19,13 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers.cases import (
-    MATERIAL,
-    BlockAnswer,
-    BlockCode,
-    BlockTask,
-    FailedError,
-)
+from comparisons.benchmarks.finite_element_peers import cases
 from comparisons.benchmarks.harness import AbsentError, timed
 
 COMMAND = "ccx"
@@ -49,15 +43,15 @@ U
 NO_STEP = "*STEP\n*NO ANALYSIS\n*STATIC\n*END STEP\n"
 
 
-def calculix() -> list[BlockCode]:
+def calculix() -> list[cases.BlockCode]:
     """Raises AbsentError."""
     if shutil.which(COMMAND) is None:
         get = "apt-get install --no-install-recommends calculix-ccx"
         raise AbsentError(f"CalculiX is not installed: {get}")
-    return [BlockCode("CalculiX", "CPE6, face-to-face penalty", solve)]
+    return [cases.BlockCode("CalculiX", "CPE6, face-to-face penalty", solve)]
 
 
-def solve(task: BlockTask) -> BlockAnswer:
+def solve(task: cases.BlockTask) -> cases.BlockAnswer:
     """Raises FailedError."""
     model = deck(task)
     with tempfile.TemporaryDirectory() as name:
@@ -71,10 +65,10 @@ def solve(task: BlockTask) -> BlockAnswer:
     x, z = task.mesh.points.T
     value = np.zeros(len(x))
     known = nodes <= len(x)  # the others are the punch's
-    value[nodes[known] - 1] = pressure[known] * MATERIAL.youngs_modulus / MODULUS
+    value[nodes[known] - 1] = pressure[known] * cases.MATERIAL.youngs_modulus / MODULUS
     top = np.flatnonzero(task.touchable(x, z))
     top = top[np.argsort(x[top])]
-    return BlockAnswer(x[top], value[top], 2 * len(x), steps, total - reading)
+    return cases.BlockAnswer(x[top], value[top], 2 * len(x), steps, total - reading)
 
 
 def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
@@ -86,13 +80,13 @@ def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
     try:
         return timed(lambda: subprocess.run(command, **options), 1)[0]
     except subprocess.TimeoutExpired as late:
-        raise FailedError(f"not done after {limit:g} s") from late
+        raise cases.FailedError(f"not done after {limit:g} s") from late
     except subprocess.CalledProcessError as failure:
         said = (failure.stdout + failure.stderr).decode(errors="replace")
-        raise FailedError(" ".join(said.split())[-200:]) from failure
+        raise cases.FailedError(" ".join(said.split())[-200:]) from failure
 
 
-def deck(task: BlockTask) -> str:
+def deck(task: cases.BlockTask) -> str:
     """The model of one task, without its step; y points out of the body."""
     x, z = task.mesh.points.T
     y = np.where(task.touchable(x, z), -z - task.gap(x), -z)
@@ -115,7 +109,7 @@ def deck(task: BlockTask) -> str:
         elements = np.flatnonzero(top[triangles[:, ends]].all(axis=1))
         lines += [f"{e + 1},S{face}" for e in elements]
     lines += ["*SURFACE,NAME=FLAT", f"{last},S1", "*MATERIAL,NAME=ELASTIC", "*ELASTIC"]
-    lines += [f"{MODULUS:g},{MATERIAL.poissons_ratio:.14g}"]
+    lines += [f"{MODULUS:g},{cases.MATERIAL.poissons_ratio:.14g}"]
     for part in ("BLOCK", "PUNCH"):
         lines += [f"*SOLID SECTION,ELSET={part},MATERIAL=ELASTIC", "1."]
     lines += ["*SURFACE INTERACTION,NAME=PENALTY"]
@@ -133,7 +127,7 @@ def last_contact(text: str) -> tuple[np.ndarray, np.ndarray]:
     _, head, rest = text.rpartition("\n -4  CONTACT")
     rows = [row for row in rest.partition("\n -3")[0].splitlines() if row.startswith(" -1")]
     if not (head and rows):
-        raise FailedError("ccx wrote no contact pressures")
+        raise cases.FailedError("ccx wrote no contact pressures")
     # fields of 12 after the node's 10: three displacements, then the pressure
     return np.array([int(row[3:13]) for row in rows]), np.array([float(row[49:61]) for row in rows])
 

@@ -24,7 +24,6 @@ import numpy as np
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
-from analytic.contact.smooth_pressure import smooth_pressure
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
@@ -46,12 +45,12 @@ SLACK = 1e-9  # of the block: points closer to a side than this are on it
 # The reference: edges to a, growth of the elements, degree, hats to an edge.
 FINEST, FINEST_GROWTH, FINEST_DEGREE, FINEST_HATS = 640, 0.15, 3, 2
 SAMPLES = 40_001  # places at which pressures are compared
-CURVE_SAMPLES = 200  # of the smooth curve of a contact patch
-# This project's: degree of the displacements, hats on an element edge, the smooth curves behind the
-# hats (`analytic.contact.smooth_pressure`) in place of the hats.
-CONFIGURATIONS = tuple(
-    (degree, hats, smooth) for degree, hats in ((2, 1), (2, 2), (3, 2)) for smooth in (False, True)
-)
+# This project's: degree of the displacements, and hats on an element edge.
+CONFIGURATIONS = {
+    "P2, a hat an edge": (2, 1),
+    "P2, two hats an edge": (2, 2),
+    "P3, two hats an edge": (3, 2),
+}
 
 
 class FailedError(Exception):
@@ -217,20 +216,16 @@ def _mesh(reach: float, edges: int, growth: float) -> BlockMesh:
 def crosscheck() -> list[BlockCode]:
     """This project's finite elements, with the half-plane as the model of the outer iteration."""
     return [
-        BlockCode("crosscheck", _words(*each), partial(_solved, each)) for each in CONFIGURATIONS
+        BlockCode("crosscheck", name, partial(_solved, *each))
+        for name, each in CONFIGURATIONS.items()
     ]
 
 
-def _words(degree: int, hats: int, smooth: bool) -> str:
-    return f"P{degree}, {('a hat', 'two hats')[hats - 1]} an edge" + (", smooth" if smooth else "")
-
-
-def _solved(configuration: tuple[int, int, bool], task: BlockTask) -> BlockAnswer:
-    degree, hats, smooth = configuration
+def _solved(degree: int, hats: int, task: BlockTask) -> BlockAnswer:
     given = Constraints(approach=task.approach)
     feet, solution, unknowns = _contact(task, degree, hats, given)
-    pressures = _smooth(feet, solution) if smooth else (feet, np.pad(solution.pressure, 1))
-    return BlockAnswer(*pressures, unknowns, solution.iterations["steps"])
+    steps = solution.iterations["steps"]
+    return BlockAnswer(feet, np.pad(solution.pressure, 1), unknowns, steps)
 
 
 def _contact(
@@ -250,15 +245,3 @@ def _contact(
     if not solution.converged:
         raise FailedError(f"not converged: {solution.residuals}")
     return feet, solution, body.unknowns
-
-
-def _smooth(feet: np.ndarray, solution: ContactSolution) -> tuple[np.ndarray, np.ndarray]:
-    """Places [m], dense towards the ends of each patch, and the smooth pressure [Pa] there."""
-    share = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, CURVE_SAMPLES)))
-    places, pressure = [], []
-    for patch in smooth_pressure(feet, solution.pressure, solution.gap):
-        start, stop = patch.ends
-        x = start + (stop - start) * share
-        places.append(x)
-        pressure.append(np.pad(patch.curve(x[1:-1]), 1))
-    return np.concatenate(places), np.concatenate(pressure)

@@ -22,18 +22,10 @@ import argparse
 import math
 import statistics
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from comparisons.benchmarks.finite_element_peers import cases
 from comparisons.benchmarks.finite_element_peers.calculix import calculix
-from comparisons.benchmarks.finite_element_peers.cases import (
-    BlockAnswer,
-    BlockCase,
-    BlockCode,
-    BlockTask,
-    FailedError,
-    crosscheck,
-)
 from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
 from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table, timed
 
@@ -43,41 +35,29 @@ SLOW = 5.0  # seconds of a solution from which it is not repeated
 COLUMNS = ("case", "code", "configuration", "edges", "unknowns", "steps", "ms", *TARGETS)
 
 
-@dataclass(frozen=True)
-class BlockResult:
+class BlockResult(NamedTuple):
     """One code on one mesh: element edges to a, median processor time [s], `BlockCase.errors`."""
 
-    code: BlockCode
+    code: cases.BlockCode
     edges: int
     seconds: float
-    answer: BlockAnswer
+    answer: cases.BlockAnswer
     errors: dict[str, float]
 
 
-@dataclass(frozen=True)
-class TimesAtError:
-    """Times [s] of this project and of one peer at one error, None where it is not reached."""
+class TimesAtError(NamedTuple):
+    """Times [s] of this project and of one peer, infinite where the error is not reached."""
 
-    case: str
     error: str
-    target: float
     peer: str
-    ours: float | None
-    theirs: float | None
-
-    @property
-    def ratio(self) -> float | None:
-        """The peer's time over ours, where both reach the error."""
-        return None if None in (self.ours, self.theirs) else self.theirs / self.ours
+    ours: float
+    theirs: float
 
     @property
     def demand(self) -> Demand:
         """That ours reaches the error where the peer does, and no later."""
-        ours, theirs = (
-            "not reached" if t is None else f"{t:.3g} s" for t in (self.ours, self.theirs)
-        )
-        text = f"{self.case}, {self.error} to {self.target:g}: ours {ours}, {self.peer} {theirs}"
-        return Demand(self.theirs is None or (self.ratio or 0.0) >= 1.0, text)
+        text = f"{self.error}: ours {self.ours:.3g} s, {self.peer} {self.theirs:.3g} s"
+        return Demand(self.ours <= self.theirs, text)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -87,7 +67,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--rounds", type=int, default=3, help="timed solutions on a mesh")
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds for one")
     options = parser.parse_args(arguments)
-    ours, peers = crosscheck(), installed(calculix, scikit_fem)
+    ours, peers = cases.crosscheck(), installed(calculix, scikit_fem)
     found, rows = [], []
     for name in options.cases:
         case = getattr(cases, name)()
@@ -96,10 +76,11 @@ def main(arguments: list[str] | None = None) -> int:
         found += times_at_errors(case.title, results, ours[0].name)
     print_table("Every mesh, relative errors", COLUMNS, rows)
     status = print_demands([times.demand for times in found])
-    for peer in dict.fromkeys(times.peer for times in found):
-        ratios = [times.ratio for times in found if times.peer == peer and times.ratio is not None]
-        if ratios:
-            print(f"{peer}: {statistics.median(ratios):.3g} times our time, in the median")
+    for peer in peers:
+        both = [t for t in found if t.peer == peer.name and max(t.ours, t.theirs) < math.inf]
+        if both:
+            ratio = statistics.median(times.theirs / times.ours for times in both)
+            print(f"{peer.name}: {ratio:.3g} times our time, in the median")
     if not peers:
         print("no peer is installed: nothing is shown")
     return status if peers else 1
@@ -118,7 +99,7 @@ def _cells(result: BlockResult) -> list[str]:
 
 
 def race(
-    case: BlockCase, codes: Sequence[BlockCode], rounds: int, limit: float
+    case: cases.BlockCase, codes: Sequence[cases.BlockCode], rounds: int, limit: float
 ) -> list[BlockResult]:
     """One result a code and mesh; prints which codes are not run any further.
 
@@ -129,17 +110,17 @@ def race(
     running = list(codes)
     for edges in case.edges:
         task = case.task(edges)
-        trials: dict[BlockCode, tuple[float, BlockAnswer]] = {}
+        trials: dict[cases.BlockCode, tuple[float, cases.BlockAnswer]] = {}
         for code in list(running):
             try:
                 seconds, answer = trials[code] = _solved(code, task)
                 stopped = f"{seconds:.0f} s" if seconds > limit else None
-            except FailedError as failure:
+            except cases.FailedError as failure:
                 stopped = str(failure)
             if stopped:
                 running.remove(code)
                 print(f"{code.name}, {code.configuration}: {case.title}, {edges} edges: {stopped}")
-        times: dict[BlockCode, list[float]] = {code: [] for code in trials}
+        times: dict[cases.BlockCode, list[float]] = {code: [] for code in trials}
         for _ in range(rounds):
             for code, (seconds, _) in trials.items():
                 if seconds <= SLOW:
@@ -150,14 +131,14 @@ def race(
     return found
 
 
-def _solved(code: BlockCode, task: BlockTask) -> tuple[float, BlockAnswer]:
+def _solved(code: cases.BlockCode, task: cases.BlockTask) -> tuple[float, cases.BlockAnswer]:
     """Processor time [s] and answer."""
     seconds, answer = timed(lambda: code.solve(task), 1)
     return seconds if answer.seconds is None else answer.seconds, answer
 
 
-def time_at(curve: Sequence[tuple[float, float]], target: float) -> float | None:
-    """Time at an error from (error, time) of each mesh, coarse to fine; None if not reached."""
+def time_at(curve: Sequence[tuple[float, float]], target: float) -> float:
+    """Time at an error from (error, time) of each mesh, coarse to fine; inf if not reached."""
     before = None
     for mesh, (_, time) in enumerate(curve):
         error = max(error for error, _ in curve[mesh:])
@@ -167,28 +148,26 @@ def time_at(curve: Sequence[tuple[float, float]], target: float) -> float | None
             share = math.log(before[0] / target) / math.log(before[0] / error)
             return before[1] * (time / before[1]) ** share
         before = error, time
-    return None
+    return math.inf
 
 
 def times_at_errors(case: str, results: Sequence[BlockResult], ours: str) -> list[TimesAtError]:
     """Ours beside each peer on one case, at every error of TARGETS that one of them reaches."""
-    found = []
-    for peer in dict.fromkeys(result.code.name for result in results):
-        for error, targets in TARGETS.items() if peer != ours else ():
-            for target in targets:
-                times = (_best_time(results, name, error, target) for name in (ours, peer))
-                found.append(TimesAtError(case, error, target, peer, *times))
-    return [times for times in found if (times.ours, times.theirs) != (None, None)]
-
-
-def _best_time(
-    results: Sequence[BlockResult], name: str, error: str, target: float
-) -> float | None:
-    """Least time of all configurations of one code at an error."""
-    curves: dict[str, list[tuple[float, float]]] = {}
+    curves: dict[str, dict[str, list[BlockResult]]] = {}
     for result in results:
-        if result.code.name == name:
-            curve = curves.setdefault(result.code.configuration, [])
-            curve.append((result.errors[error], result.seconds))
-    times = [time_at(curve, target) for curve in curves.values()]
-    return min((time for time in times if time is not None), default=None)
+        of_code = curves.setdefault(result.code.name, {})
+        of_code.setdefault(result.code.configuration, []).append(result)
+    found = []
+    for error, targets in TARGETS.items():
+        for target in targets:
+            best = {
+                name: min(
+                    time_at([(result.errors[error], result.seconds) for result in curve], target)
+                    for curve in of_code.values()
+                )
+                for name, of_code in curves.items()
+            }
+            our_time = best.pop(ours, math.inf)
+            text = f"{case}, {error} to {target:g}"
+            found += [TimesAtError(text, peer, our_time, time) for peer, time in best.items()]
+    return [times for times in found if min(times.ours, times.theirs) < math.inf]

@@ -11,28 +11,22 @@ slower. Pressures are nodal forces over the nodes' shares of the surface.
 
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers.cases import (
-    MATERIAL,
-    BlockAnswer,
-    BlockCode,
-    BlockTask,
-    FailedError,
-)
+from comparisons.benchmarks.finite_element_peers import cases
 from comparisons.benchmarks.harness import AbsentError
 
 MOST_STEPS = 100
 
 
-def scikit_fem() -> list[BlockCode]:
+def scikit_fem() -> list[cases.BlockCode]:
     """Raises AbsentError."""
     try:
         import skfem  # noqa: F401
     except ImportError as missing:
         raise AbsentError("scikit-fem is not installed: pip install scikit-fem") from missing
-    return [BlockCode("scikit-fem", "P2, active set", solve)]
+    return [cases.BlockCode("scikit-fem", "P2, active set", solve)]
 
 
-def solve(task: BlockTask) -> BlockAnswer:
+def solve(task: cases.BlockTask) -> cases.BlockAnswer:
     """Raises FailedError if the active set does not settle."""
     from scipy.sparse.linalg import splu
     from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
@@ -43,7 +37,7 @@ def solve(task: BlockTask) -> BlockAnswer:
     vertices = task.mesh.points[: 1 + corners.max()]
     mesh = MeshTri(np.ascontiguousarray(vertices.T), corners.T.copy())
     basis = Basis(mesh, element, intorder=2)
-    lame = lame_parameters(MATERIAL.youngs_modulus, MATERIAL.poissons_ratio)
+    lame = lame_parameters(cases.MATERIAL.youngs_modulus, cases.MATERIAL.poissons_ratio)
     stiffness = linear_elasticity(*lame).assemble(basis)
     place = basis.doflocs
     vertical = np.zeros(basis.N, dtype=bool)
@@ -71,10 +65,10 @@ def solve(task: BlockTask) -> BlockAnswer:
         )
         u[inner] = factor.solve(-(rows @ u))
         force = np.where(active, stiffness[contact] @ u, 0.0)
-        touching = force + MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
+        touching = force + cases.MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
         if np.array_equal(touching, active):
             order = np.argsort(place[0, contact])
             pressure = (force / share)[order]
-            return BlockAnswer(place[0, contact][order], pressure, basis.N, step)
+            return cases.BlockAnswer(place[0, contact][order], pressure, basis.N, step)
         active = touching
-    raise FailedError(f"the active set has not settled after {MOST_STEPS} steps")
+    raise cases.FailedError(f"the active set has not settled after {MOST_STEPS} steps")

@@ -52,5 +52,4 @@ def test_ours_falls_with_the_mesh(cylinder, code):
         assert np.all(np.diff(answer.x) >= 0.0)
         error.append(cylinder.errors(answer)["pressure"])
     assert error[1] < (0.017 if code.configuration == "P2, a hat an edge" else 0.01)
-    if "smooth" not in code.configuration:  # few hats carry no smooth curve, more a far better one
-        assert np.log2(error[0] / error[1]) == pytest.approx(1.0, abs=0.2)
+    assert np.log2(error[0] / error[1]) == pytest.approx(1.0, abs=0.2)

@@ -4,6 +4,7 @@ Where a peer is installed, its pressures are compared with the reference.
 """
 
 from dataclasses import replace
+from math import inf
 
 import pytest
 
@@ -25,12 +26,12 @@ def test_time_at_an_error_lies_on_the_power_law_between():
     for target in (0.25, 0.1, 0.004):
         assert time_at(curve, target) == pytest.approx(target**-1.5)
     assert time_at(curve, 0.9) == 8.0
-    assert time_at(curve, 1e-3) is None
+    assert time_at(curve, 1e-3) == inf
 
 
 def test_an_error_that_changes_sign_on_the_way_does_not_count():
     assert time_at([(1e-1, 1.0), (1e-6, 2.0), (1e-2, 4.0)], 1e-2) == pytest.approx(2.0)
-    assert time_at([(1e-1, 1.0), (1e-6, 2.0), (1e-2, 4.0)], 1e-3) is None
+    assert time_at([(1e-1, 1.0), (1e-6, 2.0), (1e-2, 4.0)], 1e-3) == inf
     assert time_at([(1e-3, 1.0), (1e-2, 4.0)], 1e-2) == 1.0
 
 
@@ -53,24 +54,24 @@ def test_codes_are_compared_at_equal_error():
     found = times_at_errors("case", raced, "ours")
     assert {times.peer for times in found} == {"peer", "other"}
     for times in found:
-        assert times.demand.holds or times.peer == "other"
-        if times.target < 0.1:
-            assert times.ratio == pytest.approx({"peer": 3.0, "other": 0.75}[times.peer])
+        if times.ours > 10.0:  # beyond the coarsest mesh
+            ratio = {"peer": 3.0, "other": 0.75}[times.peer]
+            assert times.theirs / times.ours == pytest.approx(ratio)
+            assert times.demand.holds is (ratio > 1.0)
 
 
 def test_the_best_of_several_configurations_counts():
     raced = results("ours", 9.0, "slow") + results("ours", 1.0, "fast") + results("peer", 3.0)
-    assert [t.ratio for t in times_at_errors("case", raced, "ours")] == pytest.approx([3.0] * 7)
+    found = times_at_errors("case", raced, "ours")
+    assert [times.theirs / times.ours for times in found] == pytest.approx([3.0] * 7)
 
 
 @pytest.mark.parametrize(
     ("times", "holds"),
-    [((1.0, 2.0), True), ((2.0, 1.0), False), ((1.0, None), True), ((None, 1.0), False)],
+    [((1.0, 2.0), True), ((2.0, 1.0), False), ((1.0, inf), True), ((inf, 1.0), False)],
 )
 def test_ours_has_to_reach_what_the_peer_reaches(times, holds):
-    found = TimesAtError("case", "peak", 0.1, "peer", *times)
-    assert found.demand.holds is holds
-    assert (found.ratio is None) == (None in times)
+    assert TimesAtError("case", "peer", *times).demand.holds is holds
 
 
 def test_a_code_that_fails_or_is_slow_gets_no_finer_meshes(cylinder, capsys):
@@ -108,7 +109,7 @@ def test_absent_peers_are_named(cylinder, monkeypatch, capsys):
     shown = capsys.readouterr().out
     assert shown.count("skipped: Some is not installed") == 2
     assert "no peer is installed" in shown
-    assert shown.count("a hat an edge") == 2
+    assert shown.count("a hat an edge") == 1
 
 
 @pytest.mark.parametrize("peer", [calculix, scikit_fem])
