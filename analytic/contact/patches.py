@@ -4,11 +4,12 @@ import numpy as np
 
 from analytic.numerics import runs_of
 
-CLEAR = 6  # open nodes beyond an edge that let the gap there follow its own law
+CLEAR = 6  # open nodes that the extrapolation of an edge needs
 
 
 def contact_patches(x: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Patches (k, 2) [m], ascending, from nodal pressures (n,) [Pa] and weighted gaps (n,) [m].
+    """Patches (k, 2) [m], ascending, from nodal pressures (n,) [Pa] and mean gaps over the hats
+    (n,) [m].
 
     `x` (n,) [m] is a uniform grid. Beyond the edge e of a smooth contact the gap opens as
     (x - e)^(3/2) (Johnson 1985, section 4.2), so its power 2/3 is nearly straight: a parabola

@@ -29,7 +29,7 @@ _STARTS = [start for start, _ in FAR_TERMS]
 
 @dataclass(frozen=True)
 class Circle:
-    """A circular convolution that no wrapped value reaches where it is read.
+    """A circular convolution, long enough that no wrapped value reaches the points read.
 
     length   N
     source   where the first source stands
@@ -212,7 +212,7 @@ def _added(
 def on_grid(loads: np.ndarray, subdivisions: int, whole: bool) -> tuple[np.ndarray, int]:
     """Loads (k, n) with zeros between their nodes, from the first one loaded, and its step.
 
-    Idle ends are left out, and all if nothing is loaded, unless the `whole` line is wanted.
+    Ends without load are left out unless the `whole` line is wanted.
     """
     loaded = np.flatnonzero(loads.any(axis=0))
     if len(loaded) == 0:

@@ -62,10 +62,10 @@ def test_a_set_that_returns_ends_the_exchanges(roller, monkeypatch):
     own = CoupledEquilibrium.violations
 
     def restless(self, rest, active):
-        broken = own(self, rest, active)
-        tensile, joining = broken.tensile.copy(), broken.joining.copy()
+        violated = own(self, rest, active)
+        tensile, joining = violated.tensile.copy(), violated.joining.copy()
         tensile[0], joining[0] = not active.lower[0], active.lower[0]
-        return replace(broken, tensile=tensile, joining=joining)
+        return replace(violated, tensile=tensile, joining=joining)
 
     monkeypatch.setattr(CoupledEquilibrium, "violations", restless)
     found = roller.sliding(roller.grid, roller.rough(1), 0.3)

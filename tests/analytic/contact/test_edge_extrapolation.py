@@ -15,7 +15,7 @@ GRID = HatGrid.within(-2.0 * HERTZ.half_width, 2.0 * HERTZ.half_width, HERTZ.hal
 NONE = np.zeros(GRID.count, dtype=bool)
 
 
-def broken_with_edges(half_nodes: int) -> tuple[Violations, ActiveSet]:
+def violations_with_edges(half_nodes: int) -> tuple[Violations, ActiveSet]:
     """What Hertz's contact shows with this many nodes free on either side of its centre."""
     operator = HalfPlane(GRID.count, GRID.pitch, MODULUS)
     weighted_gap = GRID.hat_integrals(roller_gap(RADIUS))
@@ -30,22 +30,22 @@ def broken_with_edges(half_nodes: int) -> tuple[Violations, ActiveSet]:
 
 @pytest.mark.parametrize("excess", [10, 20, 40])
 def test_tension_shows_half_of_an_excess(excess):
-    broken, active = broken_with_edges(400 + excess)
-    assert np.count_nonzero(broken.tensile) == pytest.approx(excess, abs=0.2 * excess + 2)
-    assert not broken.joining.any()
-    better = active.exchanged(extrapolated(broken, active))
-    plain = active.exchanged(broken)
+    violated, active = violations_with_edges(400 + excess)
+    assert np.count_nonzero(violated.tensile) == pytest.approx(excess, abs=0.2 * excess + 2)
+    assert not violated.joining.any()
+    better = active.exchanged(extrapolated(violated, active))
+    plain = active.exchanged(violated)
     wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
     assert wrong <= 0.3 * wrong_plain
 
 
 @pytest.mark.parametrize("lack", [12, 24, 48])
 def test_overlap_shows_one_and_a_half_times_a_lack(lack):
-    broken, active = broken_with_edges(400 - lack)
-    assert np.count_nonzero(broken.joining) == pytest.approx(3 * lack, abs=0.4 * lack + 2)
-    assert not broken.tensile.any()
-    better = active.exchanged(extrapolated(broken, active))
-    plain = active.exchanged(broken)
+    violated, active = violations_with_edges(400 - lack)
+    assert np.count_nonzero(violated.joining) == pytest.approx(3 * lack, abs=0.4 * lack + 2)
+    assert not violated.tensile.any()
+    better = active.exchanged(extrapolated(violated, active))
+    plain = active.exchanged(violated)
     wrong, wrong_plain = (abs(np.count_nonzero(s.free) - 801) for s in (better, plain))
     assert wrong <= 0.4 * wrong_plain
 

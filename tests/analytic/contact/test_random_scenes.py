@@ -185,14 +185,14 @@ def residuals(case: Scene, solution: ContactSolution, matrix: np.ndarray) -> dic
     scale = max(np.ptp(sunk), 1e-2 * np.max(np.abs(sunk))) or 1.0  # a flat sinks evenly
     approach = solution.approach - lowest
     if case.constraints.load is not None and free.any():
-        approach = np.mean(reach[free])  # as the touching nodes tell it
+        approach = np.mean(reach[free])  # as the touching nodes have it
     gap = reach - approach
-    told = abs(solution.approach - lowest - approach)
+    off = abs(solution.approach - lowest - approach)
     load = case.constraints.load
     rounding = 3e-15 * (abs(solution.approach) if load is None else abs(approach))
     largest = np.max(pressure) or 1.0
     return {
-        "approach": max(0.0, told - 1e-15 * abs(solution.approach)) / scale,
+        "approach": max(0.0, off - 1e-15 * abs(solution.approach)) / scale,
         "load": 0.0 if load is None else abs(weights @ pressure / load - 1.0),
         "touching": max(0.0, np.max(np.abs(gap[free]), initial=0.0) - rounding) / scale,
         "penetration": max(0.0, -np.min(gap[pressure <= 0.0], initial=0.0)) / scale,

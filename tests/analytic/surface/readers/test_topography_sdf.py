@@ -92,7 +92,7 @@ def test_what_follows_a_binary_files_heights_does_not_matter(tmp_path):
     check(read(tmp_path, binary(HEIGHTS, 7, "d") + b"<xml/>"), HEIGHTS)
 
 
-def test_the_first_bytes_tell():
+def test_the_first_bytes_decide():
     assert is_sdf(TEXT.encode()) and is_sdf(binary(HEIGHTS, 7, "d"))
     assert not is_sdf(b"0,1\n1,2\n") and not is_sdf(b"")
 
