@@ -1,12 +1,11 @@
-"""What the half-plane's figures become where sliding traction moves the surfaces.
+"""What normal-tangential coupling changes in the half-plane's figures.
 
-Traction that slides along unlike bodies also moves their surfaces up and down, by friction times
-Dundurs' beta (`analytic.operators.tangential`), which the published method and the finite elements
-leave out. The half-plane is solved both ways on its finest pressure elements, so that the
-difference is that of the mechanics alone.
+Sliding traction on bodies of different elastic constants also moves their surfaces normally, by
+friction times Dundurs' beta (`analytic.operators.tangential`). The published method neglects this.
+The half-plane is solved with and without it on its finest pressure elements.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -26,11 +25,11 @@ BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 @dataclass(frozen=True)
 class Change:
-    """A figure with the surfaces moved by friction, and what that changes.
+    """A figure with coupling.
 
     value       [SI]; None for the norm of a difference
-    difference  relative to the figure without, None where that is zero and this is not; of a
-                shift, over the Hertz half-width
+    difference  relative to the figure without coupling, None where only that is zero; of a shift,
+                over the Hertz half-width
     """
 
     value: float | None
@@ -39,13 +38,12 @@ class Change:
 
 @dataclass(frozen=True)
 class Coupling:
-    """The change of the half-plane at one friction coefficient.
+    """At one friction coefficient.
 
     changes     by quantity; contact_shift is that of the pressure's centroid along x
-    converged   whether the solution with and the one without met their contact conditions
-    iterations  of the solution that the model's own figures are compared with
-    seconds     that it took
-    why         no changes: the reason, else None
+    converged   whether both solutions met their contact conditions
+    iterations, seconds  of the solution that the model's own is compared with
+    why         there are no changes, else None
     """
 
     friction: float
@@ -60,10 +58,7 @@ class Coupling:
         if not self.changes:
             return None
         return {
-            **{
-                name: {"value": change.value, "difference": change.difference}
-                for name, change in self.changes.items()
-            },
+            **{name: asdict(change) for name, change in self.changes.items()},
             "converged": self.converged,
             "iterations": self.iterations,
             "seconds": self.seconds,
@@ -73,7 +68,7 @@ class Coupling:
 def couplings(
     problem: Problem, run: ModelRun, window: Window | None, callback: ProgressCallback
 ) -> tuple[Coupling, ...]:
-    """One for each friction coefficient of the scene, from the finished half-plane."""
+    """One for each friction coefficient, from the finished half-plane."""
     found = []
     for friction in problem.scene.friction:
         why = no_coupling(problem, friction)
@@ -90,7 +85,7 @@ def _coupling(
 ) -> Coupling:
     stages = Stages(lambda _: callback("half-plane: surfaces moved by friction"))
     size = friction * problem.dundurs_beta
-    # of the level's own answer and of the other one, the one with the surfaces moved
+    # the level itself was solved with coupling or without; solve the other way
     other_size = 0.0 if problem.coupling else size
     # friction moves the contact by at most about mu beta of its own half-length
     more = int(np.ceil(0.5 * abs(size) * own.grid.count))

@@ -1,6 +1,7 @@
 """The content of result.json, by the names that other people's scripts rely on."""
 
 import math
+from dataclasses import asdict
 
 from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.effects.catalogue import EFFECTS
@@ -33,28 +34,18 @@ def result_of(
     budget      of the comparison, None for one model
     """
     hertz = problem.hertz
-    groups = _groups(problem, runs)
     tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
     verdict, why = validity_verdict(tolerance_checks)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
-        by_quantity[row.quantity].append(
-            {
-                "friction": row.friction,
-                "half_plane": row.half_plane,
-                "finite_element": row.finite_element,
-                "difference": row.difference,
-                "uncertainty": row.uncertainty,
-                "tolerance": row.tolerance,
-                "verdict": row.verdict,
-            }
-        )
+        figures = asdict(row)
+        by_quantity[figures.pop("quantity")].append(figures)
     return {
         "schema": SCHEMA,
         "scene": problem.scene.as_dict(),
         "profile": problem.scene.profile_info and problem.scene.profile_info.surface(),
         "running_in": running_in_account(problem.scene),
-        "groups": groups,
+        "groups": _groups(problem, runs),
         "hertz": {
             "half_width": hertz.half_width,
             "peak_pressure": hertz.peak_pressure,
@@ -73,7 +64,7 @@ def result_of(
         else error_budget_content(problem, runs, comparisons, budget),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "refinement": refinement,
-        "skipped": [{"step": s.step, "because": s.because} for s in plan.skipped],
+        "skipped": [asdict(skipped) for skipped in plan.skipped],
     }
 
 
@@ -96,7 +87,6 @@ def _model(
     problem: Problem, run: ModelRun, friction: float, couplings: tuple[Coupling, ...]
 ) -> dict:
     level = run.finest
-    residuals = level.solution.residuals
     return {
         "friction": friction,
         "contact": _contact(problem, run.name, level),
@@ -110,14 +100,7 @@ def _model(
             }
             for name, u in uncertainties(run, problem, friction).items()
         },
-        "checks": {
-            "load_balance": residuals.load_balance,
-            "complementarity": residuals.complementarity,
-            "penetration": residuals.penetration,
-            "negative_pressure": residuals.negative_pressure,
-            "excess_pressure": residuals.excess_pressure,
-            "converged": level.solution.converged,
-        },
+        "checks": asdict(level.solution.residuals) | {"converged": level.solution.converged},
         "cost": {
             "seconds": run.seconds,
             "iterations": level.solution.iterations,
@@ -155,7 +138,7 @@ def _cost_of(level: Level) -> dict:
 
 
 def _coupling(problem: Problem, friction: float, couplings: tuple[Coupling, ...]) -> dict:
-    """What friction changes by moving the surfaces, or why there is nothing of that."""
+    """What normal-tangential coupling changes, or why it changes nothing."""
     found = next((c for c in couplings if c.friction == friction), None)
     if found is None:
         return {

@@ -1,24 +1,17 @@
-"""What the next round of an adapted contact refines, from the errors of the last one.
+"""A contact on a mesh and hats that it refines itself until its error estimate meets a tolerance.
 
-Hats and elements share an error. Each is refined where that takes the fewest of them, by how errors
-fall with their number on a patch and with their size.
+The half-plane predicts the contact patches. Hats and element edges are graded towards their ends
+(`meshes.end_grading`), and the contact is solved. The solution tells the ends, how far its hats are
+from a smooth pressure on each patch (`analytic.contact.smooth_pressure`) and the elements' errors
+(`fem.stress.recovery`). Both errors decide the next round, with the fewest hats and elements. The
+half-plane on the same hats is the model of the iteration.
 
     n_k    edges on half of patch k        e_k    L2 error of the pressure on it [Pa m^(1/2)]
     h_m    size of element m [m]           E_m    its error in the norm of energy [(J/m)^(1/2)]
     q      degree of the displacement
 
-A contact on meshes and hats that it chooses itself, until its error estimate meets a tolerance.
-
-The half-plane predicts where the body is touched. Hats and element edges are graded towards the
-ends of contact (`meshes.end_grading`), the body is meshed and pressed; the solution then says
-where the ends are, how far its hats are from a smooth pressure on each patch
-(`analytic.contact.smooth_pressure`) and which elements err (`fem.stress.recovery`), and the
-next round takes hats and elements by that. Inside, the half-plane of the same hats leads the
-iteration.
-
 Hertz's contact to 0.6 % of the pressure takes 1500 unknowns and 25 hats, to 0.05 % 3700 and 70: a
-quarter and a thirteenth of what equal edges take
-(`comparisons.benchmarks.hertz_convergence`).
+quarter and a thirteenth of what equal edges take (`comparisons.benchmarks.hertz_convergence`).
 """
 
 from collections.abc import Callable
@@ -45,60 +38,11 @@ from meshes.end_grading import graded_vertices
 from meshes.size_field import SizeField, size_field
 
 FEWEST_EDGES, MOST_FINER = 5, 4.0  # on half a patch; by how much a round may refine it
-
-
-def next_edges(
-    patches: tuple[Patch, ...], hats: np.ndarray, aim: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Ends (k, 2) [m] of the patches, and edges (k,) on their halves for an error of `aim`.
-
-    Graded edges err like n^-2: e_k^2 n_k^4 stays, and the fewest altogether have n_k in proportion
-    to its fifth root. How many there were, the edges at the ends tell.
-    """
-    ends = np.array([patch.ends for patch in patches])
-    half, edge = 0.5 * np.diff(ends, axis=1)[:, 0], np.diff(hats)
-    shortest = np.array([0.5 * (edge[patch.first] + edge[patch.last + 1]) for patch in patches])
-    now = np.sqrt(half / shortest)
-    weight = np.array([patch.error**2 for patch in patches]) * now**4
-    wanted = (np.sum(weight**0.2) / aim**2) ** 0.25 * weight**0.2
-    wanted = np.clip(wanted, FEWEST_EDGES, np.maximum(FEWEST_EDGES, MOST_FINER * now))
-    return joined_patches(ends, wanted)
-
-
-def joined_patches(ends: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Patches too close for two of their shortest edges between them taken as one."""
-    kept_ends, kept_edges = [ends[0]], [edges[0]]
-    for (start, end), count in zip(ends[1:], edges[1:], strict=True):
-        before = kept_ends[-1]
-        shortest = min(before[1] - before[0], end - start) / max(count, kept_edges[-1]) ** 2
-        if start - before[1] < shortest:
-            kept_ends[-1] = np.array([before[0], end])
-            kept_edges[-1] += count
-        else:
-            kept_ends.append(np.array([start, end]))
-            kept_edges.append(count)
-    return np.array(kept_ends), np.array(kept_edges)
-
-
-def next_sizes(energy: np.ndarray, aim: float, degree: int) -> np.ndarray:
-    """Factors (m,) of the elements' sizes that leave a sum of `aim` [J/m] of the squares of their
-    errors (m,), with the fewest elements: each errs alike then.
-
-    E_m ~ h_m^(q+1), and an element makes way for h_m^2 of the next ones.
-    """
-    order = degree + 1
-    energy = np.maximum(energy, 1e-12 * energy.max())
-    alike = (aim / np.sum(energy ** (2.0 / order))) ** (order / (2.0 * degree))
-    return (alike / energy) ** (1.0 / order)
-
-
 SEARCH_HATS = 2000  # of the half-plane that predicts the patches
 FIRST_EDGES = 8  # on half of the largest patch, in the first round
-# Steepest growth of element sizes: in the first round everywhere, later where nothing else is
-# asked for.
-GROWTH = 0.35
-# L2 error of the pressure that elements leave over the part of the work that their error is:
-# measured between 1.1 and 2.6 on Hertz's contact where it was the larger part.
+GROWTH = 0.35  # of element sizes: in the first round everywhere, later the steepest
+# Relative L2 error of the pressure from elements, over the energy of their error relative to the
+# work: 1.1 to 2.6 on Hertz's contact where it was the larger part.
 PRESSURE_PER_ENERGY = 5.0
 SAFETY = 0.8  # part of the tolerance that the next round aims at
 ROUNDS = 8
@@ -115,7 +59,7 @@ class Pressing:
     load       P [N/m]
     material   of the body
     extent     (x0, x1) stretch of the surface that contact may reach
-    shortest   wavelength of the gap: what is shorter than the hats, no estimate sees
+    shortest   wavelength of the gap; no estimate sees waves shorter than the hats
     block      half_width, depth and support of the body; None: a half-plane
     stiffening compliance of both bodies over that of the body, 1 for a rigid roller
     degree     of the displacement
@@ -195,9 +139,8 @@ class AdaptedContact:
 def adapted_contact(pressing: Pressing, tolerance: float, rounds: int = ROUNDS) -> AdaptedContact:
     """Press until the estimated relative L2 error of the hat pressures is within `tolerance`.
 
-    The smooth pressures, whose error is a third of that or less, come with it. Raises MeshError or
-    FemError where a mesh or a factorisation fails; what misses the tolerance after so many
-    `rounds` is returned with `converged` False.
+    The smooth pressures err by a third of that or less. Raises MeshError or FemError where a mesh
+    or a factorisation fails; what misses the tolerance after `rounds` has `converged` False.
     """
     ends = predicted_patches(pressing)
     half = 0.5 * np.diff(ends, axis=1)[:, 0]
@@ -251,8 +194,8 @@ def pressed(
     vertices: np.ndarray,
     sizes: SizeField | None,
 ) -> tuple[ContactSolution, FiniteElementCompliance]:
-    """Contact on hats between `vertices` [m] of the surface, by the iteration that the half-plane
-    leads; where that leads nowhere, by the body's whole matrix."""
+    """Contact on hats between `vertices` [m] of the surface, by iteration with the half-plane as
+    model; where that does not converge, by the body's whole matrix."""
     half_width, depth, support = block
     interval = vertices[[0, -1]].reshape(1, 2)
     unit = float(np.diff(vertices).max())
@@ -270,3 +213,48 @@ def pressed(
         whole = DenseCompliance(pressing.stiffening * compliance.matrix())
         solution = solve_contact(whole, gap, weights, load, solution.pressure)
     return solution, compliance
+
+
+def next_edges(
+    patches: tuple[Patch, ...], hats: np.ndarray, aim: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Ends (k, 2) [m] of the patches, and edges (k,) on their halves for an error of `aim`.
+
+    Graded edges err like n^-2, so that e_k^2 n_k^4 is constant, and the fewest altogether have n_k
+    in proportion to its fifth root. The edges at the ends give the present number.
+    """
+    ends = np.array([patch.ends for patch in patches])
+    half, edge = 0.5 * np.diff(ends, axis=1)[:, 0], np.diff(hats)
+    shortest = np.array([0.5 * (edge[patch.first] + edge[patch.last + 1]) for patch in patches])
+    now = np.sqrt(half / shortest)
+    weight = np.array([patch.error**2 for patch in patches]) * now**4
+    wanted = (np.sum(weight**0.2) / aim**2) ** 0.25 * weight**0.2
+    wanted = np.clip(wanted, FEWEST_EDGES, np.maximum(FEWEST_EDGES, MOST_FINER * now))
+    return joined_patches(ends, wanted)
+
+
+def joined_patches(ends: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Patches with less than their shortest edge between them joined into one."""
+    kept_ends, kept_edges = [ends[0]], [edges[0]]
+    for (start, end), count in zip(ends[1:], edges[1:], strict=True):
+        before = kept_ends[-1]
+        shortest = min(before[1] - before[0], end - start) / max(count, kept_edges[-1]) ** 2
+        if start - before[1] < shortest:
+            kept_ends[-1] = np.array([before[0], end])
+            kept_edges[-1] += count
+        else:
+            kept_ends.append(np.array([start, end]))
+            kept_edges.append(count)
+    return np.array(kept_ends), np.array(kept_edges)
+
+
+def next_sizes(energy: np.ndarray, aim: float, degree: int) -> np.ndarray:
+    """Factors (m,) of the elements' sizes for squared errors (m,) that sum to `aim` [J/m], with the
+    fewest elements: all errors are then equal.
+
+    E_m ~ h_m^(q+1), and the number of the next elements in place of one goes like h_m^-2.
+    """
+    order = degree + 1
+    energy = np.maximum(energy, 1e-12 * energy.max())
+    alike = (aim / np.sum(energy ** (2.0 / order))) ** (order / (2.0 * degree))
+    return (alike / energy) ** (1.0 / order)

@@ -1,24 +1,17 @@
-"""What a check of the finite elements' compliance before any contact found, and what it tells.
+"""The finite elements' compliance against that of analytic surfaces, before any contact.
 
-Their displacements under given pressures are held against those of an analytic surface, with no
-contact in between: under one pressure element, a column of the compliance, and under waves. The
-figures name the error:
+Both get the same pressures where the mesh is refined: single pressure elements at the ends, quarter
+points and middle (columns of the compliance), and packets of waves from a few elements to the whole
+refined range, all in one batch of back-substitutions. Of displacements without a datum the mean
+over the grid is removed. The differences name the error:
 
-    mesh      elements make a body too stiff, the more the shorter the wave: short waves are off
-    modulus   all waves are off alike: the elastic constants
-    block     short waves are right, columns are off far from their load: the block's size, or how
-              it is held
-    geometry  as `block`, but the analytic surface lacks what the finite elements have
-    neither   mesh and body are right; what differs in a contact is the contact's
+    mesh      short waves differ: elements make a body too stiff, the more the shorter the wave
+    modulus   all waves differ by the same: the elastic constants
+    block     short waves are right, columns differ far from their load: the block's size or support
+    geometry  as `block`, but the analytic surface does not model what the finite elements have
+    neither   mesh and body are right; a difference in the contact is the contact's
 
-The finite elements' compliance against analytic surfaces, before any contact.
-
-Pressures lie where the mesh is refined for contact: single elements at its ends, its quarter points
-and its middle, and packets of waves from a few pressure elements to the whole refined range. One
-batch of back-substitutions serves all. Of displacements that count from nowhere the mean over the
-grid is removed.
-
-    h   pitch [m]      m   pressures tried      n   elements of the grid
+    h   pitch [m]      m   pressures      n   elements of the grid
 """
 
 from dataclasses import asdict, dataclass
@@ -47,6 +40,11 @@ SHARED, SPREAD, MESH_SPREAD = 0.02, 0.25, 0.04
 # Part of a column, far from its load. A right mesh and body leave up to 6e-4, a coating a thousand
 # times as stiff 2e-3, nu = 0.4999 3e-3; blocks of 40, 20 and 12 half-widths 2e-3, 7e-3 and 2e-2.
 BEYOND = 5e-3
+PLACES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of the refined elements, from first to last
+SHORTEST = 4.0  # elements to a wave
+LONGER = 4  # waves from twice the shortest to the refined range
+PACKET = 2.0  # waves
+NEXT = 4  # elements on either side of a column's load that feel how it is meshed
 
 
 @dataclass(frozen=True)
@@ -91,9 +89,9 @@ class ComplianceCheck:
 
     nearest     from the analytic surface that is nearest to the scene's bodies
     datum       whether displacements count from a base; else a constant was removed
-    lacks       what the nearest surface leaves out of these finite elements
-    half_plane  from half-planes of body and roller, where the body is `finite`: what it is that
-                makes it so; this difference is the body's effect and no error
+    lacks       what the nearest surface does not model of these finite elements
+    half_plane  from half-planes of body and roller, where the body is `finite` in some respect;
+                this difference is an effect of the body and no error
     verdict     neither | mesh | modulus | block | geometry, and why
     """
 
@@ -122,7 +120,7 @@ class ComplianceCheck:
 
 
 def judged(found: Differences, lacks: tuple[str, ...]) -> tuple[str, str]:
-    """Verdict and why. Where the nearest surface `lacks` something the body is not judged."""
+    """Verdict and why. The body is not judged where the nearest surface `lacks` something."""
     shared = 0.0 if lacks else _shared([w.difference for w in found.waves if w.elements >= 8.0])
     for wave in found.waves:
         bound = SHORT_WAVES.get(wave.elements)
@@ -148,20 +146,13 @@ def judged(found: Differences, lacks: tuple[str, ...]) -> tuple[str, str]:
 
 
 def _shared(differences: list[float]) -> float:
-    """What all waves are off by, zero where they are not alike."""
+    """The difference that all waves share, zero where they share none."""
     if len(differences) < 2:
         return 0.0
     least = min(differences, key=abs)
     spread = max(abs(np.array(differences) - least))
     alike = spread <= max(SPREAD * abs(least), MESH_SPREAD)
     return least if alike and abs(least) > SHARED else 0.0
-
-
-PLACES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of the refined elements, from first to last
-SHORTEST = 4.0  # elements to a wave
-LONGER = 4  # waves from twice the shortest to the refined range
-PACKET = 2.0  # waves
-NEXT = 4  # elements on either side of a column's load that feel how it is meshed
 
 
 def operator_check(
@@ -200,7 +191,7 @@ def operator_check(
 
 
 def no_check(scene: ResolvedScene) -> str | None:
-    """Why a scene's finite elements bear no single pressure, or None if they do."""
+    """Why the check is impossible in a scene, or None."""
     slides = scene.base == "frictionless" and scene.width is not None
     if slides and scene.finite_element.gap == "displaced":
         return "the body slides on its base: it bears no pressure that leans to one side"
@@ -284,7 +275,7 @@ def _packet(refined: np.ndarray, length: float) -> np.ndarray:
 
 
 def _lacks(scene: ResolvedScene) -> tuple[str, ...]:
-    """What finite elements of a scene have and the nearest analytic surface has not."""
+    """What the nearest analytic surface does not model of a scene's finite elements."""
     settings = scene.finite_element
     shared = scene.roller is not None and is_layered(scene)
     return tuple(

@@ -1,14 +1,9 @@
 """The finite-element model of a scene on one level of refinement.
 
 The rough body is a block: of the scene's own thickness and width where they are given, else so
-large that it stands for a half-plane. An elastic roller is a body of its own under the same
-pressures: a flat block, or a sector of its true circle. The contact is solved on the sum of both
-surface compliances; analytic operators only predict it.
-
-The load that brings the bodies together by a prescribed approach, from finite elements.
-
-Only a body with a datum has an approach: a layer on its base under a rigid roller. The half-plane
-is then compared under the load that the layer carries.
+large that it stands for a half-plane. An elastic roller is a second body under the same pressures:
+a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
+compliances; analytic operators only predict it.
 """
 
 from dataclasses import replace
@@ -33,6 +28,8 @@ from comparisons.models.window import Window
 from comparisons.scenes.scene import ResolvedScene
 from meshes.refined_ranges import merge, unrefined_contact
 
+SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
+MOST_ROUNDS = 12  # of loads for a prescribed approach
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
 
@@ -50,9 +47,9 @@ def finite_element_level(
 
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
-    With `approach` [m], from first touch, it and not the load is prescribed. Levels that are given
-    the same `store` share what meshes and factors they have in common. With `check` the bodies'
-    compliance is compared with the analytic one first.
+    approach   [m] from first touch, prescribed in place of the load
+    store      shared by levels whose meshes and factors may be the same
+    check      compare the bodies' compliance with the analytic one first
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
@@ -121,15 +118,12 @@ def finite_element_level(
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
 
-SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
-MOST_ROUNDS = 12
-
-
 def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Problem:
-    """The scene's problem with the load [N/m] that goes with its approach, to SETTLED or better.
+    """The scene's problem under the load [N/m] of its prescribed approach, to SETTLED or better.
 
-    Each round meshes for the load of the one before and prescribes the approach there. Raises
-    SceneError if the rounds do not settle.
+    Only a body with a datum has an approach: a layer on its base under a rigid roller. Each round
+    meshes for the load of the one before and prescribes the approach there. Raises SceneError if
+    the rounds do not settle.
     """
     wanted = scene.load.value
     # a rigid body of the roller's shape would cut the surface over twice this half-width
