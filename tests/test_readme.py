@@ -25,7 +25,6 @@ from comparisons.common.files import OWN_FILES
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
 from comparisons.report.figures.style import drawing
@@ -126,8 +125,7 @@ def mine(folder) -> Call:
 def unrun() -> dict[float, dict[str, float]]:
     """Figures of the half-plane on the README's first scene, by friction coefficient."""
     problem = problem_of(load_scene("ground-unrun"))
-    plan = make_plan(problem, ("half_plane",))
-    level = half_plane_level(problem, plan, problem.pitches[-1], window_of(problem), Stages())
+    level = half_plane_level(problem, problem.pitches[-1], window_of(problem), Stages())
     return {friction: figures(level, problem, friction) for friction in problem.scene.friction}
 
 

@@ -193,7 +193,7 @@ def _solve(
         from comparisons.models.half_plane import half_plane_level
 
         stages = Stages(callback)
-        return from_first(lambda: half_plane_level(problem, plan, pitch, window, stages))
+        return from_first(lambda: half_plane_level(problem, pitch, window, stages))
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 

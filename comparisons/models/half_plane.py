@@ -11,7 +11,6 @@ from analytic.stress.maxima import stress_maxima
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult
 from comparisons.models.nearest_operator import solve_on
-from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
 
@@ -25,7 +24,7 @@ def expected_of(count: int) -> ExpectedCost:
 
 
 def half_plane_level(
-    problem: Problem, plan: Plan, pitch: float, window: Window | None, stages: Stages
+    problem: Problem, pitch: float, window: Window | None, stages: Stages
 ) -> Level:
     """Solve one level: contact, and where asked for the stresses on the window."""
     frictions, grid = problem.scene.friction, problem.grid(pitch)

@@ -1,10 +1,9 @@
-"""What a scene needs and what it does not: decided before anything runs, printed and recorded.
+"""The steps that a scene needs, decided before anything runs, printed and recorded.
 
-A step that is left out never changes a figure that is asked for; `unpruned` gives the plan that
-leaves nothing out, for the test of that.
+A skipped step never changes a figure that is asked for.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from comparisons.common.quantities import MODELS
 from comparisons.models.assumptions import assumptions_of
@@ -15,7 +14,7 @@ from comparisons.scenes.scene import ResolvedScene
 
 @dataclass(frozen=True)
 class Skipped:
-    """A step that a run leaves out, and the reason."""
+    """A step that a run skips, and the reason."""
 
     step: str
     because: str
@@ -25,22 +24,18 @@ class Skipped:
 class Plan:
     """Steps of a run.
 
-    models          of MODELS
-    running_in      the surface is run in before it is pressed
-    stress          compute subsurface fields
-    tangential      compute the part that friction adds to them
-    shared_factor   the roller's block is the body's with another modulus: one factorisation
-    coupling        what friction does to the contact by moving the surfaces, on the half-plane
-    effects         compute those that the finite elements lack, where their estimates ask for it
-    domain_check    repeat the coarsest finite-element level on a block of half the size
-    skipped         what is left out, each with its reason
-    assumptions     what the models of this run take for granted
+    models         of MODELS
+    stress         compute subsurface fields
+    shared_factor  the roller's block is the body's with another modulus: one factorisation
+    coupling       solve the half-plane with and without normal-tangential coupling
+    effects        compute effects beside the scene's own where their estimates ask for it
+    domain_check   repeat the coarsest finite-element level on a block of half the size
+    skipped        steps, each with its reason
+    assumptions    of the models of this run
     """
 
     models: tuple[str, ...]
-    running_in: bool
     stress: bool
-    tangential: bool
     shared_factor: bool
     coupling: bool
     effects: bool
@@ -58,7 +53,6 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     scene = problem.scene
     finite_elements = "finite_element" in models
     stress = scene.stress is not None
-    tangential = stress and any(scene.friction)
     shared = finite_elements and _shares_factor(scene)
     uncoupled = [no_coupling(problem, friction) for friction in scene.friction]
     coupling = "half_plane" in models and not all(uncoupled)
@@ -75,7 +69,11 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
 
     skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
-    skip(stress and not tangential, "stresses of the sliding traction", "there is no friction")
+    skip(
+        stress and not any(scene.friction),
+        "stresses of the sliding traction",
+        "there is no friction",
+    )
     skip(scene.hardness is None, "hardness cap", "the body has no hardness")
     if "half_plane" in models:
         skip(not coupling, "coupling", uncoupled[-1])
@@ -98,9 +96,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         skipped.append(Skipped("comparison", "it takes both models"))
     return Plan(
         models=models,
-        running_in=scene.running_in is not None,
         stress=stress,
-        tangential=tangential,
         shared_factor=shared,
         coupling=coupling,
         effects=effects,
@@ -111,7 +107,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
 
 
 def no_coupling(problem: Problem, friction: float) -> str | None:
-    """Why friction does not move the contact by moving the surfaces, or None if it does."""
+    """Why there is no normal-tangential coupling, or None if there is."""
     if friction == 0.0:
         return "there is no friction"
     if problem.dundurs_beta == 0.0:
@@ -119,13 +115,8 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
     return None
 
 
-def unpruned(plan: Plan) -> Plan:
-    """The same run with every step that pruning leaves out."""
-    return replace(plan, tangential=plan.stress, shared_factor=False)
-
-
 def _shares_factor(scene: ResolvedScene) -> bool:
-    """Whether the roller's block is the body's, but for a factor on its modulus."""
+    """Whether the roller's block is the body's but for a factor on its modulus."""
     settings = scene.finite_element
     return (
         scene.roller is not None

@@ -115,9 +115,7 @@ def error_budget(
     sampling = {}
     if problem.scene.profile is not None:
         callback("error budget: sampling of the trace")
-        sampling = from_first(
-            lambda: sampling_changes(problem, plan, window, runs["half_plane"].levels)
-        )
+        sampling = from_first(lambda: sampling_changes(problem, window, runs["half_plane"].levels))
     return ErrorBudget(selection, levels, unsplit, tuple(own), sampling, solved.seconds)
 
 
@@ -216,7 +214,7 @@ def _given_up(selection: EffectSelection, error: NotComputedError) -> frozenset[
 
 
 def sampling_changes(
-    problem: Problem, plan: Plan, window: Window | None, levels: Sequence[Level]
+    problem: Problem, window: Window | None, levels: Sequence[Level]
 ) -> dict[float, dict[str, float]]:
     """By friction coefficient and quantity, the relative change from half the samples.
 
@@ -227,7 +225,7 @@ def sampling_changes(
     found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
     for first in (0, 1):
         thinned = _with_profile(problem, _every_other(profile, first))
-        other = half_plane_level(thinned, plan, level.grid.pitch, window, Stages())
+        other = half_plane_level(thinned, level.grid.pitch, window, Stages())
         for friction in frictions:
             whole = quantities_of(level, problem, friction)
             change = quantities_of(other, thinned, friction) - whole

@@ -53,7 +53,7 @@ def solved(
     if method.model == "half_plane":
         if method.element == "hat" and not method.dense:
             plan = make_plan(problem, ("half_plane",))
-            return _of_level(half_plane_level(problem, plan, setting, window, stages), problem)
+            return _of_level(half_plane_level(problem, setting, window, stages), problem)
         return _of_level(_plain_half_plane(method, problem, setting, window, stages), problem)
     settings = replace(problem.scene.finite_element, element=method.element)
     problem = replace(problem, scene=replace(problem.scene, finite_element=settings))

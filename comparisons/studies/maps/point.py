@@ -148,7 +148,7 @@ def _refined(
             if number <= least:
                 raise
             break  # what is finer than the scene asks for need not be possible
-        half_plane.append(half_plane_level(problem, plan, pitch, window, Stages()))
+        half_plane.append(half_plane_level(problem, pitch, window, Stages()))
         if number >= least:
             yield (
                 ModelRun("half_plane", tuple(half_plane)),

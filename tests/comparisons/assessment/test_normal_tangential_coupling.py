@@ -23,7 +23,6 @@ from comparisons.common.progress import Stages, no_progress
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import ModelRun
-from comparisons.models.plan import make_plan
 from comparisons.report.tables.comparison import coupling_line, coupling_table
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
@@ -61,10 +60,8 @@ def solved(tables: dict, **load) -> Outcome:
 
 
 def half_plane_of(problem) -> ModelRun:
-    plan = make_plan(problem, HALF_PLANE)
     levels = (
-        half_plane_level(problem, plan, pitch, None, Stages(no_progress))
-        for pitch in problem.pitches
+        half_plane_level(problem, pitch, None, Stages(no_progress)) for pitch in problem.pitches
     )
     return ModelRun("half_plane", tuple(levels))
 

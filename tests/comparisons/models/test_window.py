@@ -6,7 +6,6 @@ import pytest
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.window import search_window, window_of
 from comparisons.scenes.files import SCENES, read_toml
@@ -24,8 +23,7 @@ def test_extremes_do_not_depend_on_the_points_of_the_field(name):
     found = []
     for points in ([3, 3], [40, 16], [600, 200]):
         given = problem(name, points=points)
-        plan = make_plan(given, ("half_plane",))
-        level = half_plane_level(given, plan, given.pitches[0], window_of(given), Stages())
+        level = half_plane_level(given, given.pitches[0], window_of(given), Stages())
         found.append([e.value for s in level.stresses for e in s.extremes.values()])
     assert found[0] == pytest.approx(found[2], rel=1e-9)
     assert found[1] == pytest.approx(found[2], rel=1e-9)

@@ -39,11 +39,10 @@ MEASURED = Path(__file__).parents[4] / "shared" / "profiles"
 def test_half_plane_on_ground_surfaces_as_the_spline_is_resolved(name, ratio, peak):
     """Contact ratio and peak pressure over p0, at a limit that five grids approach."""
     problem = problem_of(load_scene(name))
-    plan = make_plan(problem, ("half_plane",))
     found = []
     for refinement in range(5):
         pitch = problem.pitches[0] / 2.0**refinement
-        found.append(figures(half_plane_level(problem, plan, pitch, None, Stages()), problem, 0.0))
+        found.append(figures(half_plane_level(problem, pitch, None, Stages()), problem, 0.0))
     ratios = grid_convergence([f["contact_ratio"] for f in found], 2.0)
     peaks = grid_convergence([f["peak_pressure"] for f in found], 2.0)
     assert ratios.uncertainty < 2e-3 and peaks.uncertainty < 2e-3 * peaks.value
@@ -126,7 +125,7 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
     grid: HatGrid = problem.grid(problem.pitches[0])
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
     refinement = Refinement(grid.pitch)
-    level = half_plane_level(problem, plan, grid.pitch, None, Stages())
+    level = half_plane_level(problem, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
     bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyStore())

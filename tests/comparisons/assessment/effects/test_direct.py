@@ -84,7 +84,7 @@ def direct_errors(tables: dict) -> dict[str, float]:
     posed = problem(tables)
     plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
     friction = posed.scene.friction[0]
-    one = half_plane_level(posed, plan, pitch, None, Stages())
+    one = half_plane_level(posed, pitch, None, Stages())
     other = finite_element_level(posed, plan, Refinement(pitch), None, Stages())
     flat, real = (figures(level, posed, friction) for level in (one, other))
     found = {name: flat[name] / real[name] - 1.0 for name in QUANTITIES[:2]}

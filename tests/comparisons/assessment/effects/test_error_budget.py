@@ -7,7 +7,6 @@ from comparisons.assessment.comparison import figures
 from comparisons.assessment.effects.error_budget import sampling_changes
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
-from comparisons.models.plan import make_plan
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
 
@@ -30,16 +29,15 @@ def pressed(problem_with, tmp_path):
             load={"hertz_peak_pressure": 1e9},
             resolution={"pitch": 0.4e-6, "levels": 3},
         )
-        plan = make_plan(problem, ("half_plane",))
-        levels = [half_plane_level(problem, plan, p, None, Stages()) for p in problem.pitches]
-        return problem, plan, levels
+        levels = [half_plane_level(problem, p, None, Stages()) for p in problem.pitches]
+        return problem, levels
 
     return made
 
 
 def stated(pressed, samples: int) -> tuple[dict, dict]:
-    problem, plan, levels = pressed(samples)
-    changes = sampling_changes(problem, plan, None, levels)
+    problem, levels = pressed(samples)
+    changes = sampling_changes(problem, None, levels)
     return figures(levels[-1], problem, 0.0), changes[0.0]
 
 

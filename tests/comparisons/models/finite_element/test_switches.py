@@ -116,8 +116,7 @@ def test_a_stiff_coating_narrows_the_contact():
 def test_coupled_both_models_move_alike(tables):
     load = {"friction": 0.5, "coupled": True}
     problem, level = level_of(tables, {}, load=load)
-    plan = make_plan(problem, ("half_plane",))
-    other = half_plane_level(problem, plan, problem.pitches[1], None, Stages())
+    other = half_plane_level(problem, problem.pitches[1], None, Stages())
 
     def centroid(pressure: np.ndarray) -> float:
         return float(level.grid.x @ pressure / pressure.sum()) / problem.hertz.half_width

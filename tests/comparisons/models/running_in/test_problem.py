@@ -11,7 +11,6 @@ import comparisons.models.running_in
 from analytic.profile import Profile
 from analytic.running_in import run_in
 from analytic.surface.roughness import roughness
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.models.running_in import run_in_scene
 from comparisons.results.outcome import Outcome
@@ -143,12 +142,11 @@ def test_the_scene_that_comes_along_flattens_the_unrun_surface_to_its_hardness()
     from comparisons.common.progress import Stages
     from comparisons.models.half_plane import half_plane_level
 
-    plan = make_plan(problem, ("half_plane",))
-    level = half_plane_level(problem, plan, problem.pitches[-1], None, Stages())
+    level = half_plane_level(problem, problem.pitches[-1], None, Stages())
     peak = level.solution.pressure.max()
     assert peak == pytest.approx(scene.running_in.hardness, rel=0.02)
     unrun = problem_of(load_scene("ground-unrun"))
-    before = half_plane_level(unrun, plan, unrun.pitches[-1], None, Stages())
+    before = half_plane_level(unrun, unrun.pitches[-1], None, Stages())
     assert before.solution.pressure.max() > 1.5 * peak
     ratios = [found.contact_length / problem.hertz.half_width / 2.0 for found in (before, level)]
     assert ratios == pytest.approx([0.69, 0.72], abs=0.01)

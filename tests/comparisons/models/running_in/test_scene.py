@@ -47,7 +47,7 @@ class TestReading:
         assert "running_in" not in scene.tables
         problem = problem_of(scene)
         plan = make_plan(problem, MODELS)
-        assert problem.scene is scene and not plan.running_in
+        assert problem.scene is scene
         assert not any("running-in" in text for text in plan.assumptions)
         assert not any("running" in skipped.step for skipped in plan.skipped)
 

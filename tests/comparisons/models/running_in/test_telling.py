@@ -47,7 +47,6 @@ class TestTelling:
         assert "running-in" not in render(wavy_outcome)
 
     def test_plan_and_assumptions(self, outcome: Outcome):
-        assert outcome.plan.running_in
         [said] = [text for text in outcome.plan.assumptions if text.startswith("running-in")]
         assert "what flows is lost" in said
 
