@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from html.parser import HTMLParser
 
 import pytest
+from scenes import STEEL
 
 from comparisons.report.page import render
 from comparisons.results.outcome import Outcome
 
 VOID = {"meta", "img", "source", "br", "hr", "link", "input"}
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 WAVY_WITHOUT_FIELD = {
     "title": "Wavy",
     "roller": {"radius": 10e-3, "rigid": True},

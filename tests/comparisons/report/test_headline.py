@@ -95,3 +95,14 @@ def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Out
 def test_nothing_judged_is_no_verdict(smooth_outcome: Outcome):
     said = headline(judged(smooth_outcome))
     assert said.kind == "inconclusive" and "no figure has a tolerance" in said.sentence
+
+
+def test_a_level_that_did_not_converge_is_named_in_few_digits(smooth_outcome: Outcome):
+    run = smooth_outcome.runs["finite_element"]
+    solution = replace(run.finest.solution, converged=False)
+    levels = (*run.levels[:-1], replace(run.finest, solution=solution))
+    runs = {**smooth_outcome.runs, "finite_element": replace(run, levels=levels)}
+    said = headline(replace(smooth_outcome, runs=runs))
+    assert said.kind == "not converged"
+    pitch = f"{1e6 * run.finest.grid.pitch:#.3g}".rstrip(".")
+    assert f"(finite elements, pressure elements of {pitch} µm)" in said.sentence

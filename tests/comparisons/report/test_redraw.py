@@ -56,7 +56,7 @@ def test_the_page_drawn_again_is_the_same_and_nothing_is_solved_for_it(
     before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
     (folder / "report.html").write_text("lost")
     for place in (
-        "comparisons.models.problem.solve_contact",
+        "comparisons.models.nearest_operator.solve_contact",
         "comparisons.models.half_plane.half_plane_on",
         "meshes.build.run_worker",
         "comparisons.models.finite_element.level.finite_element_level",

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from comparisons.cli import app
+from comparisons.common.quantities import label
 from comparisons.report.headline import headline
 from comparisons.report.page import render
 from comparisons.report.tables.comparison import comparison_rows
@@ -24,23 +25,12 @@ def number(text: str) -> float:
 
 
 def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: Outcome):
-    labels = {
-        "peak_pressure": "peak pressure",
-        "contact_length": "contact length",
-        "contact_ratio": "contact length over Hertz 2a",
-        "tau1_max": "largest principal shear stress τ₁",
-        "txz_max_abs": "largest orthogonal shear stress |τxz|",
-        "tau1_max_depth": "depth of the largest τ₁",
-        "pressure_l2": "pressures, relative L2 difference",
-        "tau1_field_near": "τ₁ down to 0.1 a, relative L2 difference",
-        "tau1_field_deep": "τ₁ deeper than 0.5 a, relative L2 difference",
-    }
     [table] = [table for table in wavy_page.tables if table[0][-1] == "reference"]
     shown = {}
-    for label, frictions, *cells, _ in table[1:]:
+    for name, frictions, *cells, _ in table[1:]:
         for friction in frictions.split(", "):
-            assert (label, float(friction)) not in shown
-            shown[label, float(friction)] = [cell.partition(" | ")[0] for cell in cells[:-1]] + [
+            assert (name, float(friction)) not in shown
+            shown[name, float(friction)] = [cell.partition(" | ")[0] for cell in cells[:-1]] + [
                 cells[-1].removeprefix(" | ")
             ]
     compared = wavy_outcome.result["comparison"]
@@ -48,7 +38,7 @@ def test_every_number_of_the_comparison_is_on_the_page(wavy_page, wavy_outcome: 
     for quantity, rows in compared.items():
         for row in rows:
             one, other, difference, uncertainty, tolerance, verdict = shown[
-                labels[quantity], row["friction"]
+                label(quantity), row["friction"]
             ]
             for text, value, digits in (
                 (one, row["half_plane"], 4),

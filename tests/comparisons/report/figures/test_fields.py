@@ -1,0 +1,133 @@
+"""Subsurface fields as they are drawn: the values, one scale for both models, round bands."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.interpolate import RegularGridInterpolator
+
+from comparisons.report.figures.fields import (
+    colour_bar,
+    field_pictures,
+    fill,
+    layout,
+    round_bands,
+)
+from comparisons.report.figures.style import drawing
+from comparisons.results.outcome import Outcome
+
+
+def test_fields_of_both_models_share_one_scale_and_the_difference_has_its_own(
+    wavy: dict[str, list],
+):
+    for figure in wavy["field_pictures"]:
+        shown = [axes.images[0] for axes in figure.axes if axes.images]
+        one, other, difference = (image.norm.boundaries for image in shown)
+        assert np.array_equal(one, other)
+        assert difference == pytest.approx(-difference[::-1])
+        assert difference[-1] < 0.5 * one[-1]
+        assert shown[0].get_cmap().name != shown[2].get_cmap().name
+
+
+def test_the_caption_says_where_the_differences_colours_end(wavy_outcome: Outcome, drawn_by):
+    p0, window = wavy_outcome.problem.hertz.peak_pressure, wavy_outcome.window
+
+    def caption(outcome: Outcome) -> tuple[str, float]:
+        figures, made = drawn_by(field_pictures, outcome)
+        shown = [axes.images[0] for axes in figures[0].axes if axes.images]
+        return made[0][1][0].caption, float(shown[2].norm.boundaries[-1])
+
+    text, end = caption(wavy_outcome)
+    assert f"colours end at ±{end:#.2g} p₀" in text
+
+    run = wavy_outcome.runs["half_plane"]
+    found = run.finest.stress(0.0)
+    sx = found.field.sx.copy()
+    sx[3, 17] += 40.0 * p0  # one place far beyond what the scale must cover
+    field = replace(found.field, sx=sx)
+    finest = replace(run.finest, stresses=(replace(found, field=field), *run.finest.stresses[1:]))
+    runs = {**wavy_outcome.runs, "half_plane": replace(run, levels=(*run.levels[:-1], finest))}
+    spiked, end = caption(replace(wavy_outcome, runs=runs))
+    assert end < 1.0
+    assert f"colours end at ±{end:#.2g} p₀, which covers 99.5 % of the points" in spiked
+    place = f"x = {window.x[17] / wavy_outcome.problem.hertz.half_width:.3f} a".replace("-", "−")
+    assert f"20 p₀, stands at {place}" in spiked
+
+
+def test_fields_and_their_difference_are_those_of_the_run(
+    wavy: dict[str, list], wavy_outcome: Outcome
+):
+    hertz, window = wavy_outcome.problem.hertz, wavy_outcome.window
+    one, other = (
+        run.finest.stress(0.0).field.tau1 / hertz.peak_pressure
+        for run in wavy_outcome.runs.values()
+    )
+    figure = wavy["field_pictures"][0]
+    shown = [axes.images[0] for axes in figure.axes if axes.images]
+    for image, values in zip(shown, (one, other, one - other), strict=True):
+        pixels = np.asarray(image.get_array())
+        rows, columns = ((np.arange(n) + 0.5) / n for n in pixels.shape)
+        at = RegularGridInterpolator((window.z / hertz.half_width, window.x), values)
+        x = window.x[0] + columns * np.ptp(window.x)
+        expected = at(tuple(np.meshgrid(rows, x, indexing="ij")))
+        np.testing.assert_allclose(pixels, expected, rtol=0.0, atol=1e-9)
+
+
+def test_a_field_stands_the_right_way_up_on_depths_that_are_not_even():
+    x, z = np.linspace(-1.5, 1.5, 31), np.linspace(0.0, 1.0, 20) ** 3
+    with drawing():
+        _, [axes], _ = layout(1, 1.5)
+        image = fill(axes, x, z, z[:, None] + 0.0 * x, np.linspace(0, 1, 11), "viridis", False)
+        pixels = np.asarray(image.get_array())
+        rows = (np.arange(len(pixels)) + 0.5) / len(pixels)
+        assert np.abs(pixels - rows[:, None]).max() < 1e-12
+        assert list(axes.get_ylim()) == [1.0, 0.0]  # depth downwards
+        left, right, bottom, top = image.get_extent()
+        assert (left, right, bottom, top) == (-1.5, 1.5, 1.0, 0.0)
+        image = fill(axes, x, z, x + 0.0 * z[:, None], np.linspace(-1, 1, 11), "viridis", True)
+        pixels = np.asarray(image.get_array())
+        assert np.all(np.diff(pixels, axis=1) > 0.0)
+
+
+@pytest.mark.parametrize("size", [3.3e-7, 0.3, 1.0, 4.7e3])
+@pytest.mark.parametrize("signed", [True, False])
+def test_bands_are_round_cover_the_field_and_keep_zero_in_one_colour(size: float, signed: bool):
+    values = size * np.linspace(-1.0 if signed else 0.0, 1.0, 1001)[:, None]
+    bands = round_bands([values, 0.5 * values], signed)
+    steps = np.diff(bands)
+    mantissa = steps[0] / 10.0 ** np.floor(np.log10(steps[0]) + 1e-9)
+    assert np.ptp(steps) < 1e-9 * steps[0]
+    assert min(abs(mantissa - m) for m in (1.0, 2.0, 2.5, 5.0)) < 1e-6
+    assert bands[-1] >= 0.995 * size
+    assert 6 <= len(steps) <= 20
+    if signed:
+        assert bands == pytest.approx(-bands[::-1])
+        assert not np.any(np.abs(bands) < 0.4 * steps[0])
+    else:
+        assert bands[0] == 0.0
+
+
+def test_bands_survive_a_field_of_nothing():
+    assert np.all(np.diff(round_bands([np.zeros((3, 4))], True)) > 0.0)
+
+
+def test_what_is_negative_is_striped_and_nothing_else():
+    x, z = np.linspace(-1.5, 1.5, 61), np.linspace(0.0, 1.0, 30)
+    values = x + 0.0 * z[:, None]
+    bands = round_bands([values], signed=True)
+    with drawing():
+        figure, [axes], [bar] = layout(1, 1.5)
+        shown = fill(axes, x, z, values, bands, "RdBu_r", True)
+        colour_bar(figure, bar, shown, "τxz/p₀", bands)
+    pixels, shade = (np.asarray(image.get_array()) for image in axes.images)
+    struck = shade[..., 3] > 0.0
+    negative = pixels < bands[bands < 0.0][-1]
+    assert not np.any(struck & ~negative)
+    assert 0.2 < np.mean(struck[negative]) < 0.4
+    [span] = [patch for patch in bar.patches if patch.get_hatch()]
+    ends = span.get_path().vertices[:, 0] if span.get_path() else ()
+    assert max(ends) <= 1.0
+    with drawing():
+        _, [axes], _ = layout(1, 1.5)
+        fill(axes, x, z, np.abs(values), np.linspace(0.0, 1.5, 16), "viridis", False)
+    assert len(axes.images) == 1

@@ -1,0 +1,95 @@
+"""What a reader meets in the pictures: words that stand apart, parts told apart in grey."""
+
+from itertools import combinations
+
+import matplotlib
+import numpy as np
+import pytest
+from matplotlib.transforms import Bbox
+
+from analytic.material import Material
+from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.report.figures.model_error import PART_LOOKS
+from comparisons.report.figures.pressures import TICKS, close_up_picture, pressure_picture
+from comparisons.report.figures.problem import problem_picture
+from comparisons.report.tables.problem import problem_sheet
+from comparisons.results.outcome import Outcome
+from comparisons.scenes.scene import Coated, Yielding
+
+HARD = Coated(Material(400e9, 0.22), 20e-6)
+GREY = np.array([0.299, 0.587, 0.114])  # of red, green and blue, as a printer sees them
+
+
+def rows_of(outcome: Outcome) -> dict[str, str]:
+    return {name: text for _, rows in problem_sheet(outcome) for name, text in rows}
+
+
+def test_a_coating_and_a_yield_stress_are_described(smooth_outcome, with_scene, drawn_by):
+    changed = {"coating": HARD, "yielding": Yielding(1e9, 20e9)}
+    rows = rows_of(with_scene(smooth_outcome, **changed))
+    assert rows["coating"] == "20 µm thick, E = 400 GPa, ν = 0.22"
+    assert rows["body yields"] == "at 1 GPa, hardening by 20 GPa"
+    assert not {"coating", "body yields"} & set(rows_of(smooth_outcome))
+    for name, value in changed.items():
+        [figure], picture = drawn_by(problem_picture, with_scene(smooth_outcome, **{name: value}))
+        words = " ".join(text.get_text() for text in figure.axes[0].texts)
+        for said in (words, picture.alternative):
+            assert ("coating 20 µm thick" in said) == (name == "coating")
+            assert ("yields at 1 GPa" in said) == (name == "yielding")
+
+
+def lines_of(text) -> list[Bbox]:
+    """The box of each line of a text in a figure."""
+    whole, lines = text.get_window_extent(), text.get_text().split("\n")
+    tall = whole.height / len(lines)
+    boxes = []
+    for number, line in enumerate(lines):
+        alone = text.axes.text(0.0, 0.0, line, fontsize=text.get_fontsize())
+        wide = alone.get_window_extent().width
+        alone.remove()
+        left = whole.x1 - wide if text.get_ha() == "right" else whole.x0
+        top = whole.y1 - number * tall
+        # lines of one text may touch
+        boxes.append(Bbox.from_extents(left, top - 0.99 * tall, left + wide, top))
+    return boxes
+
+
+@pytest.mark.parametrize("friction", [(0.1,), (0.0, 0.1), (0.05, 0.2, 0.4)])
+@pytest.mark.parametrize("thickness", [None, 2e-3])
+def test_words_in_the_drawing_stand_apart(wavy_outcome, drawn_by, with_scene, friction, thickness):
+    fields = {"coating": HARD, "friction": friction, "thickness": thickness}
+    base = None if thickness is None else "frictionless"
+    [figure], _ = drawn_by(problem_picture, with_scene(wavy_outcome, base=base, **fields))
+    axes = figure.axes[0]
+    texts = [text for text in axes.texts if text.get_text()]
+    assert len(texts) == 4  # load, roller, body, traction
+    boxes = [line for text in texts for line in lines_of(text)]
+    for one, other in combinations(boxes, 2):
+        assert not one.overlaps(other)
+    for box in boxes:
+        assert axes.bbox.x0 <= box.x0 and box.x1 <= axes.bbox.x1 + 1.0
+        assert axes.bbox.y0 <= box.y0
+
+
+def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome, drawn_by):
+    for draw in (pressure_picture, close_up_picture):
+        figure = drawn_by(draw, wavy_outcome)[0][-1]
+        [top] = figure.axes[0].child_axes
+        [name] = [text for text in figure.axes[0].texts if text.get_text() == "x/a"]
+        labels = [text for text in top.get_xticklabels() if text.get_text()]
+        assert 3 <= len(labels) <= TICKS + 1
+        for label in labels:
+            box = label.get_window_extent()
+            assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
+            assert not box.overlaps(name.get_window_extent())
+
+
+def test_parts_of_the_budget_are_told_apart_in_grey():
+    assert set(EFFECTS) <= set(PART_LOOKS)
+    greys = {
+        name: float(np.dot(matplotlib.colors.to_rgb(colour), GREY))
+        for name, (colour, _) in PART_LOOKS.items()
+    }
+    for one, other in combinations(PART_LOOKS, 2):
+        hatched_alike = PART_LOOKS[one][1] == PART_LOOKS[other][1]
+        assert not hatched_alike or abs(greys[one] - greys[other]) > 0.1, (one, other)
