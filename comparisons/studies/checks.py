@@ -260,7 +260,7 @@ def _without_nan(value: object) -> object:
     """JSON has neither NaN nor infinity: None stands for both."""
     if isinstance(value, dict):
         return {key: _without_nan(item) for key, item in value.items()}
-    if isinstance(value, list):
+    if isinstance(value, list | tuple):
         return [_without_nan(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 

@@ -1,7 +1,6 @@
 """All stiff and extreme cases, as `crosscheck stability` runs them."""
 
 from collections.abc import Callable, Iterable
-from importlib import import_module
 from pathlib import Path
 from time import perf_counter
 
@@ -13,25 +12,22 @@ from comparisons.studies.checks import (
     run_cases,
     write_study,
 )
-
-# In this order: cheap ones first. What a module's cases need is imported with it.
-MODULES = (
-    "cases.smooth",
-    "cases.rough",
-    "cases.friction",
-    "cases.layers",
-    "cases.stresses",
-    "cases.algebra",
-    "finite_element.stiffness",
-    "finite_element.scenes",
-    "finite_element.extremes",
-    "cases.rounding",
+from comparisons.studies.robustness.cases import (
+    algebra,
+    friction,
+    layers,
+    rough,
+    rounding,
+    smooth,
+    stresses,
 )
+from comparisons.studies.robustness.finite_element import extremes, scenes, stiffness
 
 
 def all_cases() -> list[CheckedCase]:
-    """Every case, in the order they are run in."""
-    modules = (import_module(f"comparisons.studies.robustness.{name}") for name in MODULES)
+    """Every case; cheap ones first."""
+    modules = (smooth, rough, friction, layers, stresses, algebra)
+    modules += (stiffness, scenes, extremes, rounding)
     return [case for module in modules for case in module.cases()]
 
 

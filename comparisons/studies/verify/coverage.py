@@ -10,6 +10,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
+from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.studies.checks import (
     BoundedFigure,
     CheckedCase,
@@ -61,11 +62,9 @@ class Pair:
     kind         of the case: Hertz | surface | sliding | hardness | layer | wave | punch
     levels       figures on all levels, coarse to fine [SI]
     exact        [SI]
-    uncertainty  as stated, relative to `scale`: iteration, discretisation, domain
     scale        [SI] what errors are relative to: the figure, or the smooth contact's where the
                  figure vanishes
-    behaviour    of the levels, by `comparisons.assessment.uncertainty`
-    order        observed, None where it means nothing
+    uncertainty  as stated, relative to `scale`
     converged    all levels met their contact conditions
     """
 
@@ -76,16 +75,14 @@ class Pair:
     quantity: str
     levels: tuple[float, ...]
     exact: float
-    uncertainty: tuple[float, float, float]
     scale: float
-    behaviour: str
-    order: float | None
+    uncertainty: Uncertainty
     converged: bool
 
     @property
     def stated(self) -> float:
         """Stated uncertainty, relative."""
-        return sum(self.uncertainty)
+        return self.uncertainty.total
 
     @property
     def errors(self) -> list[float]:
@@ -122,34 +119,27 @@ class Pair:
             f"value {self.levels[-1]:.12g}, exact {self.exact:.12g}, relative error "
             f"{self.error:.3e}, stated uncertainty {self.stated:.3e}, "
             f"{'covered' if self.covered else 'NOT covered'}, overestimation ratio {ratio}, "
-            f"{self.behaviour if self.converged else 'a level did not converge'}"
+            + (self.uncertainty.convergence.behaviour if self.converged else "not converged")
         )
         error = abs(self.error) if self.converged else np.inf
         return BoundedFigure(self.quantity, error, ceiling, self.source, note=note)
 
     def as_dict(self) -> dict:
         """For verify.json."""
-        iteration, discretisation, domain = self.uncertainty
-        return {
-            "case": self.case,
-            "kind": self.kind,
-            "model": self.model,
-            "quantity": self.quantity,
-            "levels": list(self.levels),
-            "exact": self.exact,
+        stated = self.uncertainty
+        return asdict(self) | {
             "error": self.error,
             "uncertainty": {
-                "iteration": iteration,
-                "discretisation": discretisation,
-                "domain": domain,
+                "iteration": stated.iteration,
+                "discretisation": stated.discretisation,
+                "domain": stated.domain,
                 "total": self.stated,
             },
             "covered": self.covered,
             "overestimation_ratio": self.overestimation,
-            "behaviour": self.behaviour,
-            "order": self.order,
+            "behaviour": stated.convergence.behaviour,
+            "order": stated.convergence.order,
             "close": self.figure.holds,
-            "source": self.source,
         }
 
 

@@ -31,8 +31,6 @@ from meshes.block import BlockMesh
 from meshes.real_shape import roughen
 from meshes.structured import structured
 
-Made = tuple[BlockMesh, Coating | None]
-
 BODY, COAT = Material(3.0, 0.3), Material(12.0, 0.2)
 THICKNESS = 0.25
 K, PHASE = 1.7, 0.3
@@ -142,42 +140,32 @@ def skewed(cells: int) -> BlockMesh:
     return replace(mesh, points=points)
 
 
-def flat(cells: int) -> Made:
-    return skewed(cells), None
+def wave(height: float, x: np.ndarray) -> np.ndarray:
+    return height * np.sin(4.0 * x + 0.4)
 
 
-def rough(cells: int) -> Made:
-    mesh = skewed(cells)
-    return roughen(mesh, lambda x: 0.05 * np.sin(4.0 * x + 0.4)), None
-
-
-def coated(cells: int) -> Made:
-    return skewed(cells), Coating(COAT, THICKNESS)
-
-
-def rough_coated(cells: int) -> Made:
+def rough_coated(cells: int) -> BlockMesh:
     """Rough above, straight along the coating's lower side."""
     mesh = skewed(cells)
     x, z = mesh.points.T
     share = np.maximum(0.0, 1.0 - z / THICKNESS)
-    shift = np.column_stack([np.zeros_like(x), -0.03 * np.sin(4.0 * x + 0.4) * share])
-    return replace(mesh, shift=shift), Coating(COAT, THICKNESS)
+    return replace(mesh, shift=np.column_stack([np.zeros_like(x), -wave(0.03, x) * share]))
 
 
-BODIES: dict[str, Callable[[int], Made]] = {
-    "flat": flat,
-    "rough": rough,
-    "coated": coated,
-    "rough and coated": rough_coated,
+BODIES: dict[str, tuple[Callable[[int], BlockMesh], Coating | None]] = {
+    "flat": (skewed, None),
+    "rough": (lambda cells: roughen(skewed(cells), partial(wave, 0.05)), None),
+    "coated": (skewed, Coating(COAT, THICKNESS)),
+    "rough and coated": (rough_coated, Coating(COAT, THICKNESS)),
 }
 
 
 def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
     """Both norms of the error on a body of a kind with elements of a degree."""
-    mesh, coating = BODIES[kind](cells)
+    mesh, coating = BODIES[kind]
     exact = Exact(BODY, COAT, THICKNESS) if coating else Exact(BODY)
-    body = elastic_body(mesh, BODY, Support(), degree=degree, coating=coating)
-    load = forces_of(mesh, exact.stress, exact.body_force, degree)
+    body = elastic_body(mesh(cells), BODY, Support(), degree=degree, coating=coating)
+    load = forces_of(body.mesh, exact.stress, exact.body_force, degree)
     return errors(body, body.solve(load), exact)
 
 

@@ -21,6 +21,7 @@ from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.assessment.uncertainty import (
     PRESSURE_PER_RESIDUAL,
+    Uncertainty,
     grid_convergence,
     length_resolution,
 )
@@ -110,10 +111,10 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
                 quantity=quantity,
                 levels=tuple(values),
                 exact=float(exact),
-                uncertainty=(iteration, convergence.uncertainty / scale, 0.0),
                 scale=scale,
-                behaviour=convergence.behaviour,
-                order=convergence.order,
+                uncertainty=Uncertainty(
+                    iteration, convergence.uncertainty / scale, 0.0, convergence
+                ),
                 converged=all(s.converged for _, s in levels),
             )
         )

@@ -12,6 +12,7 @@ pressure [Pa], mu friction coefficient.
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -77,13 +78,17 @@ def exact_scenes() -> tuple[ExactScene, ...]:
 
 
 def gallery_scenes() -> tuple[ExactScene, ...]:
-    """The gallery's rollers on the default resolution, both models."""
-    return tuple(scene_of(case) for case in exact_contacts() if is_roller(case))
+    """The gallery's rollers (one parabola, sliding forwards) on the default resolution."""
+    return tuple(
+        scene_of(case)
+        for case in exact_contacts()
+        if case.period is None and not case.knots and case.friction >= 0.0
+    )
 
 
 def half_plane_scenes(rounds: int = HALF_PLANE_ROUNDS) -> tuple[ExactScene, ...]:
     """Many resolutions, which are cheap for the half-plane."""
-    cases = (*rollers(FRICTIONS), *sliding_rollers(SLIDING_FRICTIONS), *capped_rollers(SHARES))
+    cases = rollers(FRICTIONS, SLIDING_FRICTIONS, SHARES)
     return tuple(
         replace(scene_of(case, elements), models=("half_plane",))
         for case, elements in zip(cases * rounds, spread(len(cases) * rounds), strict=True)
@@ -97,11 +102,10 @@ def finite_element_scenes() -> tuple[ExactScene, ...]:
         {"far_field": "half-plane", "element": "P3"},
         {"block": 200.0, "growth": 0.1},
     )
-    cases = (*rollers(FRICTIONS), *sliding_rollers((0.5,)), *capped_rollers((0.8,)))
-    asked = [(case, setting) for setting in settings for case in cases]
+    asked = list(product(settings, rollers(FRICTIONS, (0.5,), (0.8,))))
     return tuple(
         replace(scene_of(case, elements, setting), models=("finite_element",))
-        for (case, setting), elements in zip(asked, spread(len(asked)), strict=True)
+        for (setting, case), elements in zip(asked, spread(len(asked)), strict=True)
     )
 
 
@@ -123,34 +127,24 @@ def layer_scenes() -> tuple[ExactScene, ...]:
 
 
 @cache
-def rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
-    """Hertz's contact of like bodies, where friction does not change the pressure."""
-    return tuple(
+def rollers(
+    frictions: tuple[float, ...], sliding_frictions: tuple[float, ...], shares: tuple[float, ...]
+) -> tuple[ExactContact, ...]:
+    """Hertz's contact of like bodies, where friction does not change the pressure; rigid cylinders,
+    where it does; Hertz's contact under a hardness of these shares of the peak pressure."""
+    hertz = (
         hertz_case(f"Hertz, friction {friction:g}", STEEL, STEEL, 8.2e-3, 1.4e9, friction)
         for friction in frictions
     )
-
-
-@cache
-def sliding_rollers(frictions: tuple[float, ...]) -> tuple[ExactContact, ...]:
-    """Rigid cylinders, where it does."""
-    return tuple(
+    sliding = (
         sliding_case(f"sliding, friction {friction:g}", STEEL, None, 10e-3, 1e6, friction)
-        for friction in frictions
+        for friction in sliding_frictions
     )
-
-
-@cache
-def capped_rollers(shares: tuple[float, ...] = SHARES) -> tuple[ExactContact, ...]:
-    return tuple(
+    capped = (
         capped_case(f"flattened, hardness {share:g} p0", STEEL, STEEL, 8.2e-3, 1.4e9, share)
         for share in shares
     )
-
-
-def is_roller(case: ExactContact) -> bool:
-    """Whether a scene can describe it: one parabola, sliding forwards."""
-    return case.period is None and not case.knots and case.friction >= 0.0
+    return (*hertz, *sliding, *capped)
 
 
 def scene_of(
@@ -232,7 +226,6 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
     history = [figures(level, problem, friction) for level in run.levels]
     pairs = []
     for quantity, exact in scene.exact.items():
-        parts = stated[quantity]
         pairs.append(
             Pair(
                 case=scene.name,
@@ -242,10 +235,8 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
                 quantity=quantity,
                 levels=tuple(level[quantity] for level in history),
                 exact=float(exact),
-                uncertainty=(parts.iteration, parts.discretisation, parts.domain),
                 scale=abs(history[-1][quantity]) or QUANTITIES[quantity].scale(problem.hertz),
-                behaviour=parts.convergence.behaviour,
-                order=parts.convergence.order,
+                uncertainty=stated[quantity],
                 converged=all(level.solution.converged for level in run.levels),
             )
         )

@@ -61,12 +61,9 @@ def test_a_figure_holds_within_its_bounds(value, high, low, holds):
     assert run_case(case(findings(value, high, low))).holds is holds
 
 
-def test_orders_are_held_on_both_sides():
+def test_orders_and_errors_count_on_both_sides():
     held = [order_figure("", order, 2.0, 0.25, "").holds for order in (1.7, 1.8, 2.2, 2.3)]
     assert held == [False, True, True, False]
-
-
-def test_a_relative_error_has_no_sign():
     assert relative_error("", 0.75, 1.0, 1.0, "").value == 0.25
 
 

@@ -59,10 +59,6 @@ def on_layer(
     return load_cylinder(operator, radius, Constraints(load=load))
 
 
-def findings(contact: LoadedContact, *figures: BoundedFigure) -> Findings:
-    return contact.findings(*figures, condition=contact.condition)
-
-
 def limit_findings(
     body: LayeredBody, limit: LayerLimit, radius: float, neglected: float
 ) -> Findings:
@@ -70,7 +66,7 @@ def limit_findings(
     contact = on_layer(body, limit.half_width, limit.load_per_length, radius)
     exact, high = (limit.peak_pressure, limit.half_width), neglected + 2.0 * LENGTH
     reference = "the limit and what it neglects"
-    return findings(contact, *peak_and_length(contact, exact, (high, high), reference))
+    return contact.findings(*peak_and_length(contact, exact, (high, high), reference))
 
 
 def thick_findings(base: str, a_over_t: float) -> Findings:
@@ -98,7 +94,7 @@ def between_findings(between: LayerReference) -> Findings:
     contact = on_layer(body, between.half_width, between.load / RADIUS)
     exact = (between.peak_pressure / RADIUS, between.half_width)
     reference = "collocation of the integral equation"
-    return findings(contact, *peak_and_length(contact, exact, (PEAK, LENGTH), reference))
+    return contact.findings(*peak_and_length(contact, exact, (PEAK, LENGTH), reference))
 
 
 def coated_findings(body: LayeredBody, equivalent: Material, high: float) -> Findings:
@@ -108,8 +104,8 @@ def coated_findings(body: LayeredBody, equivalent: Material, high: float) -> Fin
     contact = on_layer(body, 1.0, load)
     half_plane = HalfPlane(contact.operator.count, contact.pitch, modulus)
     plain = load_cylinder(half_plane, RADIUS, Constraints(load=load)).pressure
-    return findings(
-        contact, deviation(contact.pressure, plain, "pressure", high, "the equivalent half-plane")
+    return contact.findings(
+        deviation(contact.pressure, plain, "pressure", high, "the equivalent half-plane")
     )
 
 
@@ -120,7 +116,7 @@ def rigid_base_findings(softness: float) -> Findings:
     soft = on_layer(LayeredBody(coating, 1.0, stiff), 0.25, load)
     rigid = on_layer(LayeredBody(coating, 1.0, "bonded"), 0.25, load).pressure
     reference = "the layer on a rigid base"
-    return findings(soft, deviation(soft.pressure, rigid, "pressure", 10.0 * softness, reference))
+    return soft.findings(deviation(soft.pressure, rigid, "pressure", 10.0 * softness, reference))
 
 
 def wave_findings(body: LayeredBody) -> Findings:

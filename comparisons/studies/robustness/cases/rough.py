@@ -54,10 +54,6 @@ def pressed(
     return load_line(HalfPlane(len(height), pitch, modulus), height, Constraints(load=load))
 
 
-def findings(contact: LoadedContact, *figures: BoundedFigure) -> Findings:
-    return contact.findings(*figures, condition=contact.condition)
-
-
 def touching_figure(pressure: np.ndarray, count: int, reference: str) -> BoundedFigure:
     """Exactly `count` nodes carry pressure."""
     touching = np.count_nonzero(pressure)
@@ -70,8 +66,7 @@ def vanishing_findings(load: float) -> Findings:
     contact = pressed(height, load)
     opened = np.abs(contact.solution.gap - (height.max() - height)).max() / np.ptp(height)
     reference = "the load over the node's weight"
-    return findings(
-        contact,
+    return contact.findings(
         touching_figure(contact.pressure, 1, "one"),
         relative_error("pressure", contact.pressure.max(), load, 4e-16, reference),
         BoundedFigure("gap", opened, max(1e-14, 10.0 * load), "the initial gap"),
@@ -84,8 +79,7 @@ def twin_findings(load: float) -> Findings:
     contact = pressed(np.concatenate([half, half[::-1]]), load)
     pressure = contact.pressure
     share = abs(pressure[: COUNT // 2].sum() / load - 0.5)
-    return findings(
-        contact,
+    return contact.findings(
         deviation(pressure[::-1], pressure, "pressure", SAME, "its mirror image"),
         BoundedFigure("share of a peak", share, SAME, "half of the load"),
         dense_violation(contact, 1.0),
@@ -95,7 +89,7 @@ def twin_findings(load: float) -> Findings:
 def shape_findings(shape: Shape, load: float) -> Findings:
     """Few nodes against bounded least squares, which needs no iteration of ours."""
     contact = pressed(shape(FEW), load)
-    return findings(contact, least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
+    return contact.findings(least_squares_deviation(contact, 1.0), dense_violation(contact, 1.0))
 
 
 def plateau(count: int) -> np.ndarray:
@@ -124,8 +118,7 @@ def closed_findings() -> Findings:
     system = np.block([[dense_matrix(COUNT, 1.0, 1.0), -ones[:, None]], [ones, np.zeros((1, 1))]])
     expected = np.linalg.solve(system, np.append(height - height.max(), load))[:-1]
     reference = "elimination on a dense matrix"
-    return findings(
-        contact,
+    return contact.findings(
         touching_figure(contact.pressure, COUNT, "all"),
         deviation(contact.pressure, expected, "pressure", SAME, reference),
     )
@@ -162,8 +155,7 @@ def slope_findings(rms_slope: float) -> Findings:
     height = rough(COUNT, rms_slope)
     load = 0.02 * rms_slope * COUNT
     steep, gentle = pressed(height, load), pressed(height * 1e-3, 1e-3 * load)
-    return findings(
-        steep,
+    return steep.findings(
         deviation(steep.pressure, 1e3 * gentle.pressure, "pressure", SAME, "a thousandth of it"),
         dense_violation(steep, 1.0),
     )
@@ -174,8 +166,7 @@ def mirrored_findings() -> Findings:
     contact = pressed(rough(COUNT), LOAD)
     behind, reference = mirrored(contact), "its mirror image"
     length = behind.contact_length
-    return findings(
-        contact,
+    return contact.findings(
         deviation(behind.pressure[::-1], contact.pressure, "pressure", SAME, reference),
         relative_error("contact length", length, contact.contact_length, 1e-7, reference),
     )
@@ -188,8 +179,7 @@ def unit_findings(metre: float, pascal: float, same: float) -> Findings:
     length = other.contact_length / usual.contact_length
     approach = other.solution.approach / usual.solution.approach
     spent, most = (each.solution.iterations["applications"] for each in (other, usual))
-    return findings(
-        other,
+    return other.findings(
         deviation(other.pressure / pascal, usual.pressure, "pressure", same, "in metres"),
         relative_error("contact length", length, metre, max(1e2 * same, 1e-15), "in metres"),
         relative_error("approach", approach, metre, same, "in metres"),
@@ -204,8 +194,7 @@ def amplitude_findings(amplitude: float) -> Findings:
     usual, other = pressed(height, LOAD), pressed(height * factor, LOAD * factor, pitch)
     length = other.contact_length / usual.contact_length
     scaled = other.pressure / (factor / pitch)
-    return findings(
-        other,
+    return other.findings(
         deviation(scaled, usual.pressure, "pressure", SAME, "amplitude 1"),
         relative_error("contact length", length, pitch, 1e-7, "amplitude 1"),
     )

@@ -73,13 +73,6 @@ def line_pressure() -> tuple[np.ndarray, np.ndarray]:
     return x / 32.0, 1.0 + 0.5 * np.cos(1.7 * x)
 
 
-def summed_exactly(x: float, z: float) -> np.ndarray:
-    """(4,) of that line, hat by hat in a hundred digits; the nodes are whole 32nds."""
-    nodes, pressure = line_pressure()
-    parts = np.array([hat_parts(float(32.0 * (x - n)), 32.0 * z) for n in nodes])
-    return pressure @ parts
-
-
 def line_findings(z: float) -> Findings:
     """A line of hats at one depth: sums keep 1e-13 of the largest component there."""
     nodes, pressure = line_pressure()
@@ -87,7 +80,9 @@ def line_findings(z: float) -> Findings:
     stress = stress_at(nodes, pressure, 0.0, x, z)
     slid = stress_at(nodes, pressure, 1.0, x, z)
     found = np.column_stack([stress.sx, stress.sz, stress.txz, slid.sx - stress.sx])
-    exact = np.array([summed_exactly(float(each), z) for each in x])
+    # hat by hat in a hundred digits; the nodes are whole 32nds
+    parts = [[hat_parts(32.0 * float(each - n), 32.0 * z) for n in nodes] for each in x]
+    exact = np.array([pressure @ np.array(each) for each in parts])
     scale = np.abs(exact).max(axis=1, keepdims=True)
     error = float((np.abs(found - exact) / scale).max())
     reference = "a hundred digits, of the largest component"

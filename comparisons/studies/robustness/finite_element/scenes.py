@@ -5,6 +5,7 @@ for layers and coatings the analytic layer's contact on the same hats, which kno
 locking (and is held to its own references by the half-plane's rows).
 """
 
+from collections.abc import Callable
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import Any
@@ -188,60 +189,51 @@ def with_body(**fields: object) -> Tables:
     return {**ORDINARY, "body": {**STEEL, **fields}}
 
 
+def with_roller(times_as_stiff: float) -> Tables:
+    modulus = times_as_stiff * STEEL["youngs_modulus"]
+    roller = {"radius": RIGID["radius"], "youngs_modulus": modulus, "poissons_ratio": 0.2}
+    return {**ORDINARY, "roller": roller}
+
+
 def cases() -> list[CheckedCase]:
     """The cases of this module."""
-    elastic = {"radius": 8e-3, "poissons_ratio": 0.2}
     half_width = problem_from(ORDINARY).hertz.half_width
-    materials = {"ordinary: rigid on steel": partial(hertz_findings, ORDINARY)}
-    for ratio in (1e6, 1e-6):
-        roller = {**elastic, "youngs_modulus": ratio * 207e9}
-        tables = {**ORDINARY, "roller": roller}
-        materials[f"roller {ratio:g} times as stiff"] = partial(hertz_findings, tables)
-    for nu in (0.0, 0.49, 0.4999):
-        tables = with_body(poissons_ratio=nu)
-        materials[f"Poisson's ratio {nu:g}"] = partial(hertz_findings, tables)
     nearly_incompressible = {**with_body(poissons_ratio=0.4999), **CUBIC}
     held_close_by = {**ORDINARY, "finite_element": {"far_field": "half-plane"}}
-    materials |= {
-        "Poisson's ratio 0.4999, cubic": partial(hertz_findings, nearly_incompressible, CUBIC_PEAK),
-        "held like a half-plane close by": partial(hertz_findings, held_close_by),
-        "stresses": partial(shear_findings, ORDINARY),
-        "stresses, Poisson's ratio 0.4999, cubic": partial(shear_findings, nearly_incompressible),
+
+    def layer(a_over_t: float, high: float, **fields: object) -> Callable[[], Findings]:
+        return partial(layer_findings, with_body(thickness=half_width / a_over_t, **fields), high)
+
+    def coated(times_as_stiff: float, part: float, refinement: int = 0) -> Callable[[], Findings]:
+        modulus = times_as_stiff * STEEL["youngs_modulus"]
+        coating = {
+            "thickness": half_width / part,
+            "youngs_modulus": modulus,
+            "poissons_ratio": 0.25,
+        }
+        return partial(layer_findings, {**ORDINARY, "coating": coating}, refinement=refinement)
+
+    thin_cubic = {**with_body(thickness=half_width / 10.0, poissons_ratio=0.4999), **CUBIC}
+    materials = {
+        "ordinary: rigid on steel": ORDINARY,
+        "roller 1e+06 times as stiff": with_roller(1e6),
+        "roller 1e-06 times as stiff": with_roller(1e-6),
+        "Poisson's ratio 0": with_body(poissons_ratio=0.0),
+        "Poisson's ratio 0.49": with_body(poissons_ratio=0.49),
+        "Poisson's ratio 0.4999": with_body(poissons_ratio=0.4999),
+        "held like a half-plane close by": held_close_by,
     }
-    layers = {
-        f"a/t = {ratio:g}, {base}": partial(
-            layer_findings, with_body(thickness=half_width / ratio, base=base), high
-        )
-        for ratio, base, high in (
-            (1e-3, "bonded", THICK),
-            (0.1, "bonded", THICK),
-            (1.0, "bonded", THICK),
-            (10.0, "bonded", MEDIUM),
-            (100.0, "bonded", THIN),
-            (1.0, "frictionless", THICK),
-            (100.0, "frictionless", THIN),
-        )
-    }
-    nearly_incompressible = partial(with_body, poissons_ratio=0.4999)
-    layers["a/t = 1, bonded, nu = 0.4999"] = partial(
-        layer_findings, nearly_incompressible(thickness=half_width), LOCKING
-    )
-    layers["a/t = 10, bonded, nu = 0.4999, cubic"] = partial(
-        layer_findings, {**nearly_incompressible(thickness=half_width / 10.0), **CUBIC}, MEDIUM
-    )
-    coatings = {}
-    for ratio, part, refinement in (
-        (1e3, 10.0, 1),  # a stiff one concentrates the pressure: one level finer
-        (1e-3, 10.0, 0),
-        (1e-6, 0.5, 0),
-        (3.0, 50.0, 0),
-    ):
-        coating = {"thickness": half_width / part, "poissons_ratio": 0.25}
-        tables = {**ORDINARY, "coating": {**coating, "youngs_modulus": ratio * 207e9}}
-        name = f"coating a/{part:g} thick, {ratio:g} times as stiff"
-        coatings[name] = partial(layer_findings, tables, refinement=refinement)
     groups = {
-        "materials": materials,
+        "materials": {name: partial(hertz_findings, given) for name, given in materials.items()}
+        | {
+            "Poisson's ratio 0.4999, cubic": partial(
+                hertz_findings, nearly_incompressible, CUBIC_PEAK
+            ),
+            "stresses": partial(shear_findings, ORDINARY),
+            "stresses, Poisson's ratio 0.4999, cubic": partial(
+                shear_findings, nearly_incompressible
+            ),
+        },
         "friction": {
             f"friction {mu:g}, nu = {nu:g}": partial(sliding_findings, mu, nu)
             for mu, nu in ((0.5, 0.3), (1.0, 0.0), (1.0, 0.4999))
@@ -256,7 +248,23 @@ def cases() -> list[CheckedCase]:
             )
             for metre, pascal in ((1e-9, 1.0), (1e3, 1.0), (1.0, 1e-6), (2.0**-20, 2.0**10))
         },
-        "layer": layers,
-        "coating": coatings,
+        "layer": {
+            "a/t = 0.001, bonded": layer(1e-3, THICK),
+            "a/t = 0.1, bonded": layer(0.1, THICK),
+            "a/t = 1, bonded": layer(1.0, THICK),
+            "a/t = 10, bonded": layer(10.0, MEDIUM),
+            "a/t = 100, bonded": layer(100.0, THIN),
+            "a/t = 1, frictionless": layer(1.0, THICK, base="frictionless"),
+            "a/t = 100, frictionless": layer(100.0, THIN, base="frictionless"),
+            "a/t = 1, bonded, nu = 0.4999": layer(1.0, LOCKING, poissons_ratio=0.4999),
+            "a/t = 10, bonded, nu = 0.4999, cubic": partial(layer_findings, thin_cubic, MEDIUM),
+        },
+        "coating": {
+            # a stiff one concentrates the pressure: one level finer
+            "coating a/10 thick, 1000 times as stiff": coated(1e3, 10.0, refinement=1),
+            "coating a/10 thick, 0.001 times as stiff": coated(1e-3, 10.0),
+            "coating a/0.5 thick, 1e-06 times as stiff": coated(1e-6, 0.5),
+            "coating a/50 thick, 3 times as stiff": coated(3.0, 50.0),
+        },
     }
     return named_cases("finite_element", groups)

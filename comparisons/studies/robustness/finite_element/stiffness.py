@@ -35,47 +35,33 @@ STEEL = Material(207e9, 0.3)
 GIVEN_BACK = 1e-8  # error of a state that the elements represent, whatever the condition
 
 
-def solved_free(body: ElasticBody, right: np.ndarray) -> np.ndarray:
-    """Displacement (2n,) [m] under forces (2n,) [N/m]."""
-    return body.solve(right.reshape(-1, 2)).ravel()
-
-
 def factor_findings(make: Callable[[], ElasticBody]) -> Findings:
     """Random forces, and the forces of a hat: residual against rounding, and the condition."""
     body = make()
     matrix = csr_matrix(body.stiffness())
-    rng = np.random.default_rng(5)
-    forces = rng.standard_normal(body.nodes.shape)
-    load = np.zeros(body.nodes.shape)
-    x = body.surface.x
+    shape, x = body.nodes.shape, body.surface.x
     hats = np.linspace(0.25 * x[0], 0.25 * x[-1], 7)
-    load[body.surface.point] = hat_forces(body.surface, hats)[:, 2].toarray().reshape(-1, 2)
-    ratios = {
-        "random forces": np.where(body.held, 0.0, forces).ravel(),
-        "one hat": np.where(body.held, 0.0, load).ravel(),
-    }
-    figures = [
-        BoundedFigure(
-            f"backward error, {name}",
-            backward_ratio(matrix, solved_free(body, right), right),
-            THRESHOLD,
-            "LAPACK's test ratio",
+    one_hat = np.zeros(shape)
+    one_hat[body.surface.point] = hat_forces(body.surface, hats)[:, 2].toarray().reshape(-1, 2)
+    loads = {"random forces": np.random.default_rng(5).standard_normal(shape), "one hat": one_hat}
+    figures = []
+    for name, load in loads.items():
+        load[body.held] = 0.0
+        ratio = backward_ratio(matrix, body.solve(load).ravel(), load.ravel())
+        figures.append(
+            BoundedFigure(f"backward error, {name}", ratio, THRESHOLD, "LAPACK's test ratio")
         )
-        for name, right in ratios.items()
-    ]
-    held = body.held.ravel()
     # held rows are the identity's, whose scale is none of the body's
-    free = np.flatnonzero(~held)
+    free = np.flatnonzero(~body.held)
 
     def inverse(right: np.ndarray) -> np.ndarray:
-        whole = np.zeros(len(held))
-        whole[free] = np.ravel(right)
-        return solved_free(body, whole)[free]
+        load = np.zeros(shape)
+        load.flat[free] = np.ravel(right)
+        return body.solve(load).ravel()[free]
 
     condition = condition_estimate(matrix[free][:, free], inverse)
-    symmetry = abs(matrix - matrix.T).max() / abs(matrix).max()
-    figures.append(BoundedFigure("asymmetry", float(symmetry), 1e-14, "none"))
-    return Findings(tuple(figures), condition=condition)
+    asymmetry = float(abs(matrix - matrix.T).max() / abs(matrix).max())
+    return Findings((*figures, BoundedFigure("asymmetry", asymmetry, 1e-14, "none")), condition)
 
 
 def even_findings(make: Callable[[], ElasticBody]) -> Findings:

@@ -6,6 +6,7 @@ from xml.etree import ElementTree
 
 import pytest
 
+from comparisons.assessment.uncertainty import Convergence, Uncertainty
 from comparisons.common.errors import ExitStatus
 from comparisons.studies.checks import CheckedCase, CheckedRow, junit_xml
 from comparisons.studies.verify.coverage import (
@@ -22,6 +23,7 @@ from comparisons.studies.verify.table import coverage_line, verify_page
 
 def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
     exact = 2.0
+    convergence = Convergence(exact, exact, 0.0, 1.0, "monotone")
     given = {
         "case": "case <&>",
         "source": "source",
@@ -30,10 +32,8 @@ def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
         "quantity": "contact_length",
         "levels": (1.9, 1.95, exact * (1.0 + error)),
         "exact": exact,
-        "uncertainty": (0.0, stated, 0.0),
+        "uncertainty": Uncertainty(0.0, stated, 0.0, convergence),
         "scale": exact,
-        "behaviour": "monotone",
-        "order": 1.0,
         "converged": True,
     }
     return Pair(**(given | others))
@@ -52,8 +52,8 @@ def test_an_error_within_the_uncertainty_is_covered():
     assert pair(1e-3, 1.001e-3).covered and not pair(1e-3, 0.999e-3).covered
     assert not pair(-1e-3, 0.999e-3).covered
     assert pair(-1e-3, 2e-3).overestimation == pytest.approx(2.0)
-    parts = pair(-1e-3, uncertainty=(1e-3, 2e-3, 4e-3))
-    assert parts.overestimation == pytest.approx(7.0)
+    given = replace(pair().uncertainty, iteration=1e-3, discretisation=2e-3, domain=4e-3)
+    assert pair(-1e-3, uncertainty=given).overestimation == pytest.approx(7.0)
 
 
 def test_an_error_of_rounding_is_not_informative():

@@ -112,14 +112,12 @@ class TestWhole:
         assert "http" not in page and page.count("<tr>") > len(found.pairs)
         assert sorted(p.name for p in (folder / "out").iterdir()) == ["verify.html", "verify.json"]
 
-    def test_junit_has_a_testcase_for_each_figure(self, quick):
+    def test_junit_names_each_figure_once(self, quick):
         found, folder = quick
         [suite] = ElementTree.parse(folder / "ci" / "verify.xml").getroot()
-        cases = suite.findall("testcase")
-        assert len(cases) == sum(len(row.findings.figures) for row in found.rows)
-        assert len({(c.get("classname"), c.get("name")) for c in cases}) == len(cases)
-        assert suite.get("tests") == str(len(cases)) and suite.get("failures") == "0"
-        assert all("relative error" in c.find("system-out").text for c in cases[: len(found.pairs)])
+        names = {(case.get("classname"), case.get("name")) for case in suite}
+        assert len(names) == len(suite) == sum(len(row.findings.figures) for row in found.rows)
+        assert all("relative error" in c.find("system-out").text for c in suite[: len(found.pairs)])
 
     def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):
         monkeypatch.setattr(uncertainty, "FACTOR", 0.0)
