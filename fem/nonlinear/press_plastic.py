@@ -188,7 +188,7 @@ class PlasticContact:
 
 
 def press_plastically(
-    pressed: FiniteElementCompliance,
+    compliance: FiniteElementCompliance,
     metal: ElasticPlastic,
     gap: np.ndarray,
     weights: np.ndarray,
@@ -200,20 +200,20 @@ def press_plastically(
 ) -> tuple[PlasticBody, tuple[PlasticContact, ...]]:
     """The body at the end, and the contact under each of the loads in turn.
 
-    pressed     the body on the hats; its material is the metal's elastic one
+    compliance  the body on the hats; its material is the metal's elastic one
     gap         G (count,) [m^2], integral of hat times initial gap
     weights     w (count,) [m], integrals of the hats
     loads       P [N/m], the first positive; 0 removes the roller
     guess       pressure (count,) [Pa] of the elastic body under the first load
     friction    of the traction friction * pressure, towards +x on the body
-    roller      the elastic roller's body on the same hats, may be `pressed`; None: rigid
+    roller      the elastic roller's body on the same hats, may be `compliance`; None: rigid
 
     Raises ValueError for negative loads, FemError if a load cannot be reached.
     """
     if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
         raise ValueError("the first load must be positive, and none negative")
-    body = PlasticBody(pressed.body, metal)
-    bodies: list[tuple[Response, Contact]] = [(body, _contact(pressed, friction))]
+    body = PlasticBody(compliance.body, metal)
+    bodies: list[tuple[Response, Contact]] = [(body, _contact(compliance, friction))]
     if roller is not None:
         # its z points away from the body; on it the traction acts towards -x
         bodies.append((LinearResponse(roller.body), _contact(roller, -friction)))

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import PROJECT
 
 from meshes import build
 from meshes.block import BlockSpec, MeshError
 
-ROOT = Path(__file__).resolve().parents[2]
 SPEC = BlockSpec(20.0, 40.0, np.array([[-1.0, 1.0]]), 0.1)
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 
@@ -154,7 +154,7 @@ def test_no_orphan_is_left_however_the_caller_ends(how):
             "from meshes.build import build_block\n"
             "build_block(BlockSpec(2e5, 4e5, np.array([[-9e4, 9e4]]), 1.0, 0.05))\n",
         ],
-        cwd=ROOT,
+        cwd=PROJECT,
         stderr=subprocess.DEVNULL,
     )
     try:

@@ -257,7 +257,7 @@ def test_unknown_supports_are_refused():
         Support("bonded", "loose")
 
 
-def test_roughness_that_turns_elements_over_is_refused(structured_block):
+def test_roughness_that_inverts_elements_is_refused(structured_block):
     line = np.linspace(-1, 1, 9)
     mesh = structured_block(line, np.linspace(0, 0.1, 3), lambda x: -0.2 * np.cos(9 * x))
     with pytest.raises(FemError, match=r"\d+ elements of the mesh are inverted"):

@@ -27,7 +27,7 @@ from meshes.real_shape import bent, sagitta
 MATERIAL = Material(1.0, 0.3)
 EDGES = 40  # a half-width
 HALF_WIDTH, DEPTH = 0.7, 0.6  # of the radius
-GROUND = np.array([[-1.2, 1.2]])  # refined, in half-widths
+REFINED = np.array([[-1.2, 1.2]])  # in half-widths
 
 
 class TestSector:
@@ -81,14 +81,14 @@ class TestSector:
 @cache
 def half_plane(edge: float):
     """So large a block that it stands for one, refined as the disc is."""
-    block = build_block(BlockSpec(4000.0, 4000.0, GROUND, edge))
+    block = build_block(BlockSpec(4000.0, 4000.0, REFINED, edge))
     return elastic_body(block, MATERIAL, Support(sides="fixed"))
 
 
 @cache
 def disc(radius: float, edge: float):
     """Its sector, free to the sides."""
-    flat = build_block(BlockSpec(HALF_WIDTH * radius, DEPTH * radius, GROUND, edge))
+    flat = build_block(BlockSpec(HALF_WIDTH * radius, DEPTH * radius, REFINED, edge))
     return elastic_body(bent(flat, radius), MATERIAL, Support())
 
 

@@ -7,11 +7,10 @@ Requirement: place and pressures of the contact of a sliding cylinder are the ex
 import json
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
-from scenes import hat_nodes
+from scenes import DATA, hat_nodes
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_coupled_model
@@ -28,8 +27,7 @@ from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
 
-DATA = Path(__file__).parents[2] / "data/f_rounded_punch_and_sliding.json"
-TABLE = json.loads(DATA.read_text())["sliding_cylinder"]
+TABLE = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["sliding_cylinder"]
 STEEL, SOFT, CORK = Material(1.0, 0.3), Material(1.0, 0.49), Material(1.0, 0.0)
 LOAD = 0.5 * np.pi  # with a radius of E*/2: half-width and peak pressure 1 without friction
 EDGES = 20

@@ -34,7 +34,7 @@ def test_pressure_and_approach_are_the_dense_ones(
     assert grid.weights @ found.pressure == pytest.approx(load, rel=1e-10)
 
 
-def test_both_roads_agree(grid, block, solve):
+def test_both_solvers_agree(grid, block, solve):
     """The project's own operator and solver, on the same mesh."""
     model = HalfPlane(grid.count, grid.pitch, block.material.plane_strain_modulus)
     own = solve_with_model(

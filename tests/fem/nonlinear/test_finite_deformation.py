@@ -1,4 +1,4 @@
-"""A body pressed with nothing linearised: Newton's convergence, the linear limit, what it leaves.
+"""A body pressed without linearisation: Newton's convergence, the linear limit, finite effects.
 
 Lengths in half-widths of the contact that Hertz expects, stresses in Young's moduli.
 """
@@ -67,7 +67,7 @@ def pressed(body, curvature, roller=None, **wanted):
 
 
 def test_newton_converges_quadratically(body):
-    """Once the hats' sides stay: each residual is about the square of the one before."""
+    """Once the hats' states stay: each residual is about the square of the one before."""
     _, found = pressed(body, 0.2)
     history = np.array(found.solution.residuals[-1])
     late = np.log10(history[(history < 0.5) & (history > 1e-11)])  # below is round-off
@@ -244,7 +244,7 @@ def test_pressure_is_capped_at_the_hardness(body):
     assert found.solution.state.load == pytest.approx(EDGE * found.pressure.sum(), rel=1e-9)
 
 
-def test_a_load_that_turns_elements_over_is_an_error(body, monkeypatch):
+def test_a_load_that_inverts_elements_is_an_error(body, monkeypatch):
     monkeypatch.setattr(nonlinear_contact, "LEAST_INCREMENT", 0.4)
     with pytest.raises(FemError, match="did not converge beyond"):
         press_finitely(body, HATS, parabola(np.inf), HERTZ, load=50.0)

@@ -170,7 +170,7 @@ def test_a_material_of_each_triangle(structured_block):
         nodal_cauchy_stress(body, at, None, np.zeros(3))
 
 
-def test_elements_that_are_turned_over_are_refused(body, response):
+def test_inverted_elements_are_refused(body, response):
     with pytest.raises(FemError, match="inverted"):
         response.linearised(deformed_by(body, [[-1.5, 0.0], [0.0, 0.0]]))
 

@@ -55,7 +55,7 @@ def test_convergence_is_quadratic(pressed, hardening):
 
 
 def test_one_answer_from_any_start(pressed):
-    """Far beyond first flow in one step, from hats that are all pressed and from a single one."""
+    """Far beyond first yield in one step, from hats that are all pressed and from a single one."""
     found = []
     for guess in (np.ones(len(X)), 1.0 * (np.abs(X) < 0.5 * PITCH)):
         body, bodies = problem(pressed, 0.0)

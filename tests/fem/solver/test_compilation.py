@@ -8,17 +8,16 @@ import time
 from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
 from fem.solver.compilation import STALE_SECONDS, compiled, remove_leftovers, uninterrupted
 
-PROJECT = Path(__file__).resolve().parents[3]
 SCRIPT = """
 import sys
 import numpy as np
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
-from meshes.block import BlockMesh, BlockSpec
-from meshes.block import add_midpoints
+from meshes.block import BlockMesh, BlockSpec, add_midpoints
 
 vertices = np.array([[-1.0, 0.0], [0.0, 0.0], [1.0, 0.0], [-1.0, 1.0], [0.0, 1.0], [1.0, 1.0]])
 corners = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
@@ -31,12 +30,24 @@ for shift in (0.0 * points, 0.1 * (1.0 - points[:, 1:]) * [0.0, 1.0]):
 """
 
 
-def run(cache, poissons_ratio=0.3):
+def start(cache, poissons_ratio=0.3) -> subprocess.Popen:
     environment = os.environ | {"XDG_CACHE_HOME": str(cache), "PYTHONPATH": str(PROJECT)}
-    command = [sys.executable, "-c", SCRIPT, str(poissons_ratio)]
-    done = subprocess.run(command, env=environment, cwd=PROJECT, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout + done.stderr
+    return subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(poissons_ratio)],
+        env=environment,
+        cwd=PROJECT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def run(cache, poissons_ratio=0.3):
+    process = start(cache, poissons_ratio)
+    output, complaint = process.communicate()
+    assert process.returncode == 0, complaint
+    return output + complaint
 
 
 def test_a_cold_compile_is_silent_and_serves_later_processes(tmp_path):
@@ -46,18 +57,6 @@ def test_a_cold_compile_is_silent_and_serves_later_processes(tmp_path):
     assert compiled
     assert run(tmp_path, 0.25) == ""
     assert {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*.so")} == compiled
-
-
-def start(cache) -> subprocess.Popen:
-    environment = os.environ | {"XDG_CACHE_HOME": str(cache), "PYTHONPATH": str(PROJECT)}
-    return subprocess.Popen(
-        [sys.executable, "-c", SCRIPT, "0.3"],
-        env=environment,
-        cwd=PROJECT,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
 
 
 def unmarked(cache) -> list[Path]:

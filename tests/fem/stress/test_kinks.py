@@ -1,19 +1,17 @@
 """The field of a kink: against 30-digit values of hats, Hooke's law, turned surfaces, weights."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from blocks import hooke
+from scenes import DATA
 
 from analytic.material import Material
 from fem.stress import kinks as module
 from fem.stress.kinks import REACH, Kinks, Weights
 
-POINTS = json.loads(
-    (Path(__file__).parents[2] / "data" / "hat_stress.json").read_text(encoding="utf-8")
-)["points"]
+POINTS = json.loads((DATA / "hat_stress.json").read_text(encoding="utf-8"))["points"]
 MATERIAL = Material(3.0, 0.3)
 
 
