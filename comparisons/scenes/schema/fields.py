@@ -6,11 +6,11 @@ allowed is …", and `allowed()`, which is the last part alone, for a missing fi
 
 import operator
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Annotated, get_args
+from typing import Annotated, Self, get_args
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import core_schema
 
@@ -257,15 +257,25 @@ class SceneSection(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    def one_of(self, names: Sequence[str], joint: str, or_none: bool = False) -> None:
-        """Raise FieldError unless exactly one of these fields is given, or none with `or_none`."""
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        """Rules between fields that do not hold: the field to change, and what is wrong with it."""
+        yield from ()
+
+    @model_validator(mode="after")
+    def _hold_to_rules(self) -> Self:
+        for field, problem in self.broken_rules():
+            raise FieldError(field, problem)
+        return self
+
+    def unless_one_of(
+        self, names: Sequence[str], joint: str, or_none: bool = False
+    ) -> Iterator[tuple[str, str]]:
+        """A broken rule unless exactly one of these fields is given, or none with `or_none`."""
         given = [name for name in names if getattr(self, name) is not None]
         if len(given) > 1 or not (given or or_none):
-            raise FieldError(
-                given[1] if given else names[0],
-                f"is {f'given beside {given[0]}' if given else 'missing'}; "
-                f"allowed is exactly one of {joint.join(names)}",
-            )
+            how = f"given beside {given[0]}" if given else "missing"
+            field = given[1] if given else names[0]
+            yield field, f"is {how}; allowed is exactly one of {joint.join(names)}"
 
 
 def allowed(table: type[SceneSection], name: str) -> str:

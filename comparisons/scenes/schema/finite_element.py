@@ -1,12 +1,11 @@
 """The [finite_element] section: which of the half-plane's assumptions the finite elements keep."""
 
+from collections.abc import Iterator
 from typing import Annotated
-
-from pydantic import model_validator
 
 from comparisons.common.units import DIMENSIONLESS
 from comparisons.scenes.scene import FiniteElementSettings
-from comparisons.scenes.schema.fields import FieldError, Number, OneOf, SceneSection, Truth
+from comparisons.scenes.schema.fields import Number, OneOf, SceneSection, Truth
 
 HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses is below 0.3 %
 # Poisson's ratio beyond which cubic elements are the default: at 0.4999 quadratic ones leave
@@ -36,20 +35,16 @@ class FiniteElementSection(SceneSection):
     block: Annotated[float, Number(DIMENSIONLESS, at_least=10.0, at_most=5000.0)] | None = None
     growth: Annotated[float, Number(DIMENSIONLESS, at_least=0.05, at_most=0.5)] = 0.2
 
-    @model_validator(mode="after")
-    def _nonlinear_bodies_have_what_they_take(self) -> "FiniteElementSection":
-        nonlinear = "finite_element.deformation" if self.deformation == "finite" else "plastic"
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.deformation == "finite" and self.plastic:
-            raise FieldError(
+            yield (
                 "plastic",
                 'is true beside deformation = "finite"; allowed is either, plastic flow is of '
                 "small deformation",
             )
         if self.nonlinear and self.element not in (None, "P2"):
-            raise FieldError(
-                "element", f'is "{self.element}" with {nonlinear}; allowed there is "P2"'
-            )
-        return self
+            cause = "finite_element.deformation" if self.deformation == "finite" else "plastic"
+            yield "element", f'is "{self.element}" with {cause}; allowed there is "P2"'
 
     @property
     def nonlinear(self) -> bool:
@@ -70,109 +65,89 @@ class FiniteElementSection(SceneSection):
             found["block"] = HELD_BLOCK if self.far_field == "held" else HALF_PLANE_BLOCK
         return found
 
-    def check(
+    def conflicts(
         self,
         roller: SceneSection,
         body: SceneSection,
         load: SceneSection,
         profile: SceneSection | None,
         coating: SceneSection | None,
-    ) -> None:
-        """Raise FieldError unless the rest of the scene fits what this section asks for."""
+    ) -> Iterator[tuple[str, str]]:
+        """Fields of this section that do not fit the rest of the scene, and what is wrong."""
         unbounded = body.thickness is None and body.width is None
         coated, finite = coating is not None, self.deformation == "finite"
         coupled = load.coupled if self.coupled is None else self.coupled
         frictions = len(load.friction)
-        rules = [
-            (
-                self.geometry == "rough" and profile is None,
-                "geometry",
-                'is "rough" for a smooth body; allowed with [profile]',
-            ),
-            (
-                self.nonlinear and self.far_field == "half-plane",
-                "far_field",
-                'is "half-plane" for a body that is not linear; allowed is "held"',
-            ),
-            (
-                self.nonlinear and frictions != 1,
+        if self.geometry == "rough" and profile is None:
+            yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
+        if self.nonlinear and self.far_field == "half-plane":
+            yield "far_field", 'is "half-plane" for a body that is not linear; allowed is "held"'
+        if self.nonlinear and frictions != 1:
+            yield (
                 "plastic" if self.plastic else "deformation",
                 f"wants one friction coefficient, not {frictions}: each has pressures of "
                 "its own; allowed is load.friction = one number",
-            ),
-            (
-                finite and body.hardness is not None,
+            )
+        if finite and body.hardness is not None:
+            yield (
                 "deformation",
                 'is "finite" for a body with a hardness, a cap on small deformation; '
                 "allowed without body.hardness",
-            ),
-            (
-                self.roller_body == "disc" and roller.rigid,
+            )
+        if self.roller_body == "disc" and roller.rigid:
+            yield (
                 "roller_body",
                 'is "disc", but the roller is rigid; allowed with an elastic roller',
-            ),
-            (
-                self.far_field == "half-plane" and not unbounded,
+            )
+        if self.far_field == "half-plane" and not unbounded:
+            yield (
                 "far_field",
                 'is "half-plane", but the body has a thickness or a width; allowed is "held"',
-            ),
-            (
-                self.far_field == "half-plane" and coated,
-                "far_field",
-                'is "half-plane", but the body has a coating; allowed is "held"',
-            ),
-            (
-                self.plastic and body.yield_stress is None,
+            )
+        if self.far_field == "half-plane" and coated:
+            yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
+        if self.plastic and body.yield_stress is None:
+            yield (
                 "plastic",
                 "is true, but the body has no yield stress; allowed with body.yield_stress",
-            ),
-            (
-                bool(self.coupled) and frictions != 1,
-                "coupled",
-                SEVERAL_FRICTIONS.format(frictions),
-            ),
-            (
-                finite and not roller.rigid,
+            )
+        if self.coupled and frictions != 1:
+            yield "coupled", SEVERAL_FRICTIONS.format(frictions)
+        if finite and not roller.rigid:
+            yield (
                 "deformation",
                 'is "finite" with an elastic roller; allowed with roller.rigid = true',
-            ),
-            (
-                finite and coated,
-                "deformation",
-                'is "finite" for a coated body; allowed without [coating]',
-            ),
-            (
-                finite and profile is not None and self.geometry == "flat",
+            )
+        if finite and coated:
+            yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
+        if finite and profile is not None and self.geometry == "flat":
+            yield (
                 "geometry",
                 'is "flat" at finite deformation, which takes a rough boundary; allowed is "rough"',
-            ),
-            (
-                finite and max(load.friction) > 0.0 and not coupled,
+            )
+        if finite and max(load.friction) > 0.0 and not coupled:
+            yield (
                 "coupled",
                 "is false at finite deformation, where the sliding traction moves the surface; "
                 "allowed is true",
-            ),
-            (
-                body.yield_stress is not None and not self.plastic,
+            )
+        if body.yield_stress is not None and not self.plastic:
+            yield (
                 "plastic",
                 "is false, but the body has a yield stress; allowed is true, or no "
                 "body.yield_stress",
-            ),
-            (
-                self.plastic and load.kind == "approach",
+            )
+        if self.plastic and load.kind == "approach":
+            yield (
                 "plastic",
                 "is true with load.approach; allowed with per_length or hertz_peak_pressure",
-            ),
-            (
-                self.plastic and max(load.friction) > 0.0 and not coupled,
+            )
+        if self.plastic and max(load.friction) > 0.0 and not coupled:
+            yield (
                 "coupled",
                 "is false for a body that yields, in which stresses of pressure and sliding "
                 "traction do not add up; allowed is true",
-            ),
-        ]
-        for broken, field, message in rules:
-            if broken:
-                raise FieldError(f"finite_element.{field}", message)
+            )
 
 
 def settings_of(

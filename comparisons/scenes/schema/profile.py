@@ -1,6 +1,6 @@
 """The [profile] section: a measured profile or a made one, each variety with fields of its own."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -10,7 +10,6 @@ from analytic.profile import MAX_SAMPLES
 from analytic.surface.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
 from comparisons.common.units import DIMENSIONLESS, LENGTH, describe
 from comparisons.scenes.schema.fields import (
-    FieldError,
     FieldType,
     Length,
     Number,
@@ -131,31 +130,27 @@ class ProfileSection(SceneSection):
         variety = VARIETIES.get(kind) if isinstance(kind, str) else None
         return {**variety.defaults, **given} if variety else given
 
-    @model_validator(mode="after")
-    def _one_variety(self) -> "ProfileSection":
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.file is not None and self.kind is not None:
-            raise FieldError("kind", "is given beside file; allowed is one of the two")
+            yield "kind", "is given beside file; allowed is one of the two"
         if self.file is None and self.kind is None:
-            raise FieldError("file", "is missing; allowed is file (measured) or kind (made)")
+            yield "file", "is missing; allowed is file (measured) or kind (made)"
         variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
-                raise FieldError(
+                others = [*sorted(variety.fields() - {"kind", "file", *FILTER}), *FILTER]
+                yield (
                     name,
-                    f"does not belong to {variety.title}; allowed there are "
-                    + ", ".join([*sorted(variety.fields() - {"kind", "file", *FILTER}), *FILTER]),
+                    f"does not belong to {variety.title}; allowed there are {', '.join(others)}",
                 )
         for name in variety.needed:
             if getattr(self, name) is None:
-                raise FieldError(
-                    name,
-                    f"is missing; allowed is {allowed(ProfileSection, name)} ({variety.title})",
-                )
+                words = allowed(ProfileSection, name)
+                yield name, f"is missing; allowed is {words} ({variety.title})"
         for names in variety.one_of:
-            self.one_of(names, " and ")
+            yield from self.unless_one_of(names, " and ")
         for names in variety.at_most_one_of:
-            self.one_of(names, " and ", or_none=True)
-        return self
+            yield from self.unless_one_of(names, " and ", or_none=True)
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
 """The [running_in] section: how a surface is run in before both models press it."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 import numpy as np
-from pydantic import model_validator
 
 from analytic.profile import Profile
 from analytic.running_in import SWEEPS
@@ -11,7 +11,6 @@ from comparisons.common.errors import SceneError
 from comparisons.common.units import LENGTH, LOAD, PRESSURE
 from comparisons.scenes.scene import RunningIn
 from comparisons.scenes.schema.fields import (
-    FieldError,
     Length,
     Number,
     SceneSection,
@@ -33,29 +32,27 @@ class RunningInSection(SceneSection):
     passes: Annotated[int, Whole(2, MOST_PASSES)] | None = None
     sweeps: Annotated[int, Whole(1, MOST_PASSES)] = SWEEPS
 
-    @model_validator(mode="after")
-    def _one_way_to_give_the_positions(self) -> "RunningInSection":
-        self.one_of(("positions", "stroke"), " and ")
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from self.unless_one_of(("positions", "stroke"), " and ")
         if self.positions is not None and self.passes is not None:
-            raise FieldError(
+            yield (
                 "passes",
                 "is given beside positions, which are one pass each; allowed with stroke",
             )
-        return self
 
-    def check(self, profile: SceneSection | None, hardness: float | None, load_kind: str) -> None:
-        """Raise FieldError unless the rest of the scene gives what this section leaves out."""
+    def missing(
+        self, profile: SceneSection | None, hardness: float | None, load_kind: str
+    ) -> Iterator[tuple[str, str]]:
+        """What neither this section nor the rest of the scene gives."""
         if profile is None:
-            raise FieldError(
-                "running_in", "is given for a smooth surface; allowed only with [profile]"
-            )
+            yield "running_in", "is given for a smooth surface; allowed only with [profile]"
         if self.hardness is None and hardness is None:
-            raise FieldError(
+            yield (
                 "running_in.hardness",
                 "is missing; allowed is a pressure above 0, here or as body.hardness",
             )
         if self.load is None and load_kind == "approach":
-            raise FieldError(
+            yield (
                 "running_in.load",
                 "is missing; allowed is a load per length above 0, which load.approach is not",
             )

@@ -1,13 +1,12 @@
 """A scene file as tables: which sections and fields there are, and what must hold between them.
 
-Every validator here is a rule between fields, and raises FieldError so that the message can name
-the field that is to be changed. What is wrong is one line: "file: section.field: problem; allowed
-is …".
+What is wrong is one line: "file: section.field: problem; allowed is …".
 """
 
+from collections.abc import Iterator
 from typing import Annotated, ClassVar
 
-from pydantic import ValidationError, model_validator
+from pydantic import ValidationError
 
 from comparisons.common.errors import SceneError, nearest
 from comparisons.common.quantities import QUANTITIES
@@ -45,20 +44,19 @@ class RollerSection(SceneSection):
     youngs_modulus: Pressure | None = None
     poissons_ratio: PoissonsRatio | None = None
 
-    @model_validator(mode="after")
-    def _elastic_or_rigid(self) -> "RollerSection":
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:
-                raise FieldError(
-                    name, "is given beside rigid = true; allowed is either, a rigid roller has none"
+                yield (
+                    name,
+                    "is given beside rigid = true; allowed is either, a rigid roller has none",
                 )
             if not self.rigid and not given:
-                raise FieldError(
+                yield (
                     name,
                     "is missing; allowed is youngs_modulus with poissons_ratio, or rigid = true",
                 )
-        return self
 
 
 class BodySection(SceneSection):
@@ -71,22 +69,17 @@ class BodySection(SceneSection):
     width: Length | None = None
     base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
 
-    @model_validator(mode="after")
-    def _base_of_a_layer(self) -> "BodySection":
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.base is not None and self.thickness is None:
-            raise FieldError(
-                "base", "is given for a half-plane, which has none; allowed only with thickness"
+            yield (
+                "base",
+                "is given for a half-plane, which has none; allowed only with thickness",
             )
-        return self
-
-    @model_validator(mode="after")
-    def _hardening_of_what_yields(self) -> "BodySection":
         if self.hardening_modulus is not None and self.yield_stress is None:
-            raise FieldError(
+            yield (
                 "hardening_modulus",
                 "is given for a body that does not yield; allowed only with yield_stress",
             )
-        return self
 
 
 class CoatingSection(SceneSection):
@@ -110,16 +103,10 @@ class LoadSection(SceneSection):
         """The one load that is given."""
         return next(name for name in self.KINDS if getattr(self, name) is not None)
 
-    @model_validator(mode="after")
-    def _one_load(self) -> "LoadSection":
-        self.one_of(self.KINDS, ", ")
-        return self
-
-    @model_validator(mode="after")
-    def _one_friction_where_it_moves_the_contact(self) -> "LoadSection":
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from self.unless_one_of(self.KINDS, ", ")
         if self.coupled and len(self.friction) != 1:
-            raise FieldError("coupled", SEVERAL_FRICTIONS.format(len(self.friction)))
-        return self
+            yield "coupled", SEVERAL_FRICTIONS.format(len(self.friction))
 
 
 class StressWindowSection(SceneSection):
@@ -167,74 +154,50 @@ class SceneFile(SceneSection):
     resolution: ResolutionSection = ResolutionSection()
     budget: BudgetSection = BudgetSection()
 
-    @model_validator(mode="after")
-    def _approach_has_a_datum(self) -> "SceneFile":
-        if self.load.approach is None:
-            return self
-        if self.body.thickness is None:
-            raise FieldError(
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        body, load, coating = self.body, self.load, self.coating
+        if load.approach is not None and body.thickness is None:
+            yield (
                 "load.approach",
                 "has no meaning on a half-plane, whose displacement has no datum; "
                 "allowed is per_length or hertz_peak_pressure, or approach with body.thickness",
             )
-        if not self.roller.rigid:
-            raise FieldError(
+        if load.approach is not None and not self.roller.rigid:
+            yield (
                 "load.approach",
                 "has no meaning for an elastic roller, whose displacement has no datum; allowed "
                 "is per_length or hertz_peak_pressure, or approach with roller.rigid = true",
             )
-        return self
-
-    @model_validator(mode="after")
-    def _running_in_has_what_it_takes(self) -> "SceneFile":
         if self.running_in is not None:
-            self.running_in.check(self.profile, self.body.hardness, self.load.kind)
-        return self
-
-    @model_validator(mode="after")
-    def _finite_elements_have_what_they_take(self) -> "SceneFile":
-        self.finite_element.check(self.roller, self.body, self.load, self.profile, self.coating)
-        return self
-
-    @model_validator(mode="after")
-    def _coating_is_on_something(self) -> "SceneFile":
-        if self.coating is None:
-            return self
-        thickness = self.body.thickness
-        if thickness is not None and self.coating.thickness >= thickness:
-            raise FieldError(
+            yield from self.running_in.missing(self.profile, body.hardness, load.kind)
+        for field, problem in self.finite_element.conflicts(
+            self.roller, body, load, self.profile, coating
+        ):
+            yield f"finite_element.{field}", problem
+        if coating and body.thickness is not None and coating.thickness >= body.thickness:
+            yield (
                 "coating.thickness",
-                f"is {self.coating.thickness:g} m on a body of {thickness:g} m; allowed is less, "
+                f"is {coating.thickness:g} m on a body of {body.thickness:g} m; allowed is less, "
                 "the body's thickness contains it",
             )
-        if self.finite_element.plastic:
-            raise FieldError(
+        if coating and self.finite_element.plastic:
+            yield (
                 "finite_element.plastic",
                 "is true for a coated body; allowed without [coating]",
             )
-        return self
-
-    @model_validator(mode="after")
-    def _friction_is_held(self) -> "SceneFile":
-        body = self.body
-        if body.base == "frictionless" and body.width is not None and max(self.load.friction) > 0.0:
-            raise FieldError(
+        if body.base == "frictionless" and body.width is not None and max(load.friction) > 0.0:
+            yield (
                 "load.friction",
-                f"is {max(self.load.friction):g} on a body of finite width on a frictionless base, "
+                f"is {max(load.friction):g} on a body of finite width on a frictionless base, "
                 'which nothing would hold; allowed is friction = 0, base = "bonded" or no width',
             )
-        return self
-
-    @model_validator(mode="after")
-    def _judged_stress_is_asked_for(self) -> "SceneFile":
         for name in _of_stress():
             if self.stress is None and name in self.tolerance.model_fields_set:
                 others = ", ".join(sorted(set(QUANTITIES) - set(_of_stress())))
-                raise FieldError(
+                yield (
                     f"tolerance.{name}",
                     f"needs a [stress] section; allowed is {others} without one",
                 )
-        return self
 
 
 SECTIONS: dict[str, type[SceneSection]] = {
