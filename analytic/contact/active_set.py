@@ -140,11 +140,11 @@ def exchange_blocks(
     fewest, patience = len(start) + 1, PATIENCE
     for _ in range(MAX_EXCHANGES):
         active = problem.with_a_free_node(active)
-        rest = problem.equilibrium(pressure, active, reduction)
-        pressure = rest.pressure
-        violated = problem.violations(rest, active)
+        state = problem.equilibrium(pressure, active, reduction)
+        pressure = state.pressure
+        violated = problem.violations(state, active)
         count = violated.count()
-        if count == 0 and rest.accurate:
+        if count == 0 and state.accurate:
             return pressure
         if settled and count <= settled * active.edges():
             return pressure
@@ -160,7 +160,7 @@ def exchange_blocks(
         if count == 0 or (not settled and count <= max(2, NEARLY * active.edges())):
             reduction = 0.0
         if count > 0 and problem.short_of_free_nodes(active):
-            active = problem.balanced(rest)
+            active = problem.balanced(state)
         else:
             moving = count > 2 and patience == PATIENCE
             active = active.exchanged(extrapolated(violated, active) if moving else violated)
@@ -186,20 +186,22 @@ def exchange_feasibly(
     weighted_gap = problem.weighted_gap + problem.apply(pressure)
     for _ in range(20 * len(start)):
         active = problem.with_a_free_node(active)
-        rest = problem.equilibrium(pressure, active, 0.0)
-        rest_gap = rest.weighted_gap + problem.approach * problem.weights
-        if np.all((rest.pressure >= 0.0) & (rest.pressure <= hardness)):
-            pressure, weighted_gap = rest.pressure, rest_gap
-            violated = problem.violations(rest, active)
+        state = problem.equilibrium(pressure, active, 0.0)
+        equilibrium_gap = state.weighted_gap + problem.approach * problem.weights
+        if np.all((state.pressure >= 0.0) & (state.pressure <= hardness)):
+            pressure, weighted_gap = state.pressure, equilibrium_gap
+            violated = problem.violations(state, active)
             if not (violated.joining.any() or violated.softening.any()):
                 return pressure
             active = ActiveSet(active.lower & ~violated.joining, active.upper & ~violated.softening)
             continue
-        step = rest.pressure - pressure
-        trial = problem.feasible(rest.pressure, active.free)
+        step = state.pressure - pressure
+        trial = problem.feasible(state.pressure, active.free)
         trial_gap = problem.weighted_gap + problem.apply(trial)
         gain = _energy_lost(pressure, weighted_gap, trial, trial_gap)
-        if gain < WORTHWHILE * _energy_lost(pressure, weighted_gap, rest.pressure, rest_gap):
+        if gain < WORTHWHILE * _energy_lost(
+            pressure, weighted_gap, state.pressure, equilibrium_gap
+        ):
             trial = _first_met(pressure, step, hardness, active.free)
             trial_gap = problem.weighted_gap + problem.apply(trial)
         down, up = active.free & (step < 0.0), active.free & (step > 0.0)

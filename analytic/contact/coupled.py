@@ -53,19 +53,19 @@ class CoupledEquilibrium(EquilibriumProblem):
 
         The error of the pressures falls to `reduction` of what it is at the start, or to TIGHT.
         """
-        rest = super().equilibrium(start, active, reduction)
+        state = super().equilibrium(start, active, reduction)
         if not self.by_load:
-            return rest
+            return state
         # GMRES has not applied C to its result: the approach is what that leaves on the average
         weights = self.weights[active.free]
-        left = float((weights @ rest.weighted_gap[active.free]) / (weights @ weights))
+        left = float((weights @ state.weighted_gap[active.free]) / (weights @ weights))
         self.approach += left
-        return replace(rest, weighted_gap=rest.weighted_gap - left * self.weights)
+        return replace(state, weighted_gap=state.weighted_gap - left * self.weights)
 
     def _iterate(
         self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
     ) -> tuple[np.ndarray, bool]:
-        """Bring the free nodes of `pressure` (n,) to rest by GMRES; Cp, and whether accurately."""
+        """Balance the free nodes of `pressure` (n,) by GMRES; Cp, and whether accurately."""
         weights, search = self.weights[nodes], self.search(nodes)
         if self.by_load:
             pressure[nodes] += (self.constraints.load - self.weights @ pressure) * search.lift
@@ -193,11 +193,11 @@ def _exchange(
     seen: set[tuple[bytes, bytes]] = set()
     for _ in range(MAX_EXCHANGES):
         active = problem.with_a_free_node(active)
-        rest = problem.equilibrium(pressure, active, reduction)
-        pressure = rest.pressure
-        violated = problem.violations(rest, active)
+        state = problem.equilibrium(pressure, active, reduction)
+        pressure = state.pressure
+        violated = problem.violations(state, active)
         count = violated.count()
-        if count == 0 and rest.accurate:
+        if count == 0 and state.accurate:
             return pressure, True
         if settled and count <= settled * active.edges():
             return pressure, True
@@ -205,7 +205,7 @@ def _exchange(
             reduction = 0.0
             continue
         short = problem.short_of_free_nodes(active)
-        active = problem.balanced(rest) if short else active.exchanged(violated)
+        active = problem.balanced(state) if short else active.exchanged(violated)
         key = np.packbits(active.lower).tobytes(), np.packbits(active.upper).tobytes()
         if key in seen:
             if reduction == 0.0:

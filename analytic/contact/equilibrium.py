@@ -271,7 +271,7 @@ class EquilibriumProblem:
         lower[node] = upper[node] = False
         return ActiveSet(lower, upper)
 
-    def balanced(self, rest: Equilibrium) -> ActiveSet:
+    def balanced(self, state: Equilibrium) -> ActiveSet:
         """The active set of the same load on independent springs.
 
         Where nearly all that touches is at the hardness, exchanges by signs would only move the
@@ -282,22 +282,22 @@ class EquilibriumProblem:
             one[len(one) // 2] = 1.0
             self._own_compliance = self.apply(one)[len(one) // 2]
         free = np.full(len(self.weighted_gap), True)
-        pressure = self.feasible(rest.pressure - rest.weighted_gap / self._own_compliance, free)
+        pressure = self.feasible(state.pressure - state.weighted_gap / self._own_compliance, free)
         return ActiveSet.of(pressure, self.constraints.hardness)
 
-    def violations(self, rest: Equilibrium, active: ActiveSet) -> Violations:
+    def violations(self, state: Equilibrium, active: ActiveSet) -> Violations:
         """Where sign conditions fail, pressures by more than SET_TOLERANCE of the largest."""
-        hardness, pressure = self.constraints.hardness, rest.pressure
+        hardness, pressure = self.constraints.hardness, state.pressure
         slack = SET_TOLERANCE * max(pressure.max(), -pressure.min())
         tensile = active.free & (pressure < -slack)
-        joining = active.lower & (rest.weighted_gap < -rest.overlap)
+        joining = active.lower & (state.weighted_gap < -state.overlap)
         if not np.isfinite(hardness):  # no node is at it
             return Violations(tensile, active.upper, joining, active.upper)
         return Violations(
             tensile=tensile,
             excessive=active.free & (pressure > hardness + slack),
             joining=joining,
-            softening=active.upper & (rest.weighted_gap > rest.overlap),
+            softening=active.upper & (state.weighted_gap > state.overlap),
         )
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
@@ -313,12 +313,12 @@ class EquilibriumProblem:
         if found is not None:
             pressure[nodes] = found
             self._applied = pressure, self.apply(pressure)
-            return self.at_rest(*self._applied, True)
+            return self.as_equilibrium(*self._applied, True)
         pressure[nodes] = start[nodes]
         weighted_displacement, accurate = self._iterate(nodes, pressure, reduction)
-        return self.at_rest(pressure, weighted_displacement, accurate)
+        return self.as_equilibrium(pressure, weighted_displacement, accurate)
 
-    def at_rest(
+    def as_equilibrium(
         self, pressure: np.ndarray, weighted_displacement: np.ndarray, accurate: bool
     ) -> Equilibrium:
         """The equilibrium of pressures (n,) [Pa] with their Cp (n,) [m^2] at the approach found."""
@@ -351,7 +351,7 @@ class EquilibriumProblem:
     def _iterate(
         self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
     ) -> tuple[np.ndarray, bool]:
-        """Bring the free nodes of `pressure` (n,) to rest; Cp (n,) [m^2], and whether accurately.
+        """Balance the free nodes of `pressure` (n,); Cp (n,) [m^2], and whether accurately.
 
         By conjugate gradients. With the load prescribed the search stays in w'p = P and the
         approach is the multiplier.

@@ -128,10 +128,7 @@ class CoupledHalfPlane(Convolution):
         super().__init__(even + odd, self._symbol, row=even - odd)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
-
-        None where there are so many that iterating is faster.
-        """
+        """As of `Convolution`, by elimination."""
         return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
 
     @made_once
@@ -172,10 +169,7 @@ class CoupledPair:
         return self.normal.precondition(weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
-
-        None where there are so many that iterating is faster, or no matrices to take them from.
-        """
+        """As of `Convolution`, by elimination; None where a part is no convolution."""
         normal, tangential = self.normal, self.tangential
         if not (isinstance(normal, Convolution) and isinstance(tangential, Convolution)):
             return None
@@ -228,10 +222,7 @@ class DenseCoupledCompliance(DenseMatrix):
         return self.normal.precondition(weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
-
-        None where hats finer than a body's elements leave a matrix of lower rank.
-        """
+        """As of `DenseCompliance`, by elimination."""
         with warnings.catch_warnings():
             warnings.simplefilter("error", LinAlgWarning)
             try:

@@ -28,7 +28,7 @@ _STARTS = [start for start, _ in FAR_TERMS]
 
 
 @dataclass(frozen=True)
-class Circle:
+class CircularConvolution:
     """A circular convolution, long enough that no wrapped value reaches the points read.
 
     length   N
@@ -45,7 +45,7 @@ class Circle:
     turns: tuple[complex, complex, complex, complex] = (1.0, 1.0, 1.0, 1.0)
 
 
-def circle(
+def free_convolution(
     depths: np.ndarray,
     sources: int,
     first: int,
@@ -53,7 +53,7 @@ def circle(
     stride: int,
     subdivisions: int,
     element: Element,
-) -> Circle:
+) -> CircularConvolution:
     """For `sources` = S and every `stride`-th point from `first` to `last`.
 
     Points are counted in grid steps from the first source; `depths` of the levels in pitches.
@@ -69,7 +69,7 @@ def circle(
         def around(block: slice) -> tuple[np.ndarray, ...]:
             return mirrored_spectra(halves(block), size)
 
-        return Circle(size, start, points, around, MIRRORED)
+        return CircularConvolution(size, start, points, around, MIRRORED)
     offsets = np.arange(low, high + 1) / subdivisions
     size = next_fast_len(len(offsets), real=True)
 
@@ -77,7 +77,7 @@ def circle(
         unit = unit_stress(*np.broadcast_arrays(offsets, depths[block, None]), element)
         return tuple(rfft(kernel, size) for kernel in unit.parts)
 
-    return Circle(size, 0, slice(sources - 1, len(offsets), stride), beside)
+    return CircularConvolution(size, 0, slice(sources - 1, len(offsets), stride), beside)
 
 
 def half_line(
@@ -118,7 +118,7 @@ def half_line(
 
 
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
-    """Spectra, for the turns MIRRORED, of an element on a circle of `size` >= 2 reach points.
+    """Spectra, for the turns MIRRORED, of an element on a closed line of `size` >= 2 reach points.
 
     From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on its right.
     """
@@ -143,7 +143,7 @@ def as_potential(unit: FrictionStress) -> np.ndarray:
 
 
 def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:
-    """Write their sum at the offsets 0 … and at -1, -2, …, which stand at the circle's end."""
+    """Write their sum at the offsets 0 … and at -1, -2, …, which stand at the end."""
     reach = even.shape[1] - 1
     np.add(even, odd, out=whole[:, : reach + 1])
     np.subtract(even[:, :0:-1], odd[:, :0:-1], out=whole[:, whole.shape[1] - reach :])
@@ -164,26 +164,28 @@ def mixed(load: int, factor: float) -> Products:
     return tuple(((under_p, 0, 1.0), (under_q, load, factor)) for under_p, under_q in _UNDER_BOTH)
 
 
-def convolve(sources: np.ndarray, closed: Circle, products: Products, parts: np.ndarray) -> None:
+def convolve(
+    sources: np.ndarray, circular: CircularConvolution, products: Products, parts: np.ndarray
+) -> None:
     """Fill `parts` (products, levels, points) under `sources` (loads, S) [Pa], one a grid step."""
-    placed = np.zeros((len(sources), closed.length))
-    placed[:, closed.source : closed.source + sources.shape[1]] = sources
+    placed = np.zeros((len(sources), circular.length))
+    placed[:, circular.source : circular.source + sources.shape[1]] = sources
     spectra = rfft(placed)
     levels = parts.shape[1]
-    step = max(1, _BLOCK // closed.length)
+    step = max(1, _BLOCK // circular.length)
 
     def fill(block: slice) -> None:
-        kernels = closed.spectra(block)
+        kernels = circular.spectra(block)
         for row, sum_of in enumerate(products):
             total = None
             for load, spectrum in enumerate(spectra):
                 acting = [(kernel, factor) for kernel, at, factor in sum_of if at == load]
                 if acting:
-                    product = _added(kernels, closed.turns, acting)
+                    product = _added(kernels, circular.turns, acting)
                     product *= spectrum
                     total = product if total is None else np.add(total, product, out=total)
-            stress = irfft(total, closed.length, overwrite_x=True)
-            parts[row, block] = stress[:, closed.points]
+            stress = irfft(total, circular.length, overwrite_x=True)
+            parts[row, block] = stress[:, circular.points]
 
     for_each(fill, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
 

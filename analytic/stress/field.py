@@ -14,14 +14,14 @@ from scipy.optimize import brentq
 from analytic.stress.convolution import (
     EACH,
     Products,
-    circle,
     convolve,
+    free_convolution,
     mixed,
     on_grid,
     surface_load,
 )
 from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
-from analytic.stress.periodic import ring
+from analytic.stress.periodic import periodic_convolution
 from analytic.stress.potential import Element
 from analytic.stress_state import StressState
 
@@ -168,8 +168,8 @@ def _fields(
     sources, start = on_grid(loads, grid.subdivisions, whole=periodic)
     places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
     if sources.size:
-        make = ring if periodic else circle
-        closed = make(
+        make = periodic_convolution if periodic else free_convolution
+        circular = make(
             grid.z / grid.pitch,
             sources.shape[1],
             grid.first - start,
@@ -178,7 +178,7 @@ def _fields(
             grid.subdivisions,
             grid.element,
         )
-        convolve(sources, closed, products, parts)
+        convolve(sources, circular, products, parts)
     if grid.z[0] > 0.0:
         return parts, None
     surface = [

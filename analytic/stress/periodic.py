@@ -9,7 +9,7 @@ period down a few waves of the load are all that is left of it:
 so a pressure p0 cos kx gives sx, sz = -p0 (1 -+ kz) e^(-kz) cos kx, txz = -p0 kz e^(-kz) sin kx
 (Westergaard 1939; Johnson 1985, section 13.2).
 
-Kernels of a field. One period is the circle of the convolution. From one step of the grid downwards
+Kernels of a field. One period is the length of the convolution. From one step of the grid downwards
 a kernel's spectrum is known: with f waves a period, and their aliases f + a N on a grid of N
 points, each wave of the element brings
 
@@ -31,7 +31,7 @@ Nomenclature: L period [m], R = L/2, u = (w - middle)/R.
 import numpy as np
 from scipy.special import comb, zetac
 
-from analytic.stress.convolution import MIRRORED, Circle, half_line, mirrored_spectra
+from analytic.stress.convolution import MIRRORED, CircularConvolution, half_line, mirrored_spectra
 from analytic.stress.potential import (
     ORDER,
     Element,
@@ -121,7 +121,7 @@ _FADED = 44.0  # e^-44 (1 + 44) is 4e-18
 _SHALLOW = 1.0  # grid steps: levels above are summed over images
 
 
-def ring(
+def periodic_convolution(
     depths: np.ndarray,
     sources: int,
     first: int,
@@ -129,8 +129,8 @@ def ring(
     stride: int,
     subdivisions: int,
     element: Element,
-) -> Circle:
-    """`convolution.circle` for `sources` grid points that are one period."""
+) -> CircularConvolution:
+    """`free_convolution` for `sources` grid points that are one period."""
     shallow = int(np.searchsorted(depths, _SHALLOW / subdivisions))
 
     def spectra(block: slice) -> tuple[np.ndarray, ...]:
@@ -146,7 +146,7 @@ def ring(
         return tuple(np.concatenate(rows) for rows in zip(*parts, strict=True))
 
     points = np.arange(first, last + 1, stride) % sources
-    return Circle(sources, 0, points, spectra, MIRRORED)
+    return CircularConvolution(sources, 0, points, spectra, MIRRORED)
 
 
 def _by_waves(
