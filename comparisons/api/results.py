@@ -15,7 +15,7 @@ from comparisons.studies.cost.result import Cost
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from rich.console import RenderableType
+    from rich.console import Console, RenderableType
 
 COLUMNS = 100  # of text; a notebook's cell is as wide
 PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
@@ -28,19 +28,18 @@ class Printed:
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        from rich.console import Console
-
-        console = Console(file=io.StringIO(), width=COLUMNS, force_terminal=False)
-        console.print(self._table())
-        lines = console.file.getvalue().splitlines()
+        lines = self._console().export_text().splitlines()
         return "\n".join(line.rstrip() for line in lines)
 
     def _repr_html_(self) -> str:
+        return self._console().export_html(inline_styles=True, code_format=PAGE)
+
+    def _console(self) -> "Console":
         from rich.console import Console
 
         console = Console(file=io.StringIO(), width=COLUMNS, record=True, force_jupyter=False)
         console.print(self._table())
-        return console.export_html(inline_styles=True, code_format=PAGE)
+        return console
 
 
 @dataclass(frozen=True, repr=False)

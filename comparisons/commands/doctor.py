@@ -1,7 +1,4 @@
-"""`crosscheck doctor`: what works here, by importing it and solving something tiny with it.
-
-Each trial is a process of its own: a crash or a hang is a finding like any other.
-"""
+"""`crosscheck doctor`: what works here, by importing it and solving something tiny with it."""
 
 import os
 import platform
@@ -26,12 +23,12 @@ PATIENCE = 60.0  # s; the first trial that compiles a form takes twenty
 ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "VTK_DEFAULT_OPENGL_WINDOW": "vtkEGLRenderWindow",
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "PRTE_ALLOW_RUN_AS_ROOT": "1",
-    "PRTE_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+} | {
+    f"{launcher}_ALLOW_RUN_AS_ROOT{suffix}": "1"
+    for launcher in ("OMPI", "PRTE")
+    for suffix in ("", "_CONFIRM")
 }
 CONTACT = """from comparisons import api
 steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
@@ -45,14 +42,12 @@ assert error < 0.02, f"misses Hertz's pressure by {100.0 * error:.2g} %"
 print(f"coarse smooth contact within {100.0 * error:.2f} % of Hertz's")"""
 
 
-# Programs that print the version of an item if the item works, and fail otherwise.
+# Programs, a process each, that print the version of an item if it works, and fail otherwise.
 TRIALS = {
-    "numpy": """import numpy
+    "numpy and scipy": """import numpy, scipy, scipy.fft
 assert numpy.linalg.solve([[2.0]], [4.0]) == 2.0, "solves wrongly"
-print(numpy.__version__)""",
-    "scipy": """import scipy, scipy.fft
 assert abs(scipy.fft.irfft(scipy.fft.rfft([1.0, 2.0])) - [1.0, 2.0]).max() < 1e-12, "wrong FFT"
-print(scipy.__version__)""",
+print(numpy.__version__, "and", scipy.__version__)""",
     "dolfinx": """import dolfinx, dolfinx.fem, ufl; from mpi4py import MPI
 square = dolfinx.mesh.create_unit_square(MPI.COMM_SELF, 1, 1)
 area = dolfinx.fem.form(dolfinx.fem.Constant(square, 1.0) * ufl.dx)
@@ -80,12 +75,10 @@ plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
 plotter.add_mesh(pyvista.Sphere(), color="red")
 assert plotter.screenshot(None, return_img=True).std() > 1.0, "draws nothing"
 print(f"{pyvista.__version__}, VTK {vtk.vtkVersion.GetVTKVersion()}")""",
-    "matplotlib": """import io, matplotlib; from matplotlib.figure import Figure
+    "others": """import io; from importlib.metadata import version
+import jinja2, meshio, pint, pydantic, rich, typer; from matplotlib.figure import Figure
 Figure().add_subplot(projection="3d").figure.savefig(io.BytesIO())
-print(matplotlib.__version__)""",
-    "others": """from importlib.metadata import version
-import jinja2, meshio, pint, pydantic, rich, typer
-names = ("jinja2", "meshio", "pint", "pydantic", "rich", "typer")
+names = ("jinja2", "matplotlib", "meshio", "pint", "pydantic", "rich", "typer")
 print(", ".join(f"{name} {version(name)}" for name in names))""",
     "half-plane": f"MODEL = 'half-plane'\n{CONTACT}",
     "finite elements": f"MODEL = 'finite-element'\n{CONTACT}",
@@ -124,11 +117,11 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
 def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
     """Run a trial for at most `patience` seconds."""
     command = [*STARTED_BY.get(name, ()), sys.executable, "-c", program]
-    options = {"capture_output": True, "text": True, "errors": "replace", "timeout": patience}
     try:
         done = subprocess.run(
-            command, stdin=subprocess.DEVNULL, env=os.environ | ENVIRONMENT, **options
-        )
+            command, capture_output=True, text=True, errors="replace", timeout=patience,
+            stdin=subprocess.DEVNULL, env=os.environ | ENVIRONMENT,
+        )  # fmt: skip
     except subprocess.TimeoutExpired:
         return Finding(name, False, f"does not answer within {patience:g} s")
     except OSError as error:

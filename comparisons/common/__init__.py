@@ -1,1 +1,1 @@
-"""What knows nothing of contact: errors, progress, processes, files, numbers, units, names."""
+"""What does not depend on contact: errors, progress, processes, files, numbers, units, names."""

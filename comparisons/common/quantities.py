@@ -6,6 +6,7 @@ difference of two fields on the same points, with the finite elements as the ref
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError, nearest
@@ -39,12 +40,7 @@ class Quantity:
     needs_stress: bool = False
 
 
-def _pressure(hertz: "HertzContact") -> float:
-    return hertz.peak_pressure
-
-
-def _half_width(hertz: "HertzContact") -> float:
-    return hertz.half_width
+_pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")
 
 
 def _one(hertz: "HertzContact") -> float:

@@ -130,7 +130,8 @@ def rerun_summary(repetition: Repetition) -> "RenderableType":
     parts: list[RenderableType] = [Text(repetition.outcome.problem.scene.title, style="bold"), ""]
     if movement.moved:
         parts += [_table(movement.moved), ""]
-    parts.append(Text(_verdict(repetition), style=_style(repetition)))
+    style = STYLES["agree" if repetition.exit_status == 0 else "differ"]
+    parts.append(Text(_verdict(repetition), style=style))
     parts += [Text(line) for line in _lines(repetition)]
     return Group(*parts)
 
@@ -181,10 +182,6 @@ def _verdict(repetition: Repetition) -> str:
     return "REPEATED  no figure moved."
 
 
-def _style(repetition: Repetition) -> str:
-    return STYLES["agree" if repetition.exit_status == 0 else "differ"]
-
-
 def _lines(repetition: Repetition) -> list[str]:
     movement, (before, now) = repetition.movement, repetition.levels
     same = f"{_count(movement.same, 'figure')} equal to the last digit"
@@ -192,7 +189,7 @@ def _lines(repetition: Repetition) -> list[str]:
         same += f", {movement.rounding} more to a relative {ROUNDING:g}"
     lines = [f"{same}{'; pressures the same to the last bit' if repetition.bits else ''}."]
     if movement.new:
-        lines.append(f"{_count(movement.new, 'figure')} of which the record knows nothing.")
+        lines.append(f"{_count(movement.new, 'figure')} that the record does not have.")
     if before != now:
         refinement = repetition.outcome.result["refinement"]
         lines.append(f"Recorded on {before} levels, repeated on {now}: {refinement}.")

@@ -30,7 +30,7 @@ class Load:
 
 @dataclass(frozen=True)
 class Yielding:
-    """Where the body flows: in tension at `stress` [Pa], hardening by `hardening` [Pa] a strain."""
+    """Yield `stress` [Pa] in tension, and hardening modulus `hardening` [Pa]."""
 
     stress: float
     hardening: float
@@ -68,16 +68,16 @@ class ProfileInfo:
     samples, length [m], spacing [m] (median)   of the whole trace
     form       what was taken away
     roughness  figures of what is left and is pressed
-    cutoff, short_cutoff  [m] of the filter that made it of the trace, None where there is none
-    standard   parameters of the trace after ISO 21920-2, whatever is pressed
-    standard_why  why there are none, where there are none
+    cutoff, short_cutoff  [m] of the filter, None where there is none
+    standard   parameters after ISO 21920-2 of the whole trace, whatever is pressed
+    standard_why  why there are none
     format     of the file, in words; None for a made profile
     place      the line of a map that it is, in words
     path       the file that was read, None for a made profile
-    trace      as read or made: with its form, unfiltered, at its own place
+    trace      as read or made: with its form, unfiltered, at its own positions
     sha256     of the file's bytes, None for a made profile
-    bridged    lost samples of the file that were put on a line between their neighbours
-    trimmed    lost samples at the ends of the file that were left out
+    bridged    lost samples of the file, interpolated between their neighbours
+    trimmed    lost samples at the ends of the file, dropped
     """
 
     source: str
@@ -135,7 +135,7 @@ class StressWindow:
 
 @dataclass(frozen=True)
 class FiniteElementSettings:
-    """How the finite-element model is made: which of the half-plane's assumptions it keeps.
+    """Which of the half-plane's assumptions the finite-element model keeps.
 
     geometry      flat: the roughness is in the gap | rough: it is the boundary
     gap           reference: at the place before loading, pressure along the mean normal |
@@ -172,8 +172,8 @@ class FiniteElementSettings:
 
 @dataclass(frozen=True)
 class Resolution:
-    """`pitch` [m] of the coarsest pressure elements (None: automatic); number of `levels`, and the
-    `most` that there may be where questions stay open."""
+    """`pitch` [m] of the coarsest pressure elements (None: automatic); `levels` to begin with, and
+    the `most` where quantities are not resolved."""
 
     pitch: float | None
     levels: int
@@ -182,9 +182,13 @@ class Resolution:
 
 @dataclass(frozen=True)
 class Budget:
-    """What a run may take: `time` [s], as the laws of cost tell it and not a clock, and `memory`
-    [bytes]; and whether it computes the `effects` that the scene's finite elements lack and that
-    may matter, on how many `levels` at most (None: as the time allows)."""
+    """What a run may take, and what it computes beside the two models.
+
+    time     [s] by the laws of cost, not by a clock
+    memory   [bytes]
+    effects  whether it computes effects that the scene's finite elements do not model
+    levels   of the effects at most; None: as the time allows
+    """
 
     time: float
     memory: float
@@ -200,8 +204,8 @@ class ResolvedScene:
     source           what messages call the scene: its path
     roller           None is a rigid roller
     hardness         [Pa] cap on the contact pressure, or None
-    yielding         of the body, where the finite elements let it; None: elastic
-    coating          of the body, in the finite elements; None: it is of one material
+    yielding         of the body in the finite elements; None: elastic
+    coating          of the body in the finite elements; None: one material
     thickness, width [m] of the body, None where it is unbounded
     base             bonded | frictionless, None without thickness
     profile          None is a smooth body

@@ -14,6 +14,7 @@ from comparisons.commands.doctor import TRIALS, Finding, attempt, findings_table
 
 # A module that each trial cannot do without.
 MODULES = {name: name for name in TRIALS} | {
+    "numpy and scipy": "scipy",
     "MPI": "mpi4py",
     "others": "pint",
     "half-plane": "scipy",
