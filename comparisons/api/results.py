@@ -137,9 +137,9 @@ class CostStudy(Printed):
         return drawn[0].axes
 
     def _table(self) -> "RenderableType":
-        from comparisons.studies.cost.table import cost_summary
+        from comparisons.studies.cost.page import cost_table
 
-        return cost_summary(self.study)
+        return cost_table(self.study)
 
 
 @dataclass(frozen=True, repr=False)

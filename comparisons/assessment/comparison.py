@@ -81,12 +81,22 @@ def pair_norms(
     on the window, the second of each as reference; those of fields where both are there."""
     found = {"pressure_l2": relative_l2(*pressures)}
     if all(field is not None for field in tau1):
-        weights = layer_thickness(window.z)[:, None]
-        depth = window.z[:, None] / problem.hertz.half_width
-        for name, part in (("near", depth < NEAR), ("deep", depth > DEEP)):
-            if np.any(part):
-                found[f"tau1_field_{name}"] = relative_l2(*tau1, np.where(part, weights, 0.0))
+        found |= field_norms(*tau1, problem, window)
     return found
+
+
+def field_norms(
+    tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
+) -> dict[str, float]:
+    """Relative L2 norms of the difference of two fields (m, k) on the window, by the depths that
+    have points in it."""
+    weights = layer_thickness(window.z)[:, None]
+    depth = window.z[:, None] / problem.hertz.half_width
+    return {
+        f"tau1_field_{name}": relative_l2(tau1, reference, np.where(part, weights, 0.0))
+        for name, part in (("near", depth < NEAR), ("deep", depth > DEEP))
+        if np.any(part)
+    }
 
 
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:

@@ -23,7 +23,7 @@ def cost(
     """Measure error against time of every method; name the cheapest for each tolerance."""
     from comparisons.scenes.resolve import load_scene
     from comparisons.studies.cost.cost import cost as measured_cost
-    from comparisons.studies.cost.table import cost_summary
+    from comparisons.studies.cost.page import cost_table
 
     resolved = load_scene(scene)
     directory = out or RESULTS / f"{resolved.name}-cost"
@@ -32,6 +32,6 @@ def cost(
     if as_json:
         show_file(directory / "cost.json")
         return ExitStatus.DONE
-    show(cost_summary(found))
+    show(cost_table(found))
     print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
     return ExitStatus.DONE

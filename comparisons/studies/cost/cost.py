@@ -9,20 +9,17 @@ from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import ProgressCallback, no_progress
-from comparisons.common.provenance import as_json, versions
+from comparisons.common.provenance import as_json
 from comparisons.models.problem import Problem, problem_of
-from comparisons.models.window import window_of
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.cost.cache import LOAD, cost_cache, measuring_machine
-from comparisons.studies.cost.choice import Assessed, choices, pareto
-from comparisons.studies.cost.methods import METHODS, Method
+from comparisons.studies.cost.methods import METHODS, SolutionMethod
 from comparisons.studies.cost.page import cost_page
-from comparisons.studies.cost.reference import error_of, references
-from comparisons.studies.cost.result import Cost, content_of
-from comparisons.studies.cost.study import Row, Study, measured_study
+from comparisons.studies.cost.result import Cost, assess, content_of
+from comparisons.studies.cost.study import cost_cache, measured_study
 from meshes.block import MeshError
 
 FILES = ("cost.json", "cost.html")
+LOAD = "load"  # of a prescribed approach, in the cache
 GOES_ON = "measured settings are kept, the same command goes on from there"
 
 
@@ -31,24 +28,24 @@ def cost(
     out: Path,
     repeats: int,
     callback: ProgressCallback = no_progress,
-    methods: tuple[Method, ...] = METHODS,
+    methods: tuple[SolutionMethod, ...] = METHODS,
 ) -> Cost:
-    """Measure, judge, and leave cost.json and cost.html in `out`, whole or not at all.
+    """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all.
 
-    What was measured stays beside them (`comparisons.studies.cost.cache`): the same study goes on
-    from there, or has it all. Raises InputError for a scene that cannot be solved, or a folder that
-    cannot be written, KeyboardInterrupt with how to go on.
+    What was measured stays beside them (`comparisons.studies.cost.study`): the same study goes on
+    from there. Raises InputError for a scene that cannot be solved or a folder that cannot be
+    written, KeyboardInterrupt with how to go on.
     """
     if is_several():
         raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
     check_writable(out)
-    store = cost_cache(out, scene, repeats)
-    store.remove_leftovers()
+    cache = cost_cache(out, scene, repeats)
+    cache.remove_leftovers()
     try:
-        problem = _problem(scene, store, callback)
-        found = judged(problem, measured_study(problem, repeats, store, callback, methods))
+        problem = _problem(scene, cache, callback)
+        found = assess(problem, measured_study(problem, repeats, cache, callback, methods))
         callback("drawing the diagrams")
         with published(out, FILES) as folder:
             (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
@@ -58,22 +55,22 @@ def cost(
     return found
 
 
-def _problem(scene: ResolvedScene, store: Cache, callback: ProgressCallback) -> Problem:
-    """The scene's problem; a prescribed approach is turned into its load."""
-    callback("finding the reach of the contact")
+def _problem(scene: ResolvedScene, cache: Cache, callback: ProgressCallback) -> Problem:
+    """The scene's problem, under the load of its approach where that is prescribed."""
+    callback("finding the extent of the contact")
     try:
         if scene.load.kind != "approach":
             return problem_of(scene)
-        load = store.load(LOAD)
+        load = cache.load(LOAD)
         if load is None:
             callback("finite elements: load of the prescribed approach")
             with fresh_process() as call:
                 load = call(_load_of_approach, scene)
-            store.save(LOAD, load)
+            cache.save(LOAD, load)
         return problem_of(scene, load)
     except ProcessEnded as error:
         raise SolverError(
-            f"{scene.source}: load.approach: the process that looked for its load ended; allowed "
+            f"{scene.source}: load.approach: the process that sought its load ended; allowed "
             "is a load (per_length) instead"
         ) from error
     except (ContactError, MeshError) as error:
@@ -85,36 +82,3 @@ def _load_of_approach(scene: ResolvedScene) -> float:
     from comparisons.models.finite_element.level import problem_of_approach
 
     return problem_of_approach(scene, no_progress).hertz.load_per_length
-
-
-def judged(problem: Problem, study: Study) -> Cost:
-    """Errors, fronts and choices of what was measured."""
-    scene = problem.scene
-    window = window_of(problem) if scene.stress is not None else None
-    known = references(problem, study, window)
-    if not known:
-        failed = next((row.because for row in study.rows if row.because), "nothing was solved")
-        raise SceneError(f"{scene.source}: there is nothing to measure errors by: {failed}")
-
-    def errors(row: Row) -> dict[str, float | None]:
-        if row.measured is None:
-            return {}
-        answer = row.measured.answer
-        return {
-            name: None
-            if row is reference.row
-            else error_of(answer, name, reference, problem, window)
-            for name, reference in known.items()
-        }
-
-    assessed = [Assessed(row, errors(row)) for row in study.rows]
-    return Cost(
-        problem=problem,
-        study=study,
-        references=known,
-        assessed=assessed,
-        fronts={name: pareto(assessed, name, known[name].floor) for name in known},
-        choices=choices(study, assessed, known, scene.tolerance),
-        versions=versions(),
-        machine=measuring_machine(),
-    )

@@ -1,9 +1,10 @@
-"""Time and memory of one setting of one method, in a process of its own that has one thread.
+"""Time and memory of one setting of one method, in a process of its own with one thread.
 
-Seconds are the processor's, gmsh's process included: on an idle machine they are those of the
-clock, on a busy one they are what the clock would show if it were idle.
+Seconds are processor time, gmsh's process included: on an idle machine the wall time, on a busy one
+what the wall time would be if the machine were idle.
 """
 
+import re
 import resource
 import statistics
 import time
@@ -16,19 +17,19 @@ from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.studies.cost.methods import METHODS, Method
-from comparisons.studies.cost.solve import Answer, solved
+from comparisons.studies.cost.methods import METHODS, SolutionMethod
+from comparisons.studies.cost.solve import SolvedContact, solved
 
-WARM = 1.0  # seconds: a first go that is shorter is repeated before any is counted
+WARM = 1.0  # seconds: a first solution that takes less is repeated, and does not count
 
-_begun: list[str] = []  # methods that this process has met: the first go loads what it takes
+_begun: set[str] = set()  # methods that this process has run: the first solution loads libraries
 
 
 @dataclass(frozen=True)
-class Task:
-    """What to measure: as many `repeats` as `limit` seconds of the processor allow, at least one.
+class CostTask:
+    """What to measure: as many `repeats` as `limit` seconds allow, at least one.
 
-    load    [N/m] that a prescribed approach takes, else None
+    load        [N/m] of a prescribed approach, else None
     half_block  whether an unbounded body is held at half the distance
     """
 
@@ -40,18 +41,24 @@ class Task:
     limit: float = 0.0
     half_block: bool = False
 
+    @property
+    def name(self) -> str:
+        """Of the file of what was measured."""
+        method = re.sub(r"\W+", "-", self.method)
+        return f"{method}_{self.setting!r}{'_half_block' if self.half_block else ''}"
+
 
 @dataclass(frozen=True)
-class Measured:
-    """What a setting gave and took: medians over the `repeats` that were counted.
+class MeasuredRun:
+    """Solution and cost of a setting: medians over the `repeats` that were counted.
 
-    seconds   of the processor by stage       total   of all stages
-    wall      on the clock                    spread  smallest and largest total
+    seconds   processor time by stage         total   of all stages
+    wall      wall time                       spread  smallest and largest total
     memory    largest of the process so far [bytes]; settings come from coarse to fine
-    spent     seconds of the processor that measuring took, all goes together
+    spent     seconds that measuring took in all
     """
 
-    answer: Answer
+    solved: SolvedContact
     seconds: dict[str, float]
     total: float
     wall: float
@@ -62,8 +69,8 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Refused:
-    """Why a setting gave nothing: `skipped` as too large, or failed."""
+class RefusedRun:
+    """Why a setting has no solution: `skipped` as too large, or failed."""
 
     because: str
     skipped: bool
@@ -71,7 +78,7 @@ class Refused:
 
 @dataclass
 class ProcessorStages(Stages):
-    """Seconds of the processor by stage, those of ended child processes included."""
+    """Processor seconds by stage, those of ended child processes included."""
 
     begun: dict[str, float] = field(default_factory=dict)
 
@@ -90,30 +97,29 @@ def processor_seconds() -> float:
     return time.process_time() + children.ru_utime + children.ru_stime
 
 
-def measure(task: Task) -> Measured | Refused:
+def measure(task: CostTask) -> MeasuredRun | RefusedRun:
     """Carry out a task in this process."""
     method = next(m for m in METHODS if m.name == task.method)
     first = processor_seconds()
     try:
         problem = problem_of(task.scene, task.load)
         window = window_of(problem) if task.scene.stress is not None else None
-        answer, seconds, wall = _go(method, problem, task, window)
+        contact, seconds, wall = _timed(method, problem, task, window)
         runs = [(seconds, wall)]
         if task.method not in _begun or sum(seconds.values()) < WARM:
             runs = []
-        _begun.append(task.method)
+        _begun.add(task.method)
         while not runs or (len(runs) < task.repeats and processor_seconds() - first < task.limit):
-            answer, seconds, wall = _go(method, problem, task, window)
+            contact, seconds, wall = _timed(method, problem, task, window)
             runs.append((seconds, wall))
     except InputError as error:  # of the budget, before anything was meshed
-        return Refused(str(error), skipped=True)
+        return RefusedRun(str(error), skipped=True)
     except Exception as error:
-        return Refused(f"{type(error).__name__}: {error}", skipped=False)
+        return RefusedRun(f"{type(error).__name__}: {error}", skipped=False)
     totals = [sum(seconds.values()) for seconds, _ in runs]
-    names = list(runs[0][0])
-    return Measured(
-        answer=answer,
-        seconds={name: statistics.median(s[name] for s, _ in runs) for name in names},
+    return MeasuredRun(
+        solved=contact,
+        seconds={name: statistics.median(s[name] for s, _ in runs) for name in runs[0][0]},
         total=statistics.median(totals),
         wall=statistics.median(wall for _, wall in runs),
         spread=(min(totals), max(totals)),
@@ -123,10 +129,10 @@ def measure(task: Task) -> Measured | Refused:
     )
 
 
-def _go(
-    method: Method, problem: Problem, task: Task, window: Window | None
-) -> tuple[Answer, dict[str, float], float]:
-    """One solution: its answer, seconds of the processor by stage, and seconds on the clock."""
+def _timed(
+    method: SolutionMethod, problem: Problem, task: CostTask, window: Window | None
+) -> tuple[SolvedContact, dict[str, float], float]:
+    """One solution, its processor seconds by stage, and its wall time [s]."""
     stages, begin = ProcessorStages(), time.perf_counter()
-    answer = solved(method, problem, task.setting, window, stages, task.half_block)
-    return answer, stages.seconds, time.perf_counter() - begin
+    contact = solved(method, problem, task.setting, window, stages, task.half_block)
+    return contact, stages.seconds, time.perf_counter() - begin

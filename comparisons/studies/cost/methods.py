@@ -1,4 +1,4 @@
-"""The ways to solve a contact whose cost is measured, at which settings, and where each applies.
+"""The methods whose cost is measured, at which settings, and to which scenes each applies.
 
 A setting is a pitch of the pressure elements [m] or, for meshes that the contact chooses, the
 relative error of the pressure that it is to reach. Pitches are those of the scene's own levels,
@@ -18,13 +18,13 @@ ADAPTED = "P2 adapted"
 
 
 @dataclass(frozen=True)
-class Method:
-    """A way to solve.
+class SolutionMethod:
+    """One way to solve a contact.
 
-    name     of the table and the diagram
+    name     in table and diagram
     model    half_plane | finite_element
     element  hat | strip of pressure; or P1 | P2 | P3
-    dense    a matrix, in place of transforms
+    dense    by a full matrix instead of FFT
     """
 
     name: str
@@ -44,25 +44,27 @@ class Method:
         return tuple(factor * problem.pitches[0] for factor in factors)
 
 
-FINEST = Method("hats, FFT", "half_plane", "hat")  # what the others are measured by, where it may
+FINEST = SolutionMethod(
+    "hats, FFT", "half_plane", "hat"
+)  # reference of the others, where it may be
 METHODS = (
-    Method("strips, FFT", "half_plane", "strip"),
-    Method("strips, dense", "half_plane", "strip", dense=True),
+    SolutionMethod("strips, FFT", "half_plane", "strip"),
+    SolutionMethod("strips, dense", "half_plane", "strip", dense=True),
     FINEST,
-    Method("hats, dense", "half_plane", "hat", dense=True),
-    Method("P1", "finite_element", "P1"),
-    Method("P2", "finite_element", "P2"),
-    Method("P3", "finite_element", "P3"),
-    Method(ADAPTED, "finite_element", "P2"),
+    SolutionMethod("hats, dense", "half_plane", "hat", dense=True),
+    SolutionMethod("P1", "finite_element", "P1"),
+    SolutionMethod("P2", "finite_element", "P2"),
+    SolutionMethod("P3", "finite_element", "P3"),
+    SolutionMethod(ADAPTED, "finite_element", "P2"),
 )
 
 
-def why_not(method: Method, problem: Problem) -> str | None:
+def why_not(method: SolutionMethod, problem: Problem) -> str | None:
     """Why a method does not apply to a scene at all, None where it does."""
     scene, settings = problem.scene, problem.scene.finite_element
     if method.model == "half_plane":
         if problem.coupling and method != FINEST:
-            return "friction moves the surfaces: that is in hats by FFT alone"
+            return "friction moves the surfaces: only hats by FFT have that"
         return None
     nonlinear = settings.plastic or settings.deformation == "finite"
     if method.element != "P2" and nonlinear:
@@ -70,29 +72,29 @@ def why_not(method: Method, problem: Problem) -> str | None:
     if not method.adapted:
         return None
     plan = make_plan(problem, ("half_plane", "finite_element"))
-    for hinders, because in (
+    for excluded, because in (
         (nonlinear, "the body yields or deforms finitely"),
         (scene.hardness is not None, "the pressure has a cap"),
-        (settings.gap == "displaced", "the gap is taken at the displaced place"),
+        (settings.gap == "displaced", "the gap is taken on the deformed surface"),
         (settings.geometry == "rough" and scene.profile is not None, "the boundary is rough"),
         (settings.roller_shape == "circle", "the roller is a circle"),
         (settings.coupled and any(scene.friction), "friction moves the surfaces"),
         (scene.coating is not None, "the body has a coating"),
-        (scene.width is not None or scene.thickness is not None, "the body has ends of its own"),
-        (scene.roller is not None and not plan.shared_factor, "the roller is a body of its own"),
+        (scene.width is not None or scene.thickness is not None, "the body has a finite size"),
+        (scene.roller is not None and not plan.shared_factor, "the roller has its own mesh"),
     ):
-        if hinders:
+        if excluded:
             return f"adapted meshes are not made where {because}"
     return None
 
 
 def is_half_plane_problem(problem: Problem) -> bool:
-    """Whether the finite elements solve what the half-plane solves: their limits are the same."""
+    """Whether both models solve the same problem, so that their limits are the same."""
     scene, settings = problem.scene, problem.scene.finite_element
     unbounded = scene.thickness is None and scene.width is None and scene.coating is None
     flat = settings.geometry == "flat" or scene.profile is None
     linear = settings.deformation == "linear" and not settings.plastic
-    moved = bool(any(scene.friction) and problem.dundurs_beta)
+    moves = bool(any(scene.friction) and problem.dundurs_beta)
     return (
         unbounded
         and flat
@@ -100,5 +102,5 @@ def is_half_plane_problem(problem: Problem) -> bool:
         and settings.gap == "reference"
         and settings.roller_shape == "parabola"
         and settings.roller_body == "half-plane"
-        and (settings.coupled == scene.coupled or not moved)
+        and (settings.coupled == scene.coupled or not moves)
     )

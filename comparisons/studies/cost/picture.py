@@ -1,12 +1,12 @@
-"""Error against time, a diagram a quantity: methods as lines, the floor, and what nothing beats."""
+"""Error against time, a diagram a quantity: methods as lines, the floor, and the Pareto front."""
 
 import math
 
 from comparisons.common.numbers import given_percent, percent, with_unit
 from comparisons.common.quantities import label
 from comparisons.report.figures.style import COLUMN, REFERENCE, Picture, data_uri, figure
-from comparisons.studies.cost.choice import needs_stress
 from comparisons.studies.cost.methods import METHODS
+from comparisons.studies.cost.recommend import needs_stress
 from comparisons.studies.cost.result import Cost
 from comparisons.studies.cost.study import OK
 
@@ -23,7 +23,7 @@ LOOKS = {
     "P2 adapted": ("#E69F00", DASHED, "P"),
 }
 HEIGHT = 3.9
-LEAST = 1e-7  # errors below are drawn there: nobody asks for them
+LEAST = 1e-7  # smaller errors are drawn there
 
 
 def cost_picture(cost: Cost, quantity: str) -> Picture:
@@ -65,7 +65,7 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
             markerfacecolor="none",
             markeredgecolor="#222222",
             markeredgewidth=0.9,
-            label="nothing beats it",
+            label="Pareto front",
         )
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -96,7 +96,7 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
         )
     axes.set_xlim(first, last)
     axes.set_xlabel(
-        "seconds of the processor" + (", stresses included" if stresses else ", contact alone")
+        "processor time [s]" + (", stresses included" if stresses else ", contact alone")
     )
     axes.set_ylabel("relative error")
     drawn.legend(loc="upper left", ncol=4, bbox_to_anchor=(0.1, 1.0), columnspacing=1.2)
@@ -108,10 +108,10 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
 
 
 def _in_words(cost: Cost, quantity: str, stresses: bool) -> str:
-    """The rows that nothing beats, for those who cannot see the diagram."""
+    """The rows on the Pareto front, for those who cannot see the diagram."""
     rows = "; ".join(
         f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity])} in "
         f"{with_unit(each.row.seconds(stresses), 's', 2)}"
         for each in cost.fronts[quantity]
     )
-    return f"Error of the {label(quantity)} over time. Nothing beats: {rows}."
+    return f"Error of the {label(quantity)} over time. Pareto front: {rows}."

@@ -1,46 +1,42 @@
-"""What the measured answers are measured by: the exact one, or the best one with its uncertainty.
+"""What the solutions' errors are measured by: exact values, or the best solution's.
 
-Hertz's contact is exact where the scene is smooth and both models solve it. On a rough half-plane
-both models have one limit, and the finest half-plane is next to it. Where the finite elements have
-what the half-plane lacks, the finest of them are the reference, quantity by quantity those of the
-smallest uncertainty; the half-plane's errors then hold its own.
+Hertz's contact is exact where the scene is smooth and both models solve the same problem. On a
+rough half-plane both models have the same limit, and the finest half-plane is the reference. Where
+the finite elements drop an assumption of the half-plane, the finest of them are the reference, for
+each quantity those of the smallest uncertainty; the half-plane's errors then include its model
+error.
 
-An error below the reference's uncertainty is not known better than that: the floor.
+The floor is the reference's own uncertainty: no error below it is known.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from analytic.exact.hertz import hertz_extremes, hertz_stress
-from comparisons.assessment.comparison import (
-    DEEP,
-    NEAR,
-    layer_thickness,
-    relative_l2,
-    uncertainties,
-)
+from comparisons.assessment.comparison import field_norms, relative_l2, uncertainties
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 from comparisons.studies.cost.methods import FINEST, is_half_plane_problem
-from comparisons.studies.cost.solve import Answer
-from comparisons.studies.cost.study import Row, Study
+from comparisons.studies.cost.solve import SolvedContact
+from comparisons.studies.cost.study import CostRow, Study
 
 EXACT_POINTS = 20_001
-FLOOR = 1e-12  # of an exact answer: rounding
-NORMS = ("pressure_l2", "tau1_field_near", "tau1_field_deep")
+FLOOR = 1e-12  # of exact values: rounding
 
 
 @dataclass(frozen=True)
 class Reference:
     """The best known value of one quantity.
 
-    source   in words              floor    its relative uncertainty, the largest of any friction
-    values   one a friction, SI; empty for a norm
-    answer   curves of norms: nodes and pressure, tau1 on the window
-    row      that it is, None where it is exact
+    source       in words
+    floor        its relative uncertainty, the largest of any friction coefficient
+    values       one a friction coefficient, SI; empty for a norm
+    x, pressure  (n,) [m], [Pa] nodes of the pressure
+    tau1         (m, k) [Pa] on the window, one a friction coefficient
+    row          that it is, None where it is exact
     """
 
     source: str
@@ -49,11 +45,11 @@ class Reference:
     x: np.ndarray
     pressure: np.ndarray
     tau1: tuple[np.ndarray, ...]
-    row: Row | None
+    row: CostRow | None
 
 
 def references(problem: Problem, study: Study, window: Window | None) -> dict[str, Reference]:
-    """By quantity; without those that no good row gives."""
+    """By quantity; without those that no solved row has."""
     if is_exact(problem):
         return _exact(problem, window)
     names = [FINEST.name] if is_half_plane_problem(problem) else ["P1", "P2", "P3"]
@@ -74,31 +70,33 @@ def is_exact(problem: Problem) -> bool:
 
 
 def error_of(
-    answer: Answer, quantity: str, reference: Reference, problem: Problem, window: Window | None
+    solved: SolvedContact,
+    quantity: str,
+    reference: Reference,
+    problem: Problem,
+    window: Window | None,
 ) -> float | None:
-    """Largest relative error of any friction coefficient; None where the answer has none."""
-    if quantity == "pressure_l2":
-        found = np.interp(reference.x, answer.x, answer.pressure, left=0.0, right=0.0)
-        return relative_l2(found, reference.pressure)
-    if quantity in NORMS:
-        if len(answer.stresses) != len(reference.tau1) or not reference.tau1:
-            return None
-        weights = _weights(quantity, problem, window)
-        pairs = zip(answer.stresses, reference.tau1, strict=True)
-        return max(relative_l2(s.field.tau1, known, weights) for s, known in pairs)
-    if any(quantity not in own for own in answer.figures):
+    """Largest relative error of any friction coefficient; None where the solution has none."""
+    if QUANTITIES[quantity].of_pair:
+        return _norms(solved, reference, problem, window).get(quantity)
+    if any(quantity not in figures for figures in solved.figures):
         return None
-    pairs = zip(answer.figures, reference.values, strict=True)
+    pairs = zip(solved.figures, reference.values, strict=True)
     scale = QUANTITIES[quantity].scale(problem.hertz)
-    return max(abs(own[quantity] - value) / (abs(value) or scale) for own, value in pairs)
+    return max(abs(figures[quantity] - value) / (abs(value) or scale) for figures, value in pairs)
 
 
-def _weights(quantity: str, problem: Problem, window: Window) -> np.ndarray:
-    """Of the window's points in the norm of a field."""
-    depth = window.z[:, None] / problem.hertz.half_width
-    part = depth < NEAR if quantity == "tau1_field_near" else depth > DEEP
-    weights = np.where(part, layer_thickness(window.z)[:, None], 0.0)
-    return np.broadcast_to(weights, (len(window.z), len(window.x)))
+def _norms(
+    solved: SolvedContact, reference: Reference, problem: Problem, window: Window | None
+) -> dict[str, float]:
+    """Relative L2 errors of the curve of pressure and of the fields, by quantity."""
+    pressure = np.interp(reference.x, solved.x, solved.pressure, left=0.0, right=0.0)
+    found = {"pressure_l2": relative_l2(pressure, reference.pressure)}
+    if len(solved.stresses) == len(reference.tau1):
+        for stress, tau1 in zip(solved.stresses, reference.tau1, strict=True):
+            for name, error in field_norms(stress.field.tau1, tau1, problem, window).items():
+                found[name] = max(error, found.get(name, 0.0))
+    return found
 
 
 def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
@@ -120,7 +118,7 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
         )
         z = window.z[:, None]
         tau1 = tuple(hertz_stress(hertz, window.x, z, friction).tau1 for friction in frictions)
-        values |= dict.fromkeys(_shown_norms(problem, window), ())
+        values |= dict.fromkeys(field_norms(tau1[0], tau1[0], problem, window), ())
     pressure = hertz.pressure(x)
     return {
         name: Reference("exact (Hertz)", FLOOR, given, x, pressure, tau1, None)
@@ -128,38 +126,29 @@ def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
     }
 
 
-def _shown_norms(problem: Problem, window: Window) -> list[str]:
-    """Norms of fields that have a point in the window."""
-    return [name for name in NORMS[1:] if np.any(_weights(name, problem, window))]
-
-
 def _finest(
     problem: Problem, study: Study, name: str, window: Window | None
 ) -> dict[str, Reference]:
-    """References by the finest row of a method, with what its levels say of their uncertainty."""
+    """References by the finest row of a method, with the uncertainty that its levels show."""
     rows = study.of(name)
     if len(rows) < 3:
         return {}
     row, before = rows[-1], rows[-2]
-    answer, check = row.measured.answer, study.far_boundary_check.get(name)
+    solved, check = row.measured.solved, study.far_boundary_check.get(name)
     run = ModelRun(
         row.method.model,
-        tuple(each.measured.answer.level for each in rows),
-        None if check is None else check.answer.level,
+        tuple(each.measured.solved.level for each in rows),
+        None if check is None else check.solved.level,
     )
-    frictions = problem.scene.friction
-    doubts = [uncertainties(run, problem, friction) for friction in frictions]
-    source = f"{name} at {row.label}"
-    curves = (answer.x, answer.pressure, tuple(s.field.tau1 for s in answer.stresses), row)
+    known = [uncertainties(run, problem, friction) for friction in problem.scene.friction]
+    tau1 = tuple(stress.field.tau1 for stress in solved.stresses)
+    bare = Reference(f"{name} at {row.label}", 0.0, (), solved.x, solved.pressure, tau1, row)
     found = {}
-    for quantity in answer.figures[0]:
-        floor = max(each[quantity].total for each in doubts)
-        values = tuple(own[quantity] for own in answer.figures)
-        found[quantity] = Reference(source, float(floor), values, *curves)
-    norms = ["pressure_l2"] if window is None else ["pressure_l2", *_shown_norms(problem, window)]
-    for quantity in norms:
-        # of first order: the finest errs by what the one before is off
-        bare = Reference(source, 0.0, (), *curves)
-        floor = error_of(before.measured.answer, quantity, bare, problem, window)
-        found[quantity] = Reference(source, float(floor), (), *curves)
+    for quantity in solved.figures[0]:
+        floor = float(max(each[quantity].total for each in known))
+        values = tuple(figures[quantity] for figures in solved.figures)
+        found[quantity] = replace(bare, floor=floor, values=values)
+    # norms are of first order: the finest row errs by its distance from the one before
+    for quantity, floor in _norms(before.measured.solved, bare, problem, window).items():
+        found[quantity] = replace(bare, floor=floor)
     return found

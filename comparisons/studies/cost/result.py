@@ -1,37 +1,78 @@
-"""What a finished cost study holds, and the content of cost.json."""
+"""A finished cost study: its rows with their errors, what to take, and the content of cost.json."""
 
 from dataclasses import dataclass
 
+from comparisons.common.errors import SceneError
+from comparisons.common.provenance import versions
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.problem import Problem
-from comparisons.studies.cost.choice import Assessed, Choice, followed
-from comparisons.studies.cost.reference import Reference
-from comparisons.studies.cost.study import Study
+from comparisons.models.window import window_of
+from comparisons.studies.cost.recommend import (
+    AssessedRow,
+    Recommendation,
+    pareto,
+    recommendations,
+    scene_sections,
+)
+from comparisons.studies.cost.reference import Reference, error_of, references
+from comparisons.studies.cost.study import CostRow, Study, measuring_machine
 
-SCHEMA = 1
+SCHEMA = 2
 
 
 @dataclass(frozen=True)
 class Cost:
     """A finished study.
 
-    references  by quantity            assessed  every row with its errors
-    fronts      by quantity, rows that nothing beats, from cheap to dear
-    choices     one a tolerance, the last for all of them
+    references       by quantity
+    assessed         every row with its errors
+    fronts           the rows on the Pareto front by quantity, the cheapest first
+    recommendations  one a tolerance, the last one for all of them
     """
 
     problem: Problem
     study: Study
     references: dict[str, Reference]
-    assessed: list[Assessed]
-    fronts: dict[str, list[Assessed]]
-    choices: list[Choice]
+    assessed: list[AssessedRow]
+    fronts: dict[str, list[AssessedRow]]
+    recommendations: list[Recommendation]
     versions: dict
     machine: dict
 
-    @property
-    def floors(self) -> dict[str, float]:
-        return {name: reference.floor for name, reference in self.references.items()}
+
+def assess(problem: Problem, study: Study) -> Cost:
+    """Errors, Pareto fronts and recommendations of what was measured.
+
+    Raises SceneError where there is no reference.
+    """
+    scene = problem.scene
+    window = window_of(problem) if scene.stress is not None else None
+    known = references(problem, study, window)
+    if not known:
+        failed = next((row.because for row in study.rows if row.because), "nothing was solved")
+        raise SceneError(f"{scene.source}: there is no reference for errors: {failed}")
+
+    def errors(row: CostRow) -> dict[str, float | None]:
+        if row.measured is None:
+            return {}
+        return {
+            name: None
+            if row is reference.row
+            else error_of(row.measured.solved, name, reference, problem, window)
+            for name, reference in known.items()
+        }
+
+    rows = [AssessedRow(row, errors(row)) for row in study.rows]
+    return Cost(
+        problem=problem,
+        study=study,
+        references=known,
+        assessed=rows,
+        fronts={name: pareto(rows, name, known[name].floor) for name in known},
+        recommendations=recommendations(rows, known, scene.tolerance),
+        versions=versions(),
+        machine=measuring_machine(),
+    )
 
 
 def content_of(cost: Cost) -> dict:
@@ -49,23 +90,23 @@ def content_of(cost: Cost) -> dict:
             for name in names
         },
         "rows": [_row(cost, each) for each in cost.assessed],
-        "choices": [
+        "recommendations": [
             {
-                "quantity": choice.quantity,
-                "tolerance": choice.tolerance,
-                "sentence": choice.sentence,
-                "half_plane": _chosen(cost, choice.half_plane),
-                "finite_element": _chosen(cost, choice.finite_element),
-                "cheapest": _chosen(cost, choice.cheapest, scene=False),
+                "quantity": each.quantity,
+                "tolerance": each.tolerance,
+                "sentence": each.sentence,
+                "half_plane": _taken(cost, each.half_plane),
+                "finite_element": _taken(cost, each.finite_element),
+                "cheapest": _taken(cost, each.cheapest, scene=False),
             }
-            for choice in cost.choices
+            for each in cost.recommendations
         ],
         "versions": cost.versions,
         "machine": cost.machine,
     }
 
 
-def _row(cost: Cost, each: Assessed) -> dict:
+def _row(cost: Cost, each: AssessedRow) -> dict:
     row, measured = each.row, each.row.measured
     found = {
         "method": row.method.name,
@@ -78,8 +119,8 @@ def _row(cost: Cost, each: Assessed) -> dict:
     if measured is None:
         return found
     return found | {
-        "elements": measured.answer.elements,
-        "unknowns": measured.answer.unknowns,
+        "elements": measured.solved.elements,
+        "unknowns": measured.solved.unknowns,
         "seconds": measured.seconds,
         "total": measured.total,
         "smallest_total": measured.spread[0],
@@ -87,15 +128,15 @@ def _row(cost: Cost, each: Assessed) -> dict:
         "wall": measured.wall,
         "repeats": measured.repeats,
         "peak_memory": measured.memory,
-        "figures": list(measured.answer.figures),
+        "figures": list(measured.solved.figures),
         "errors": each.errors,
         "best_for": [name for name, front in cost.fronts.items() if each in front],
     }
 
 
-def _chosen(cost: Cost, each: Assessed | None, scene: bool = True) -> dict | None:
-    """Which row, by its place in `rows`, and what to write into the scene for it."""
+def _taken(cost: Cost, each: AssessedRow | None, scene: bool = True) -> dict | None:
+    """Its place in `rows`, and what to write into the scene for it."""
     if each is None:
         return None
     found = {"row": cost.assessed.index(each), "method": each.row.method.name}
-    return found | {"scene": followed(each.row, cost.problem)} if scene else found
+    return found | {"scene": scene_sections(each.row, cost.problem)} if scene else found

@@ -4,31 +4,32 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
+from analytic.numerics import runs_of
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
-from analytic.stress_state import Extremum
 from comparisons.assessment.comparison import figures
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, StressResult
-from comparisons.models.plan import Plan, make_plan
+from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window, search_window
-from comparisons.studies.cost.methods import Method
+from comparisons.studies.cost.methods import SolutionMethod
 
 
 @dataclass(frozen=True)
-class Answer:
-    """What a solution says of the compared quantities.
+class SolvedContact:
+    """The compared quantities of a solution.
 
-    figures    one table a friction coefficient: peak_pressure, contact_length, …, SI
-    x, pressure   (n,) [m], [Pa] nodes of the pressure, straight between, feet included
-    stresses   one a friction coefficient on the scene's window, empty without
-    elements   of pressure
-    level      the solution as a level of a run, without its mesh; None on unequal hats
+    figures      one table a friction coefficient: peak_pressure, contact_length, …, SI
+    x, pressure  (n,) [m], [Pa] nodes of the pressure, linear between them, zero at both ends
+    stresses     one a friction coefficient on the scene's window, empty without
+    elements     of pressure
+    level        the solution as a level of a run, without its mesh; None on unequal hats
     """
 
     figures: tuple[dict[str, float], ...]
@@ -42,13 +43,13 @@ class Answer:
 
 
 def solved(
-    method: Method,
+    method: SolutionMethod,
     problem: Problem,
     setting: float,
     window: Window | None,
     stages: Stages,
     half_block: bool = False,
-) -> Answer:
+) -> SolvedContact:
     """Solve; `half_block` holds an unbounded body at half the distance."""
     if method.model == "half_plane":
         if method.element == "hat" and not method.dense:
@@ -62,19 +63,14 @@ def solved(
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    plan = finite_element_plan(problem)
+    plan = make_plan(problem, ("finite_element",))
     level = finite_element_level(problem, plan, Refinement(setting, half_block), window, stages)
     return _of_level(replace(level, mesh=None, mesh_field=None), problem)
 
 
-def finite_element_plan(problem: Problem) -> Plan:
-    """Of the finite elements alone."""
-    return make_plan(problem, ("finite_element",))
-
-
-def _of_level(level: Level, problem: Problem) -> Answer:
+def _of_level(level: Level, problem: Problem) -> SolvedContact:
     pressure = level.solution.pressure
-    return Answer(
+    return SolvedContact(
         figures=tuple(figures(level, problem, friction) for friction in problem.scene.friction),
         x=level.grid.pitch * np.arange(level.grid.first - 1, level.grid.last + 2),
         pressure=np.concatenate([[0.0], pressure, [0.0]]),
@@ -87,9 +83,9 @@ def _of_level(level: Level, problem: Problem) -> Answer:
 
 
 def _plain_half_plane(
-    method: Method, problem: Problem, pitch: float, window: Window | None, stages: Stages
+    method: SolutionMethod, problem: Problem, pitch: float, window: Window | None, stages: Stages
 ) -> Level:
-    """The half-plane as textbooks have it: uniform strips, or a dense matrix, or both."""
+    """The half-plane with uniform strips, a dense matrix, or both."""
     grid = problem.grid(pitch)
     strips = method.element == "strip"
     with stages.stage("contact"):
@@ -102,11 +98,15 @@ def _plain_half_plane(
             else grid.hat_integrals(problem.gap, problem.knots)
         )
         solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
+        if strips:
+            patches = touching_strips(grid, solution)
+        else:
+            patches = contact_patches(grid.x, solution.pressure, solution.gap)
         level = Level(
             grid=grid,
             solution=solution,
             displacement=np.zeros(grid.count),
-            patches=touching_strips(grid, solution) if strips else _patches(grid, solution),
+            patches=patches,
             seconds=stages.seconds,
             unknowns=grid.count,
         )
@@ -116,26 +116,17 @@ def _plain_half_plane(
         return replace(level, stresses=_stresses(problem, level, window, method.element))
 
 
-def _patches(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
-    from analytic.contact.patches import contact_patches
-
-    return contact_patches(grid.x, solution.pressure, solution.gap)
-
-
 def touching_strips(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
-    """Patches (k, 2) [m]: strips under pressure in a row, from edge to edge."""
-    touching = np.concatenate([[False], solution.pressure > 0.0, [False]])
-    first = np.flatnonzero(~touching[:-1] & touching[1:])
-    last = np.flatnonzero(touching[:-1] & ~touching[1:])
+    """Patches (k, 2) [m]: adjoining strips under pressure, from edge to edge."""
     start = (grid.first - 0.5) * grid.pitch
-    return start + grid.pitch * np.column_stack([first, last])
+    return start + grid.pitch * np.column_stack(runs_of(solution.pressure > 0.0))
 
 
 def _stresses(
     problem: Problem, level: Level, window: Window, element: str
 ) -> tuple[StressResult, ...]:
-    """As `comparisons.models.half_plane`; of strips below the surface alone, on which sx has no
-    bound."""
+    """As in `comparisons.models.half_plane`, but for strips, under which sx has no bound at the
+    surface: theirs begin below it."""
     x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
     top = 1 if element == "strip" else 0
     shown, searched = (
@@ -166,7 +157,9 @@ def _stresses(
     return tuple(results)
 
 
-def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: Stages) -> Answer:
+def _adapted(
+    problem: Problem, tolerance: float, window: Window | None, stages: Stages
+) -> SolvedContact:
     """On a mesh and hats that the contact chooses; a block with the half-plane's far field."""
     from analytic.surface.roughness import shortest_wavelength
     from comparisons.models.finite_element.adaptive import Pressing, adapted_contact
@@ -198,17 +191,14 @@ def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: 
             nothing = np.zeros(rough.count)
             pressed = Pressed(rough.body, contact.solution, nothing, stress, np.empty((0, 2)))
             stresses, _ = stresses_of(pressed, scene.friction, window)
-    found = []
-    for friction in scene.friction:
-        own = {
-            "peak_pressure": contact.peak_pressure,
-            "contact_length": contact.contact_length,
-            "contact_ratio": contact.contact_length / (2.0 * problem.hertz.half_width),
-        }
-        own |= of_extremes(next((s.extremes for s in stresses if s.friction == friction), None))
-        found.append(own)
-    return Answer(
-        figures=tuple(found),
+    of_contact = {
+        "peak_pressure": contact.peak_pressure,
+        "contact_length": contact.contact_length,
+        "contact_ratio": contact.contact_length / (2.0 * problem.hertz.half_width),
+    }
+    of_stresses = [_stress_figures(each) for each in stresses] or [{}] * len(scene.friction)
+    return SolvedContact(
+        figures=tuple(of_contact | each for each in of_stresses),
         x=contact.hats,
         pressure=np.concatenate([[0.0], pressure, [0.0]]),
         stresses=stresses,
@@ -219,13 +209,11 @@ def _adapted(problem: Problem, tolerance: float, window: Window | None, stages: 
     )
 
 
-def of_extremes(extremes: dict[str, Extremum] | None) -> dict[str, float]:
+def _stress_figures(stress: StressResult) -> dict[str, float]:
     """The figures that are of stresses, by the names of result.json."""
-    if extremes is None:
-        return {}
-    tau1 = extremes["tau1"]
+    tau1 = stress.extremes["tau1"]
     return {
         "tau1_max": tau1.value,
         "tau1_max_depth": tau1.z,
-        "txz_max_abs": abs(extremes["txz"].value),
+        "txz_max_abs": abs(stress.extremes["txz"].value),
     }

@@ -1,54 +1,69 @@
-"""All methods at all their settings, measured one after the other; what fails is a row as well."""
+"""All methods at all their settings, measured one after the other; what fails is a row as well.
+
+A setting that was measured is not measured again unless scene, program, versions, machine or the
+number of repeats differ; the time it took counts as before.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
-from comparisons.common.cache import Cache
+from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.numbers import with_unit
 from comparisons.common.processes import Call, ProcessEnded, fresh_process
 from comparisons.common.progress import ProgressCallback, Step, within
+from comparisons.common.provenance import LEVEL_CODE, key_of, machine, program_code, versions
+from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
-from comparisons.studies.cost.cache import name_of
-from comparisons.studies.cost.measure import Measured, Refused, Task, measure
+from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.cost.measure import CostTask, MeasuredRun, RefusedRun, measure
 from comparisons.studies.cost.methods import (
     METHODS,
     MOST_DENSE,
-    Method,
+    SolutionMethod,
     is_half_plane_problem,
     why_not,
 )
 
-# Of a setting's time over the one before.
+FOLDER = "cost_points"
+# What shapes what is measured, beside versions of libraries and the machine.
+CODE = (
+    *LEVEL_CODE,
+    *(f"comparisons/studies/cost/{name}.py" for name in ("measure", "methods", "solve")),
+)
+THREADS = 1  # of a measuring process
+# Time of a setting over that of the one before.
 GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
 DENSE_GROWTH = 8.0
-# Parts of budget.time, in seconds of the processor, by which each method is done; what one leaves
-# the next ones have.
+# Shares of budget.time, in processor seconds, by which each method is done; what a method does not
+# use is left to the next ones.
 SHARES = (0.03, 0.08, 0.15, 0.2, 0.35, 0.55, 0.75, 0.9)
-MOST_OF_REST = 0.25  # that the goes of one setting may take before they are enough
+MOST_OF_REST = 0.25  # share of what is left of it beyond which a setting is not repeated
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
 
-# What a task gives; None where its process ended.
-Ask = Callable[[Task], Measured | Refused | None]
+# What a task results in; None where its process ended.
+Measure = Callable[[CostTask], MeasuredRun | RefusedRun | None]
 
 
 @dataclass(frozen=True)
-class Row:
+class CostRow:
     """A method at a setting.
 
     setting   pitch [m] or tolerance; None: the method does not apply
-    status    ok | failed | skipped      because  why not ok
+    status    ok | failed | skipped
+    because   why it is not ok
     """
 
-    method: Method
+    method: SolutionMethod
     setting: float | None
     status: str
     because: str | None = None
-    measured: Measured | None = None
+    measured: MeasuredRun | None = None
 
     def seconds(self, stresses: bool) -> float:
-        """Of the processor, to the contact alone or to the stresses too."""
-        own = self.measured.seconds
-        return sum(s for name, s in own.items() if stresses or name != "stresses")
+        """Processor time of the contact alone, or with the stresses."""
+        by_stage = self.measured.seconds.items()
+        return sum(s for name, s in by_stage if stresses or name != "stresses")
 
     @property
     def label(self) -> str:
@@ -62,42 +77,61 @@ class Row:
 
 @dataclass(frozen=True)
 class Study:
-    """All rows, by method and from coarse to fine, and by method's name what the coarsest setting
-    gives with the far boundary at half its distance, where that is needed."""
+    """What was measured.
 
-    rows: tuple[Row, ...]
-    far_boundary_check: dict[str, Measured]
+    rows                by method, from coarse to fine
+    far_boundary_check  the coarsest setting with the far boundary at half its distance, by method's
+                        name, where that is needed
+    """
 
-    def of(self, name: str) -> tuple[Row, ...]:
-        """The good rows of a method."""
+    rows: tuple[CostRow, ...]
+    far_boundary_check: dict[str, MeasuredRun]
+
+    def of(self, name: str) -> tuple[CostRow, ...]:
+        """The solved rows of a method."""
         return tuple(r for r in self.rows if r.method.name == name and r.status == OK)
+
+
+def measuring_machine() -> dict:
+    """This machine, as a measuring process uses it."""
+    return machine() | {"threads": THREADS}
+
+
+def cost_cache(out: Path, scene: ResolvedScene, repeats: int) -> Cache:
+    """What was measured of `scene`, each under its task's name; and the load [N/m] of a prescribed
+    approach."""
+    program = versions(), program_code(*CODE)
+    key = key_of(scene_key(scene), measuring_machine(), repeats, *program)
+    return Cache(out / FOLDER, key, kinds_of(MeasuredRun))
 
 
 def measured_study(
     problem: Problem,
     repeats: int,
-    store: Cache,
+    cache: Cache,
     callback: ProgressCallback,
-    methods: tuple[Method, ...] = METHODS,
+    methods: tuple[SolutionMethod, ...] = METHODS,
 ) -> Study:
-    """Measure what `store` lacks, and keep it there; in a fresh process for each method, whose
-    memory is its own, on one thread."""
+    """Measure what the cache does not have, and save it there.
+
+    Each method has a process of its own, so that memory is its own, on one thread.
+    """
     spent, rows, check = 0.0, [], {}
     shares = SHARES[-len(methods) :]
     for number, (share, method) in enumerate(zip(shares, methods, strict=True)):
         because = why_not(method, problem)
         if because is not None:
-            rows.append(Row(method, None, SKIPPED, because))
+            rows.append(CostRow(method, None, SKIPPED, because))
             continue
         left = share * problem.scene.budget.time - spent
         with fresh_process() as call:
-            ask = _asked(store, call)
+            run = _cached(cache, call)
             part = within(callback, number / len(methods), (number + 1) / len(methods))
-            found = _series(method, problem, repeats, left, ask, part)
+            found = _series(method, problem, repeats, left, run, part)
             if _wants_far_boundary_check(method, problem) and found[0].status == OK:
                 task = _task(problem, method, found[0].setting, 1, 0.0, half_block=True)
-                again = ask(task)
-                if isinstance(again, Measured):
+                again = run(task)
+                if isinstance(again, MeasuredRun):
                     check[method.name] = again
         rows += found
         spent += sum(row.measured.spent for row in found if row.measured is not None)
@@ -105,70 +139,69 @@ def measured_study(
 
 
 def _series(
-    method: Method,
+    method: SolutionMethod,
     problem: Problem,
     repeats: int,
     left: float,
-    ask: Ask,
+    run: Measure,
     callback: ProgressCallback,
-) -> list[Row]:
-    """The rows of a method, in the seconds of the processor that are left for it."""
-    rows, settings, lost = [], method.settings(problem), None
+) -> list[CostRow]:
+    """The rows of a method, in the processor seconds that are `left` for it."""
+    rows, settings, ended = [], method.settings(problem), None
     growth = DENSE_GROWTH if method.dense else GROWTH[method.model]
     expected = 0.0
     for number, setting in enumerate(settings, start=1):
-        label = Row(method, setting, OK).label
+        label = CostRow(method, setting, OK).label
         name = f"{method.name}: {label} ({number} of {len(settings)})"
         callback(Step(name, (number - 1) / len(settings)))
-        count = 0 if method.adapted else problem.grid(setting).count
-        if lost is not None:
-            rows.append(Row(method, setting, SKIPPED, lost))
-        elif method.dense and count > MOST_DENSE:
+        because = ended
+        if because is None and method.dense and problem.grid(setting).count > MOST_DENSE:
+            count = problem.grid(setting).count
             because = f"{count} elements; a dense matrix is made of at most {MOST_DENSE}"
-            rows.append(Row(method, setting, SKIPPED, because))
-        elif expected > left:
+        if because is None and expected > left:
             because = (
                 f"{expected:.2g} s are more than is left of this method's part of "
                 f"{problem.scene.budget.time:g} s (budget.time)"
             )
-            rows.append(Row(method, setting, SKIPPED, because))
-        else:
-            limit = MOST_OF_REST * max(left, 0.0)
-            found = ask(_task(problem, method, setting, repeats, limit))
-            rows.append(_row(method, setting, found))
-            if found is None:
-                lost = "the process that measured had ended"
-            elif isinstance(found, Measured):
-                left -= found.spent
-                expected = growth * found.total
+        if because is not None:
+            rows.append(CostRow(method, setting, SKIPPED, because))
+            continue
+        limit = MOST_OF_REST * max(left, 0.0)
+        found = run(_task(problem, method, setting, repeats, limit))
+        rows.append(_row(method, setting, found))
+        if found is None:
+            ended = "the process that measured had ended"
+        elif isinstance(found, MeasuredRun):
+            left -= found.spent
+            expected = growth * found.total
     return rows
 
 
-def _row(method: Method, setting: float, found: Measured | Refused | None) -> Row:
+def _row(method: SolutionMethod, setting: float, found: MeasuredRun | RefusedRun | None) -> CostRow:
     if found is None:
-        return Row(method, setting, FAILED, "the process that measured it ended")
-    if isinstance(found, Refused):
-        return Row(method, setting, SKIPPED if found.skipped else FAILED, found.because)
-    if not found.answer.converged:
-        return Row(method, setting, FAILED, "did not converge", found)
-    return Row(method, setting, OK, None, found)
+        return CostRow(method, setting, FAILED, "the process that measured it ended")
+    if isinstance(found, RefusedRun):
+        return CostRow(method, setting, SKIPPED if found.skipped else FAILED, found.because)
+    if not found.solved.converged:
+        return CostRow(method, setting, FAILED, "did not converge", found)
+    return CostRow(method, setting, OK, None, found)
 
 
-def _asked(store: Cache, call: Call) -> Ask:
-    """What the store has of a task, else measured by the process that is called, and kept."""
+def _cached(cache: Cache, call: Call) -> Measure:
+    """Measures by the process that is called what the cache does not have, and saves it."""
 
-    def ask(task: Task) -> Measured | Refused | None:
-        found = store.load(name_of(task))
+    def measured(task: CostTask) -> MeasuredRun | RefusedRun | None:
+        found = cache.load(task.name)
         if found is None:
             found = _carried_out(call, task)
-            if isinstance(found, Measured):
-                store.save(name_of(task), found)
+            if isinstance(found, MeasuredRun):
+                cache.save(task.name, found)
         return found
 
-    return ask
+    return measured
 
 
-def _carried_out(call: Call, task: Task) -> Measured | Refused | None:
+def _carried_out(call: Call, task: CostTask) -> MeasuredRun | RefusedRun | None:
     try:
         return call(measure, task)
     except ProcessEnded:
@@ -177,18 +210,18 @@ def _carried_out(call: Call, task: Task) -> Measured | Refused | None:
 
 def _task(
     problem: Problem,
-    method: Method,
+    method: SolutionMethod,
     setting: float,
     repeats: int,
     limit: float,
     half_block: bool = False,
-) -> Task:
+) -> CostTask:
     prescribed = problem.scene.load.kind == "approach"
     load = problem.hertz.load_per_length if prescribed else None
-    return Task(problem.scene, load, method.name, setting, repeats, limit, half_block)
+    return CostTask(problem.scene, load, method.name, setting, repeats, limit, half_block)
 
 
-def _wants_far_boundary_check(method: Method, problem: Problem) -> bool:
+def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:
     """Whether the finite elements are a reference, whose far boundary counts."""
     scene = problem.scene
     unbounded = scene.thickness is None or scene.width is None

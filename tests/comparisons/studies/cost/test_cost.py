@@ -2,47 +2,29 @@
 
 import io
 import json
-from pathlib import Path
+from html import unescape
 
 import pytest
+from scenes import SMOOTH, changed, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.assessment.comparison import figures
 from comparisons.cli import main
-from comparisons.models.problem import problem_of
 from comparisons.runs.run import run
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import methods as cost_methods
-from comparisons.studies.cost.cache import FOLDER
-from comparisons.studies.cost.choice import followed
 from comparisons.studies.cost.cost import cost
 from comparisons.studies.cost.methods import (
     FINEST,
     METHODS,
 )
+from comparisons.studies.cost.page import cost_table
+from comparisons.studies.cost.recommend import scene_sections
 from comparisons.studies.cost.result import content_of
-from comparisons.studies.cost.study import OK
-from comparisons.studies.cost.table import cost_summary
+from comparisons.studies.cost.study import FOLDER, OK
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "title": "Smooth",
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-}
 HERTZ = hertz_from_load(3.55e6, 7.5706e-3, 210e9 / 0.91 / 2.0)
 BY_NAME = {method.name: method for method in METHODS}
 SMALL = (FINEST, BY_NAME["P2"])
-
-
-def problem(tables, **sections):
-    return problem_of(scene(tables, **sections))
-
-
-def scene(tables, **sections):
-    tables = tables | {name: tables.get(name, {}) | more for name, more in sections.items()}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +34,7 @@ def small(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
         patch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0, 1.0))
-        return cost(scene(SMOOTH), folder, 2, methods=SMALL), folder
+        return cost(resolved(SMOOTH), folder, 2, methods=SMALL), folder
 
 
 class TestWholeStudy:
@@ -61,7 +43,7 @@ class TestWholeStudy:
         assert [r.method.name for r in found.study.rows] == ["hats, FFT"] * 3 + ["P2"] * 2
         for each in found.assessed:
             assert each.row.status == OK and each.row.measured.repeats == 2
-            peak = each.row.measured.answer.figures[0]["peak_pressure"]
+            peak = each.row.measured.solved.figures[0]["peak_pressure"]
             exact = abs(peak / HERTZ.peak_pressure - 1.0)
             assert each.errors["peak_pressure"] == pytest.approx(exact, rel=1e-6)
             assert 0.0 < exact < 2e-3
@@ -78,12 +60,12 @@ class TestWholeStudy:
         """By what `run` makes of it: at that level, and where it ends."""
         monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "")
         found, _ = small
-        choice = found.choices[-1]
+        choice = found.recommendations[-1]
         assert choice.quantity == "all" and choice.finite_element is not None
         for picked in (choice.half_plane, choice.finite_element):
             wanted = picked.row.method.model
-            sections = followed(picked.row, found.problem)
-            outcome = run(scene(SMOOTH, **sections), tmp_path / wanted, (wanted,))
+            sections = scene_sections(picked.row, found.problem)
+            outcome = run(resolved(changed(SMOOTH, **sections)), tmp_path / wanted, (wanted,))
             level = outcome.runs[wanted].levels[sections["resolution"]["levels"] - 1]
             assert level.grid.pitch == pytest.approx(picked.row.setting, rel=1e-12)
             contact = outcome.result["models"][wanted][0]["contact"]
@@ -103,26 +85,26 @@ class TestWholeStudy:
         content = json.loads((folder / "cost.json").read_text())
         assert content == json.loads(json.dumps(content_of(found)))
         assert len(content["rows"]) == 5 and content["machine"]["threads"] == 1
-        last = content["choices"][-1]
+        last = content["recommendations"][-1]
         assert content["rows"][last["finite_element"]["row"]]["method"] == "P2"
         assert "peak_pressure" in content["rows"][0]["best_for"] + content["rows"][2]["best_for"]
 
     def test_page_needs_no_network_and_has_all_rows_and_sentences(self, small):
         found, folder = small
-        page = (folder / "cost.html").read_text()
+        page = unescape((folder / "cost.html").read_text())
         assert "http://" not in page and "https://" not in page and "<script" not in page
         assert page.count('<tr class="ok">') == 5
         assert page.count("data:image/svg+xml") == 3
-        for choice in found.choices:
+        for choice in found.recommendations:
             assert choice.sentence in page
-        assert "finite_element = {element = &quot;P2&quot;, growth = 0." in page
+        assert """finite_element = {element = "P2", growth = 0.""" in page
 
     def test_table(self, small):
         from rich.console import Console
 
         found, _ = small
         console = Console(width=140, record=True, file=io.StringIO())
-        console.print(cost_summary(found))
+        console.print(cost_table(found))
         text = console.export_text()
         assert "For all tolerances of the scene take the half-plane (hats, FFT" in text
         assert "threads 1" in text and "exact (Hertz)" in text
@@ -145,7 +127,7 @@ class TestCommand:
     def test_several_processes_are_refused(self, monkeypatch, tmp_path):
         monkeypatch.setattr("comparisons.studies.cost.cost.is_several", lambda: True)
         with pytest.raises(ValueError, match="allowed without mpirun"):
-            cost(scene(SMOOTH), tmp_path / "out", 1)
+            cost(resolved(SMOOTH), tmp_path / "out", 1)
 
     def test_an_interrupt_leaves_nothing(self, monkeypatch, tmp_path):
         def stopped(*arguments):
@@ -153,7 +135,7 @@ class TestCommand:
 
         monkeypatch.setattr("comparisons.studies.cost.cost.measured_study", stopped)
         with pytest.raises(KeyboardInterrupt, match="the same command goes on from there"):
-            cost(scene(SMOOTH), tmp_path / "out", 1)
+            cost(resolved(SMOOTH), tmp_path / "out", 1)
         assert list(tmp_path.iterdir()) == []
 
     def test_a_runs_own_files_stay_beside_it(self, small, monkeypatch, tmp_path):
@@ -161,6 +143,6 @@ class TestCommand:
         monkeypatch.setattr(
             "comparisons.studies.cost.cost.measured_study", lambda *a: small[0].study
         )
-        monkeypatch.setattr("comparisons.studies.cost.page.cost_page", lambda found: "")
-        cost(scene(SMOOTH), tmp_path, 1)
+        monkeypatch.setattr("comparisons.studies.cost.cost.cost_page", lambda found: "")
+        cost(resolved(SMOOTH), tmp_path, 1)
         assert {p.name for p in tmp_path.iterdir()} == {"result.json", "cost.json", "cost.html"}

@@ -3,19 +3,17 @@
 import time
 import types
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import SMOOTH, changed, problem, resolved
 
 from analytic.exact.hertz import hertz_from_load
 from comparisons.common.errors import SceneError
 from comparisons.common.quantities import MODELS
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.cost import measure as cost_measure
-from comparisons.studies.cost.cost import judged
-from comparisons.studies.cost.measure import ProcessorStages, Refused, Task, measure
+from comparisons.studies.cost.measure import CostTask, ProcessorStages, RefusedRun, measure
 from comparisons.studies.cost.methods import (
     ADAPTED,
     FINEST,
@@ -23,33 +21,18 @@ from comparisons.studies.cost.methods import (
     is_half_plane_problem,
     why_not,
 )
+from comparisons.studies.cost.page import cells, shown
 from comparisons.studies.cost.reference import error_of, is_exact, references
+from comparisons.studies.cost.result import assess
 from comparisons.studies.cost.solve import touching_strips
-from comparisons.studies.cost.study import OK, Row, Study
-from comparisons.studies.cost.table import cells, shown
+from comparisons.studies.cost.study import OK, CostRow, Study
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "title": "Smooth",
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-}
 WAVY = SMOOTH | {
     "profile": {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6},
     "load": {"per_length": 2e5},
 }
 HERTZ = hertz_from_load(3.55e6, 7.5706e-3, 210e9 / 0.91 / 2.0)
 BY_NAME = {method.name: method for method in METHODS}
-
-
-def problem(tables, **sections):
-    return problem_of(scene(tables, **sections))
-
-
-def scene(tables, **sections):
-    tables = tables | {name: tables.get(name, {}) | more for name, more in sections.items()}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
 
 
 class TestMethods:
@@ -66,26 +49,26 @@ class TestMethods:
         ],
     )
     def test_where_they_apply(self, sections, half_plane, adapted):
-        made = problem(SMOOTH, **sections)
+        made = problem(changed(SMOOTH, **sections))
         assert is_half_plane_problem(made) is half_plane
         assert is_exact(made) is half_plane
         assert (why_not(BY_NAME[ADAPTED], made) is None) is adapted
         assert all(why_not(m, made) is None for m in METHODS if not m.adapted)
 
     def test_friction_that_moves_the_surfaces_leaves_hats_alone(self):
-        made = problem(
-            SMOOTH, roller={"poissons_ratio": 0.0}, load={"friction": [0.3], "coupled": True}
-        )
+        coupled = {"friction": [0.3], "coupled": True}
+        made = problem(changed(SMOOTH, roller={"poissons_ratio": 0.0}, load=coupled))
         plain = [m for m in METHODS if m.model == "half_plane"]
         assert [why_not(m, made) is None for m in plain] == [m == FINEST for m in plain]
         assert not is_exact(made)
 
     @pytest.mark.parametrize("element", ["hats", "strips"])
     def test_dense_and_fft_find_the_same(self, element):
-        made = scene(SMOOTH, stress={"points": [60, 20]})
+        made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
         pitch = problem_of(made).pitches[0]
         one, other = (
-            measure(Task(made, None, f"{element}, {way}", pitch)).answer for way in ("FFT", "dense")
+            measure(CostTask(made, None, f"{element}, {way}", pitch)).solved
+            for way in ("FFT", "dense")
         )
         assert one.pressure == pytest.approx(other.pressure, rel=1e-6)
         for name, value in one.figures[0].items():
@@ -94,7 +77,7 @@ class TestMethods:
 
     @pytest.mark.parametrize("element", ["hats", "strips"])
     def test_of_hertz_errors_fall_with_the_pitch(self, element):
-        made = scene(SMOOTH, stress={"points": [60, 20]})
+        made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
         exact = {
             "peak_pressure": HERTZ.peak_pressure,
             "contact_length": 2.0 * HERTZ.half_width,
@@ -103,7 +86,7 @@ class TestMethods:
         errors = []
         for part in (1.0, 0.125):
             pitch = part * problem_of(made).pitches[0]
-            found = measure(Task(made, None, f"{element}, FFT", pitch)).answer.figures[0]
+            found = measure(CostTask(made, None, f"{element}, FFT", pitch)).solved.figures[0]
             errors.append([abs(found[name] / value - 1.0) for name, value in exact.items()])
         assert np.all(np.array(errors[0]) < [1e-3, 1.5e-2, 1e-3])
         assert np.all(np.array(errors[1]) < np.array(errors[0]) / 4.0)
@@ -119,9 +102,11 @@ class TestMethods:
 @pytest.fixture(scope="module")
 def study():
     """The finest method on waves, at five settings."""
-    made = scene(WAVY)
+    made = resolved(WAVY)
     pitches = FINEST.settings(problem_of(made))[:5]
-    rows = [Row(FINEST, p, OK, None, measure(Task(made, None, FINEST.name, p))) for p in pitches]
+    rows = [
+        CostRow(FINEST, p, OK, None, measure(CostTask(made, None, FINEST.name, p))) for p in pitches
+    ]
     return problem_of(made), Study(tuple(rows), {})
 
 
@@ -133,14 +118,14 @@ class TestReference:
         for name, reference in found.items():
             assert reference.row is last and reference.source.startswith("hats, FFT at ")
             assert 0.0 < reference.floor < 0.05, name
-        finer = measure(Task(made.scene, None, FINEST.name, 0.25 * last.setting)).answer
+        finer = measure(CostTask(made.scene, None, FINEST.name, 0.25 * last.setting)).solved
         for name in ("peak_pressure", "contact_length"):
             true = error_of(finer, name, found[name], made, None)
             assert true <= found[name].floor
 
     def test_errors_fall_towards_it(self, study):
         made, rows = study
-        found = judged(made, rows)
+        found = assess(made, rows)
         for name in ("peak_pressure", "pressure_l2"):
             errors = [each.errors[name] for each in found.assessed]
             assert errors[-1] is None
@@ -148,7 +133,7 @@ class TestReference:
         texts = cells(found, found.assessed[-1], shown(found))
         assert texts[-1] == "reference"
 
-    def test_two_rows_tell_no_uncertainty(self, study):
+    def test_two_rows_have_no_uncertainty(self, study):
         made, rows = study
         assert references(made, replace(rows, rows=rows.rows[:2]), None) == {}
 
@@ -156,7 +141,7 @@ class TestReference:
 class TestMeasure:
     @pytest.fixture
     def calls(self, monkeypatch):
-        """Every go of `solved`, which takes no time."""
+        """Every call of `solved`, which takes no time."""
         calls, answer = [], object()
 
         def solved(method, problem, setting, window, stages, half_block):
@@ -165,28 +150,30 @@ class TestMeasure:
                 return answer
 
         monkeypatch.setattr(cost_measure, "solved", solved)
-        monkeypatch.setattr(cost_measure, "_begun", [])
+        monkeypatch.setattr(cost_measure, "_begun", set())
         return calls
 
-    def test_the_first_go_does_not_count(self, calls):
-        found = measure(Task(scene(SMOOTH), None, FINEST.name, 1e-5, repeats=3, limit=60.0))
+    def test_the_first_solution_does_not_count(self, calls):
+        found = measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, repeats=3, limit=60.0))
         assert (len(calls), found.repeats) == (4, 3)
 
     def test_no_more_than_fit_and_at_least_one(self, calls):
-        assert measure(Task(scene(SMOOTH), None, FINEST.name, 1e-5, 3, limit=0.0)).repeats == 1
+        assert (
+            measure(CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5, 3, limit=0.0)).repeats == 1
+        )
         assert len(calls) == 2
 
-    def test_what_goes_wrong_is_told(self, monkeypatch):
+    def test_what_goes_wrong_is_stated(self, monkeypatch):
         def solved(*arguments):
             raise SceneError("made.toml: budget.memory: is too small")
 
         monkeypatch.setattr(cost_measure, "solved", solved)
-        task = Task(scene(SMOOTH), None, FINEST.name, 1e-5)
-        assert measure(task) == Refused("made.toml: budget.memory: is too small", skipped=True)
+        task = CostTask(resolved(SMOOTH), None, FINEST.name, 1e-5)
+        assert measure(task) == RefusedRun("made.toml: budget.memory: is too small", skipped=True)
         monkeypatch.setattr(cost_measure, "solved", lambda *a: 1 / 0)
-        assert measure(task) == Refused("ZeroDivisionError: division by zero", skipped=False)
+        assert measure(task) == RefusedRun("ZeroDivisionError: division by zero", skipped=False)
 
-    def test_seconds_are_the_processors(self):
+    def test_seconds_are_processor_time(self):
         stages = ProcessorStages()
         with stages.stage("waiting"):
             time.sleep(0.05)

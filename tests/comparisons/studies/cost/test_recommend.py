@@ -1,54 +1,34 @@
-"""Cost studies: what fails is a row, what is recommended, and what is kept of it."""
+"""Cost studies: what fails is a row, what is recommended, and what files hold of it."""
 
 import types
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import SMOOTH, changed, problem
 
 from comparisons.common.errors import SceneError
 from comparisons.common.processes import ProcessEnded
 from comparisons.common.progress import no_progress
-from comparisons.models.problem import problem_of
 from comparisons.report.figures.style import Picture
-from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.cost.choice import Assessed, choices, pareto
-from comparisons.studies.cost.cost import judged
-from comparisons.studies.cost.measure import Measured, Refused
+from comparisons.studies.cost.measure import MeasuredRun, RefusedRun
 from comparisons.studies.cost.methods import (
     ADAPTED,
     FINEST,
     METHODS,
 )
-from comparisons.studies.cost.page import cost_page
-from comparisons.studies.cost.result import content_of
-from comparisons.studies.cost.solve import Answer
-from comparisons.studies.cost.study import FAILED, OK, SKIPPED, Row, Study, _asked, _series
-from comparisons.studies.cost.table import cells, notes_of, refusals, shown
+from comparisons.studies.cost.page import cells, cost_page, notes_of, refusals, shown
+from comparisons.studies.cost.recommend import AssessedRow, pareto, recommendations
+from comparisons.studies.cost.result import assess, content_of
+from comparisons.studies.cost.solve import SolvedContact
+from comparisons.studies.cost.study import FAILED, OK, SKIPPED, CostRow, Study, _cached, _series
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-SMOOTH = {
-    "title": "Smooth",
-    "roller": {"radius": 7.5706e-3, **STEEL},
-    "body": dict(STEEL),
-    "load": {"per_length": 3.55e6},
-}
 BY_NAME = {method.name: method for method in METHODS}
-
-
-def problem(tables, **sections):
-    return problem_of(scene(tables, **sections))
-
-
-def scene(tables, **sections):
-    tables = tables | {name: tables.get(name, {}) | more for name, more in sections.items()}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
 
 
 def row(name, setting, seconds, peak, status=OK, stress_seconds=0.0):
     """A row whose peak pressure is off by `peak`, of an exact 1."""
-    answer = Answer(
+    answer = SolvedContact(
         figures=({"peak_pressure": 1.0 + peak, "contact_length": 1.0},),
         x=np.array([-1.0, 0.0, 1.0]),
         pressure=np.array([0.0, 1.0, 0.0]),
@@ -59,25 +39,25 @@ def row(name, setting, seconds, peak, status=OK, stress_seconds=0.0):
         level=None,
     )
     times = {"contact": seconds, "stresses": stress_seconds}
-    measured = Measured(answer, times, seconds, seconds, (seconds, seconds), 1, 10**8, seconds)
-    return Row(BY_NAME[name], setting, status, None if status == OK else "why", measured)
+    measured = MeasuredRun(answer, times, seconds, seconds, (seconds, seconds), 1, 10**8, seconds)
+    return CostRow(BY_NAME[name], setting, status, None if status == OK else "why", measured)
 
 
 def assessed(*rows):
     return [
-        Assessed(r, {"peak_pressure": abs(r.measured.answer.figures[0]["peak_pressure"] - 1.0)})
+        AssessedRow(r, {"peak_pressure": abs(r.measured.solved.figures[0]["peak_pressure"] - 1.0)})
         for r in rows
     ]
 
 
 def chosen(rows, tolerance, floor=0.0):
     reference = types.SimpleNamespace(floor=floor)
-    found = choices(Study((), {}), rows, {"peak_pressure": reference}, {"peak_pressure": tolerance})
-    return found[0]
+    [found] = recommendations(rows, {"peak_pressure": reference}, {"peak_pressure": tolerance})
+    return found
 
 
 class TestRows:
-    """What fails or would take too long is a row, told apart."""
+    """What fails or would take too long is a row that says so."""
 
     class Process:
         """Gives the answers, or raises them."""
@@ -94,15 +74,15 @@ class TestRows:
 
     def rows(self, *answers, name="P2", left=1e9):
         process = self.Process(*answers)
-        store = types.SimpleNamespace(load=lambda task: None, save=lambda task, found: None)
-        ask = _asked(store, process)
-        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, ask, no_progress)
+        cache = types.SimpleNamespace(load=lambda task: None, save=lambda task, found: None)
+        run = _cached(cache, process)
+        found = _series(BY_NAME[name], problem(SMOOTH), 3, left, run, no_progress)
         return found, process
 
     def test_refused_and_failed(self):
         good = row("P2", 1.0, 1.0, 0.0).measured
-        wild = replace(good, answer=replace(good.answer, converged=False))
-        refused, failed = Refused("budget.memory", True), Refused("MeshError: no mesh", False)
+        wild = replace(good, solved=replace(good.solved, converged=False))
+        refused, failed = RefusedRun("budget.memory", True), RefusedRun("MeshError: no mesh", False)
         found, _ = self.rows(good, failed, wild, refused)
         assert [r.status for r in found] == [OK, FAILED, FAILED, SKIPPED]
         assert found[1].because == "MeshError: no mesh" and found[2].because == "did not converge"
@@ -127,10 +107,10 @@ class TestRows:
         assert [r.status for r in found][:3] == [OK, OK, SKIPPED]
         assert found[2].because.startswith("113 elements; a dense matrix")
 
-    def test_they_are_kept_and_told_apart(self, monkeypatch):
+    def test_files_and_table_have_them(self, monkeypatch):
         rows = [row("P2", 1e-5, 1.0, 1e-4), row("P2", 5e-6, 1.0, 1e-4, status=FAILED)]
-        rows += [Row(BY_NAME["P1"], None, SKIPPED, "does not apply")]
-        found = judged(problem(SMOOTH), Study(tuple(rows), {}))
+        rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
+        found = assess(problem(SMOOTH), Study(tuple(rows), {}))
         names = shown(found)
         texts = [cells(found, each, names) for each in found.assessed]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
@@ -150,15 +130,15 @@ class TestRows:
         )
         assert notes_of(found)
 
-    def test_nothing_to_measure_by_is_an_error_of_the_scene(self):
+    def test_no_reference_is_an_error_of_the_scene(self):
         wave = {"kind": "sinusoid", "wavelength": 100e-6, "amplitude": 0.3e-6}
-        wavy = problem(SMOOTH, profile=wave)
-        with pytest.raises(SceneError, match="nothing to measure errors by: why"):
-            judged(wavy, Study((Row(FINEST, 1e-6, FAILED, "why"),), {}))
+        wavy = problem(changed(SMOOTH, profile=wave))
+        with pytest.raises(SceneError, match="no reference for errors: why"):
+            assess(wavy, Study((CostRow(FINEST, 1e-6, FAILED, "why"),), {}))
 
 
-class TestChoice:
-    def test_what_nothing_beats(self):
+class TestRecommendation:
+    def test_the_pareto_front(self):
         rows = assessed(
             row("P1", 4.0, 1.0, 1e-1),
             row("P1", 2.0, 2.0, 1e-2),

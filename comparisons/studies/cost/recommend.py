@@ -1,0 +1,177 @@
+"""What to take: the rows on the Pareto front, and the cheapest setting for each tolerance."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from comparisons.common.numbers import given_percent, integer, percent, with_unit
+from comparisons.common.quantities import QUANTITIES
+from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
+from comparisons.models.problem import FEWEST_ELEMENTS, Problem
+from comparisons.studies.cost.methods import FINEST, METHODS
+from comparisons.studies.cost.reference import Reference
+from comparisons.studies.cost.study import OK, CostRow
+
+ALL = "all"
+ELEMENTS_OF_RUN = ("P1", "P2", "P3")  # finite elements that a scene can have `run` solve with
+
+Tolerances = dict[str, float]
+
+
+@dataclass(frozen=True)
+class AssessedRow:
+    """A row with its relative errors by quantity; None where the row has none, or is itself the
+    reference."""
+
+    row: CostRow
+    errors: dict[str, float | None]
+
+    def worst(self, floors: dict[str, float], tolerances: Tolerances) -> float | None:
+        """Largest error with its floor over its tolerance; None where one is unknown."""
+        found = [self.errors.get(name) for name in tolerances]
+        if any(error is None for error in found):
+            return None
+        pairs = zip(found, tolerances.items(), strict=True)
+        return max((error + floors[name]) / tolerance for error, (name, tolerance) in pairs)
+
+
+@dataclass(frozen=True)
+class Recommendation:
+    """For one tolerance, or for all at once, the cheapest row of each model that `run` can solve
+    with, and the cheapest of all; None where none meets it."""
+
+    quantity: str
+    tolerance: float | None
+    half_plane: AssessedRow | None
+    finite_element: AssessedRow | None
+    cheapest: AssessedRow | None
+    sentence: str
+
+
+def needs_stress(quantities: Iterable[str]) -> bool:
+    """Whether any of them needs the stresses."""
+    return any(QUANTITIES[name].needs_stress for name in quantities)
+
+
+def pareto(assessed: list[AssessedRow], quantity: str, floor: float) -> list[AssessedRow]:
+    """Rows than which none is both cheaper and closer, the cheapest first."""
+    stresses, best, found = needs_stress([quantity]), float("inf"), []
+    known = [a for a in assessed if a.row.status == OK and a.errors.get(quantity) is not None]
+    for each in sorted(known, key=lambda a: a.row.seconds(stresses)):
+        error = max(each.errors[quantity], floor)
+        if error < best:
+            best = error
+            found.append(each)
+    return found
+
+
+def recommendations(
+    assessed: list[AssessedRow], references: dict[str, Reference], tolerances: Tolerances
+) -> list[Recommendation]:
+    """One for each tolerance of the scene, and one for all of them together."""
+    floors = {name: reference.floor for name, reference in references.items()}
+    known = {name: value for name, value in tolerances.items() if name in floors}
+    found = [_recommendation(assessed, floors, {name: value}) for name, value in known.items()]
+    return found + ([_recommendation(assessed, floors, known)] if len(known) > 1 else [])
+
+
+def _recommendation(
+    assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
+) -> Recommendation:
+    stresses = needs_stress(tolerances)
+
+    def cheapest(names: Iterable[str]) -> AssessedRow | None:
+        rows = [row for name in names for row in _meeting(assessed, name, floors, tolerances)]
+        return min(rows, key=lambda a: a.row.seconds(stresses), default=None)
+
+    half_plane, finite_element = cheapest([FINEST.name]), cheapest(ELEMENTS_OF_RUN)
+    best = cheapest([method.name for method in METHODS])
+    name, tolerance = ALL, None
+    if len(tolerances) == 1:
+        [(name, tolerance)] = tolerances.items()
+    sentence = _sentence(tolerances, floors, half_plane, finite_element, best)
+    return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
+
+
+def _meeting(
+    assessed: list[AssessedRow], name: str, floors: dict[str, float], tolerances: Tolerances
+) -> list[AssessedRow]:
+    """Rows of a method that meet the tolerances, as all finer ones do: not by chance."""
+    found = []
+    for each in reversed([a for a in assessed if a.row.method.name == name]):
+        if each.row.status != OK:
+            continue
+        worst = each.worst(floors, tolerances)
+        if worst is None:  # itself the reference
+            continue
+        if worst > 1.0:
+            break
+        found.append(each)
+    return found
+
+
+def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
+    """The sections of a scene whose first levels end at a row's setting.
+
+    Three levels, which state an uncertainty; two where the coarsest of three would be too coarse.
+    The mesh grows at that level as it did when it was measured; in a stress window its elements are
+    as small as on the scene's own third level. `run` refines on only while a tolerance is open.
+    """
+    levels = 3
+    low, high = problem.extent
+    while high - low < FEWEST_ELEMENTS * row.setting * 2.0 ** (levels - 1) and levels > 2:
+        levels -= 1
+    sections: dict[str, dict] = {
+        "resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}
+    }
+    if row.method.model == "finite_element":
+        growth = problem.scene.finite_element.growth * COARSER_GROWTH ** problem.coarser(
+            row.setting
+        )
+        growth = min(growth, STEEPEST_GROWTH) / COARSER_GROWTH ** (3 - levels)
+        sections["finite_element"] = {
+            "element": row.method.element,
+            "growth": float(f"{growth:.4g}"),
+        }
+    return sections
+
+
+def _sentence(
+    tolerances: Tolerances,
+    floors: dict[str, float],
+    half_plane: AssessedRow | None,
+    finite_element: AssessedRow | None,
+    best: AssessedRow | None,
+) -> str:
+    aim = "all tolerances of the scene"
+    if len(tolerances) == 1:
+        [(name, tolerance)] = tolerances.items()
+        aim = f"{given_percent(tolerance)} of the {QUANTITIES[name].label}"
+    uncertain = [name for name, tolerance in tolerances.items() if floors[name] >= tolerance]
+    if uncertain:
+        names = ", ".join(f"{QUANTITIES[n].label} ({percent(floors[n])})" for n in uncertain)
+        return f"For {aim} nothing can be said: the reference itself is that uncertain: {names}."
+    if best is None:
+        return f"For {aim} no measured setting will do."
+    parts = []
+    if half_plane is not None:
+        parts.append(f"take the half-plane ({_words(half_plane, tolerances)})")
+    if finite_element is not None:
+        lead = "of" if parts else "take of"
+        parts.append(f"{lead} the finite elements {_words(finite_element, tolerances)}")
+    pairs = (("half-plane", half_plane), ("finite elements", finite_element))
+    missing = [name for name, row in pairs if row is None]
+    if missing and parts:
+        parts.append(f"no setting of the {' or the '.join(missing)} will do")
+    if best not in (half_plane, finite_element):
+        lead = "cheapest of all is" if parts else "nothing that run has will do, but"
+        parts.append(f"{lead} {_words(best, tolerances)}")
+    return f"For {aim} {'; '.join(parts)}."
+
+
+def _words(assessed: AssessedRow, tolerances: Tolerances) -> str:
+    row = assessed.row
+    seconds = row.seconds(needs_stress(tolerances))
+    setting = row.label if row.method.adapted else f"at a pitch of {row.label}"
+    if row.method.model == "finite_element":
+        setting += f", {integer(row.measured.solved.unknowns)} unknowns"
+    return f"{row.method.name} {setting}: expect {with_unit(seconds, 's', 2)}"
