@@ -118,12 +118,13 @@ class TransformCounter:
         return self._operator.precondition(displacement)
 
     def cropped(self, span: int) -> "TransformCounter | None":
-        part = self._operator.cropped(span)
-        return None if part is None else TransformCounter(part, self._lengths)
+        return self._counted(self._operator.cropped(span))
 
     def coarsened(self) -> "TransformCounter | None":
-        coarse = self._operator.coarsened()
-        return None if coarse is None else TransformCounter(coarse, self._lengths)
+        return self._counted(self._operator.coarsened())
+
+    def _counted(self, operator: Convolution | None) -> "TransformCounter | None":
+        return None if operator is None else TransformCounter(operator, self._lengths)
 
 
 def _transform_length(operator: Convolution) -> int:

@@ -77,10 +77,13 @@ def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]
     Console(width=140).print(table)
 
 
-def print_demands(demands: Sequence[Demand]) -> int:
-    """The exit status: 0 only if all hold."""
+def print_demands(demands: Sequence[Demand], peers: Sequence | None = None) -> int:
+    """The exit status: 0 only if all hold and, where peers are required, one is installed."""
     for demand in demands:
         print("holds " if demand.holds else "FAILS ", demand.text)
     failed = sum(not demand.holds for demand in demands)
     print(f"{failed} demands fail" if failed else "all demands hold")
+    if peers is not None and not peers:
+        print("no peer is installed: nothing is shown")
+        return 1
     return 1 if failed else 0

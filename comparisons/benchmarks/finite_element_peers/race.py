@@ -75,15 +75,12 @@ def main(arguments: list[str] | None = None) -> int:
         rows += [(case.title, *_cells(result)) for result in results]
         found += times_at_errors(case.title, results, ours[0].name)
     print_table("Every mesh, relative errors", COLUMNS, rows)
-    status = print_demands([times.demand for times in found])
     for peer in peers:
         both = [t for t in found if t.peer == peer.name and max(t.ours, t.theirs) < math.inf]
         if both:
             ratio = statistics.median(times.theirs / times.ours for times in both)
             print(f"{peer.name}: {ratio:.3g} times our time, in the median")
-    if not peers:
-        print("no peer is installed: nothing is shown")
-    return status if peers else 1
+    return print_demands([times.demand for times in found], peers)
 
 
 def _cells(result: BlockResult) -> list[str]:

@@ -12,7 +12,6 @@ has Hertz's pressure as its exact solution, on the same nodes and without a padd
     h   pitch [m]          L   length or period [m]      P   load per length [N/m]
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -145,11 +144,12 @@ def hat_averages(waves: np.ndarray, count: int) -> np.ndarray:
 
 def load_for_share(count: int, waves: np.ndarray) -> float:
     """P [N/m] that brings CONTACT_SHARE of `count` nodes in contact, to a node or so."""
-
-    def excess(load: float) -> float:
-        return np.mean(_solved(waves, count, load).pressure > 0.0) - CONTACT_SHARE
-
-    return _bisected(excess, 1e-3 * RMS_SLOPE, RMS_SLOPE)
+    low, high = 1e-3 * RMS_SLOPE, RMS_SLOPE
+    for _ in range(14):
+        middle = np.sqrt(low * high)
+        share = np.mean(_solved(waves, count, middle).pressure > 0.0)
+        low, high = (middle, high) if share < CONTACT_SHARE else (low, middle)
+    return float(np.sqrt(low * high))
 
 
 def _solved(waves: np.ndarray, count: int, load: float) -> ContactSolution:
@@ -159,10 +159,3 @@ def _solved(waves: np.ndarray, count: int, load: float) -> ContactSolution:
     return solve_contact(
         operator, pitch * hat_averages(waves, count), weights, Constraints(load=load)
     )
-
-
-def _bisected(rising: Callable[[float], float], low: float, high: float) -> float:
-    for _ in range(14):
-        middle = np.sqrt(low * high)
-        low, high = (middle, high) if rising(middle) < 0.0 else (low, middle)
-    return float(np.sqrt(low * high))

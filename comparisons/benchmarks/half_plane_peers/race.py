@@ -84,10 +84,7 @@ def main(arguments: list[str] | None = None) -> int:
             rows += [(title, str(count), *_cells(result, results[0])) for result in results]
             found += demands(f"{title}, n = {count}", count, results[0], results[len(ours) :])
     print_table("Processor time; ratio: time over that of the first row", COLUMNS, rows)
-    status = print_demands(found)
-    if not peers:
-        print("no peer is installed: nothing is shown")
-    return status if peers else 1
+    return print_demands(found, peers)
 
 
 def _cells(result: LineResult, ours: LineResult) -> list[str]:
