@@ -126,13 +126,13 @@ class CostStudy(Printed):
 
     def plot(self, quantity: str = "peak_pressure") -> "list[Axes]":
         """The diagram of a quantity."""
-        from comparisons.report.figures.style import handed_over
+        from comparisons.report.figures.style import collected_figures
         from comparisons.studies.cost.picture import cost_picture
 
         if quantity not in self.study.references:
             allowed = ", ".join(self.study.references)
             raise InputError(f"quantity: is {quantity}; allowed is {allowed}")
-        with handed_over() as drawn:
+        with collected_figures() as drawn:
             cost_picture(self.study, quantity)
         return drawn[0].axes
 
@@ -151,10 +151,10 @@ class Map(Printed):
 
     def plot(self) -> "list[Axes]":
         """The map."""
-        from comparisons.report.figures.style import handed_over
+        from comparisons.report.figures.style import collected_figures
         from comparisons.studies.maps.picture import map_figure
 
-        with handed_over():
+        with collected_figures():
             return map_figure(self.content).axes
 
     def _table(self) -> "RenderableType":

@@ -1,8 +1,7 @@
 """The fields as numbers in the page, for a reader who points at a picture or cuts a section.
 
-Whole numbers of two bytes on a part of the window's points, the values those of the points
-themselves: a model as it is, and the difference of both on a scale of its own, which keeps its
-digits. The other model's field is the one less the other.
+Integers of two bytes on a part of the window's points: the first model's field, and the difference
+of both on a separate scale, which preserves its digits. The page computes the second model's field.
 """
 
 import base64

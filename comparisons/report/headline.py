@@ -75,7 +75,7 @@ def _all_judged(checks: list[ToleranceCheck]) -> str:
 
 
 def _nearest(checks: Iterable[ToleranceCheck]) -> ToleranceCheck:
-    """The one farthest outside, or nearest to, its tolerance, its doubt included."""
+    """The one farthest outside, or nearest to, its tolerance, uncertainty included."""
     return max(checks, key=lambda s: (abs(s.value) + s.total_uncertainty) / s.tolerance)
 
 
@@ -92,12 +92,12 @@ def _said(check: ToleranceCheck, several: bool) -> str:
 
 def _dominant(outcome: Outcome, check: ToleranceCheck) -> str:
     """The effect that makes more than half of an error, if there is one."""
-    own = outcome.budget.of(check.quantity, check.friction)
-    if not own.effects:
+    error = outcome.budget.of(check.quantity, check.friction)
+    sizes = {name: abs(effect.value) for name, effect in error.effects.items()}
+    largest = max(sizes, key=sizes.get, default=None)
+    if largest is None or sizes[largest] <= 0.5 * abs(error.value):
         return ""
-    name = max(own.effects, key=lambda name: abs(own.effects[name].value))
-    made = abs(own.effects[name].value)
-    return f", dominated by {EFFECTS[name].label}" if made > 0.5 * abs(own.value) else ""
+    return f", dominated by {EFFECTS[largest].label}"
 
 
 def _one_model(outcome: Outcome) -> str:

@@ -1,4 +1,4 @@
-"""How pages are made: templates, what stands in them in words, and the one script they may run."""
+"""Pages from templates: filters for their text, and the one script that a page may run."""
 
 import base64
 import hashlib
@@ -20,7 +20,7 @@ STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 def rendered(template: str | Path, **values: object) -> str:
     """A template with values in it; text among them is escaped.
 
-    template  one of this folder, or the path of another one, which may use what stands here
+    template  one of this folder, or the path of another one, which may use this folder's macros
     """
     path = FOLDER / template
     return _environment(path.parent).get_template(path.name).render(**values)
@@ -51,7 +51,7 @@ def tight(text: str) -> str:
 
 
 def inline(name: str) -> "tuple[Markup, str]":
-    """A script of this folder, and the Content-Security-Policy under which it alone runs."""
+    """A script of this folder, and a Content-Security-Policy that allows no other script."""
     from markupsafe import Markup
 
     text = (FOLDER / name).read_text(encoding="utf-8")

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError
+from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -58,7 +59,9 @@ class Plots:
         if component not in names:
             raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
         frictions = list(self.outcome.problem.scene.friction)
-        place = _place(frictions, friction)
+        if friction not in (None, *frictions):
+            raise InputError(f"friction: is {friction:g}; allowed is {listed(frictions)}")
+        place = 0 if friction is None else frictions.index(friction)
         # drawn component by component, in each all friction coefficients
         return self._axes(field_pictures, names.index(component) * len(frictions) + place)
 
@@ -110,9 +113,9 @@ class Plots:
         """Axes of one of the figures that `draw` makes; the others are closed."""
         from matplotlib import pyplot
 
-        from comparisons.report.figures.style import handed_over
+        from comparisons.report.figures.style import collected_figures
 
-        with handed_over() as drawn:
+        with collected_figures() as drawn:
             draw(self.outcome)
         for number, each in enumerate(drawn):
             if number != place:
@@ -120,12 +123,3 @@ class Plots:
         if not 0 <= place < len(drawn):
             raise InputError("the run has no such picture; allowed is one that its report has")
         return drawn[place].axes
-
-
-def _place(frictions: list[float], friction: float | None) -> int:
-    if friction is None:
-        return 0
-    if friction not in frictions:
-        allowed = ", ".join(f"{each:g}" for each in frictions)
-        raise InputError(f"friction: is {friction:g}; allowed is {allowed}")
-    return frictions.index(friction)

@@ -1,4 +1,4 @@
-"""Reports of finished runs drawn again, from their folders alone, and a page that sums them up."""
+"""Reports of finished runs drawn again from their folders, and a page that sums them up."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -34,7 +34,7 @@ class Report:
 def draw_again(
     folders: Sequence[Path], summary: Path | None, pdf: bool, callback: ProgressCallback
 ) -> list[Report]:
-    """Write report.html of each folder anew, and the summary if a place for it is given.
+    """Write report.html of each folder again, and the summary if a path for it is given.
 
     All folders are read before anything is written. Raises InputError for one that holds no run,
     or whose place cannot be written.

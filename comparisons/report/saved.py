@@ -24,9 +24,9 @@ FILE = "report.npz"
 SCHEMA = 1
 REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
 MESH = Path("finite_element") / "mesh.msh"
-# Of an outcome: in files of its own, or not shown.
+# Of an outcome: in other files, or not shown.
 ELSEWHERE = ("problem", "result", "record", "directory")
-# Of a problem: made anew from the scene.
+# Of a problem: made again from the scene.
 REMADE = ("gap", "knots")
 
 

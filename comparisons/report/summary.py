@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
 
-from comparisons.common.numbers import given_percent, percent, scale_of, significant
+from comparisons.common.numbers import given_percent, percent, significant, with_unit
 from comparisons.common.quantities import LABELS, QUANTITIES, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
@@ -21,7 +21,7 @@ COLUMNS = {
     **{name: label(name) for name in FIGURES},
     **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
     **{f"seconds_{name}": f"time, {words}" for name, words in LABELS.items()},
-    "seconds_error_budget": "time of all cores, error budget",
+    "seconds_error_budget": "time summed over cores, error budget",
 }
 
 
@@ -58,12 +58,7 @@ def summary_row(outcome: Outcome) -> SummaryRow:
         report=outcome.directory / "report.html",
         kind=said.kind,
         sentence=said.sentence,
-        cells={
-            **_groups(outcome),
-            **_figures(outcome),
-            **_model_errors(outcome),
-            **_times(outcome),
-        },
+        cells=_groups(outcome) | _figures(outcome) | _model_errors(outcome) | _times(outcome),
     )
 
 
@@ -78,14 +73,10 @@ def summary_page(rows: Sequence[SummaryRow], place: Path) -> str:
         rows=rows,
         columns={name: head for name, head in COLUMNS.items() if name in shown},
         counts=counts,
-        links=[_link(row.report, place) for row in rows],
+        links=[quote(os.path.relpath(row.report.resolve(), place.resolve())) for row in rows],
         script=script,
         policy=policy,
     )
-
-
-def _link(page: Path, place: Path) -> str:
-    return quote(os.path.relpath(page.resolve(), place.resolve()))
 
 
 def _groups(outcome: Outcome) -> dict[str, Cell]:
@@ -105,14 +96,12 @@ def _figures(outcome: Outcome) -> dict[str, Cell]:
         part = "stress" if QUANTITIES[name].needs_stress else "contact"
         values = [entry[part][name] for entry in entries if entry[part] is not None]
         if values:
-            largest = max(values)
-            unit = QUANTITIES[name].unit
-            found[name] = Cell(scale_of([largest], unit).text(largest), largest)
+            found[name] = Cell(with_unit(max(values), QUANTITIES[name].unit), max(values))
     return found
 
 
 def _model_errors(outcome: Outcome) -> dict[str, Cell]:
-    """Of what is judged, at the friction where it stands worst."""
+    """Of what is judged, at the friction coefficient where it is largest."""
     if outcome.budget is None:
         return {}
     found: dict[str, Cell] = {}
@@ -131,7 +120,4 @@ def _times(outcome: Outcome) -> dict[str, Cell]:
     seconds = {name: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     if outcome.budget is not None and outcome.budget.seconds:
         seconds["error_budget"] = outcome.budget.seconds
-    return {
-        f"seconds_{name}": Cell(scale_of([time], "s").text(time, 3), time)
-        for name, time in seconds.items()
-    }
+    return {f"seconds_{n}": Cell(with_unit(time, "s", 3), time) for n, time in seconds.items()}

@@ -165,31 +165,27 @@ def _facts(outcome: Outcome) -> "Table":
     from rich.table import Table
     from rich.text import Text
 
-    times = ", ".join(
-        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
-        for name, run in outcome.runs.items()
-    )
+    scene, rows = outcome.problem.scene, []
+    if scene.profile_info is not None:
+        surface = surface_text(scene.profile_info, run_in=scene.run_in is not None)
+        rows.append(("surface", surface))
+    if scene.run_in is not None:
+        rows.append(("run in", run_in_text(outcome)))
+    if outcome.budget is not None:
+        rows.append(("not modelled", not_modelled_line(outcome)))
+    moved = coupling_line(outcome)
+    if moved is not None:
+        rows.append(("coupling", moved))
+    seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
+    times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     if outcome.budget is not None and outcome.budget.seconds:
-        seconds = with_unit(outcome.budget.seconds, "s", 3)
-        times += f", error budget {seconds} of all cores together"
+        times += f", error budget {with_unit(outcome.budget.seconds, 's', 3)} summed over cores"
     facts = Table.grid(padding=(0, 2))
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
-    scene = outcome.problem.scene
-    if scene.profile_info is not None:
-        surface = surface_text(scene.profile_info, run_in=scene.run_in is not None)
-        facts.add_row("surface", Text(surface.translate(PLAIN)))
-    if scene.run_in is not None:
-        facts.add_row("run in", Text(run_in_text(outcome).translate(PLAIN)))
-    if outcome.budget is not None:
-        estimates = not_modelled_line(outcome).translate(PLAIN).replace(" %", "%")
-        facts.add_row("not modelled", Text(estimates))
-    moved = coupling_line(outcome)
-    if moved is not None:
-        facts.add_row("coupling", moved.translate(PLAIN).replace(" %", "%"))
-    facts.add_row("time", times.translate(PLAIN))
-    if outcome.directory is None:
-        return facts
-    facts.add_row("report", Text(str(outcome.directory / "report.html")))
-    facts.add_row("figures", Text(str(outcome.directory / "result.json")))
+    for name, text in [*rows, ("time", times)]:
+        facts.add_row(name, Text(text.translate(PLAIN).replace(" %", "%")))
+    if outcome.directory is not None:
+        for name, file in (("report", "report.html"), ("figures", "result.json")):
+            facts.add_row(name, Text(str(outcome.directory / file)))
     return facts

@@ -2,7 +2,7 @@
 
 From the top: both models' pressures with Hertz's, their difference, the surfaces under load, and
 the principal shear stress below them by the finite elements, for the last friction coefficient.
-The README's picture is made anew by
+This command makes it again:
 
     .venv/bin/python -c "from comparisons.runs.readme_picture import remake; remake()"
 """

@@ -103,7 +103,7 @@ def fill(
 
 
 def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """The field on the picture's own even pixels, linear between the window's points."""
+    """The field on even pixels, linear between the window's points."""
     from scipy.ndimage import map_coordinates
 
     box, (wide, tall) = axes.get_position(), axes.figure.get_size_inches()

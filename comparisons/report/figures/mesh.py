@@ -63,9 +63,8 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
     height = float(np.clip(width * depth / (high - low), 0.8, 4.2))
     drawn = figure(COLUMN, height + 0.6)
     [axes] = stacked(drawn, [(0.14, height)], 0.68)
-    points = points / unit.factor
+    points, bounds = points / unit.factor, tuple(end / unit.factor for end in view)
     top = points[:, 1].min()
-    bounds = low / unit.factor, high / unit.factor, depth / unit.factor
     cell = CELL * (bounds[1] - bounds[0]) / width
     _edges(axes, points, corners, bounds, cell)
     near_top = min(0.0, max(top, -0.2 * bounds[2]))

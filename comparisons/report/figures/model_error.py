@@ -71,8 +71,7 @@ class ErrorBar:
 
 
 def model_error_picture(outcome: Outcome) -> Picture | None:
-    """Judged quantities, other figures and norms, each on a scale of its own; None with one
-    model."""
+    """Judged quantities, other figures and norms, each on its own scale; None with one model."""
     if outcome.budget is None:
         return None
     bars = error_bars(outcome)
@@ -167,11 +166,11 @@ def _draw(axes: "Axes", bars: list[ErrorBar]) -> None:
             if width > 0.0:  # each would still take a kilobyte of the page
                 axes.barh(y, width, left=start, height=0.66, **_look(part))
                 start += width
-        error, doubt = 100.0 * abs(bar.error), 100.0 * bar.uncertainty
+        error, uncertainty = 100.0 * abs(bar.error), 100.0 * bar.uncertainty
         axes.errorbar(
             error,
             y,
-            xerr=[[min(doubt, error)], [doubt]],
+            xerr=[[min(uncertainty, error)], [uncertainty]],
             fmt="D",
             markersize=4.0,
             color=INK,
@@ -180,7 +179,7 @@ def _draw(axes: "Axes", bars: list[ErrorBar]) -> None:
             capsize=2.5,
             zorder=4,
         )
-        ends += [start, error + doubt]
+        ends += [start, error + uncertainty]
         if bar.tolerance:
             axes.plot([100.0 * bar.tolerance] * 2, [y - 0.46, y + 0.46], color=INK, lw=2.0)
             ends.append(100.0 * bar.tolerance)

@@ -1,8 +1,8 @@
 """Pressures over the profile, in the manner of Bailey and Sayles (1991), figure 1.
 
-Above the pressures of both models over the Hertz curve, then their difference, below them on the
-same x the deformed surfaces; once over the whole contact, once around the highest peak or the edge,
-where the nodes of the piecewise-linear pressures can be told apart.
+From the top, over the same x: pressures of both models over the Hertz curve, their difference, the
+deformed surfaces; once over the whole contact, once around the highest peak or the edge, where the
+nodes of the piecewise-linear pressures can be seen.
 """
 
 from typing import TYPE_CHECKING

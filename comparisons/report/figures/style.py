@@ -1,7 +1,7 @@
 """How every picture of the report looks, and how it becomes part of the page.
 
-Colours are those of Okabe and Ito, told apart by every kind of colour vision; a line style goes
-with each, so that the pictures survive a grey printer.
+Colours are those of Okabe and Ito, which every kind of colour vision tells apart; each has its own
+line style, for grey printers.
 """
 
 import base64
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLUMN = 5.6  # inches: two such pictures stand side by side on a desk, one on a telephone
+COLUMN = 5.6  # inches: two such pictures stand side by side on a wide screen
 WIDE = 11.4  # inches: a picture across the page
 
 LINES = {
@@ -69,9 +69,9 @@ class Picture:
     source       data URI
     alternative  what it shows, for those who cannot see it
     caption      what it shows and how to read it
-    narrow       data URI of a version for narrow screens, None where one version suits all
+    narrow       data URI of a version for narrow screens
     wide         across the page
-    field        JSON of what a pointer on it points at, None where that has no values
+    field        JSON: which field is drawn where, for values under the pointer
     """
 
     source: str
@@ -82,12 +82,12 @@ class Picture:
     field: str | None = None
 
 
-_HANDED_OVER: "ContextVar[list[Figure] | None]" = ContextVar("handed_over", default=None)
+_COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", default=None)
 
 
 @contextmanager
 def drawing() -> Iterator[None]:
-    """Settings for all that is drawn inside; whatever the caller's were, they come back."""
+    """Settings of matplotlib for what is drawn inside; the caller's settings come back."""
     import matplotlib
 
     with matplotlib.rc_context():
@@ -97,22 +97,22 @@ def drawing() -> Iterator[None]:
 
 
 @contextmanager
-def handed_over() -> "Iterator[list[Figure]]":
-    """A list of the figures that are drawn inside; they become pyplot's, and no part of a page."""
+def collected_figures() -> "Iterator[list[Figure]]":
+    """Collect the figures that are drawn inside, as figures of pyplot and not as images."""
     drawn: list[Figure] = []
-    token = _HANDED_OVER.set(drawn)
+    token = _COLLECTED.set(drawn)
     try:
         with drawing():
             yield drawn
     finally:
-        _HANDED_OVER.reset(token)
+        _COLLECTED.reset(token)
 
 
 def figure(width: float, height: float) -> "Figure":
     """An empty figure of `width` by `height` inches."""
     from matplotlib.figure import Figure
 
-    others = _HANDED_OVER.get()
+    others = _COLLECTED.get()
     if others is None:
         return Figure(figsize=(width, height))
     from matplotlib import pyplot
@@ -178,13 +178,13 @@ def svg(drawn: "Figure") -> str:
 
 
 def _shortened(outline: re.Match[bytes]) -> bytes:
-    """An outline without the decimals and blanks that nobody sees."""
+    """An outline without invisible decimals and blanks."""
     return b' d="' + _BLANKS.sub(rb"\1", _DECIMALS.sub(rb"\1", outline[1])).strip() + b'"'
 
 
 def data_uri(drawn: "Figure") -> str:
-    """The figure as an SVG image; nothing where figures are handed over."""
-    if _HANDED_OVER.get() is not None:
+    """The figure as an SVG image; empty inside `collected_figures`."""
+    if _COLLECTED.get() is not None:
         return ""
     text = base64.b64encode(svg(drawn).encode()).decode("ascii")
     return "data:image/svg+xml;base64," + text

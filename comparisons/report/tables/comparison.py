@@ -73,16 +73,16 @@ def figure_rows(outcome: Outcome) -> list[tuple[str, ...]]:
     [run] = outcome.runs.values()
     problem, found = outcome.problem, []
     for friction in problem.scene.friction:
-        doubts = uncertainties(run, problem, friction)
+        known = uncertainties(run, problem, friction)
         for name, value in figures(run.finest, problem, friction).items():
-            found.append((friction, name, value, doubts[name].total))
+            found.append((friction, name, value, known[name].total))
     found.sort(key=lambda entry: list(QUANTITIES).index(entry[1]))
     rows = []
     for same in grouped(found, lambda entry: entry[1:]):
-        _, name, value, doubt = same[0]
-        size = scale_of([value], QUANTITIES[name].unit).text(value)
+        _, name, value, uncertainty = same[0]
         frictions = listed(entry[0] for entry in same)
-        rows.append((name, frictions, size, _in_hertz(problem, name, value), percent(doubt)))
+        sizes = with_unit(value, QUANTITIES[name].unit), _in_hertz(problem, name, value)
+        rows.append((name, frictions, *sizes, percent(uncertainty)))
     return rows
 
 

@@ -14,7 +14,7 @@ SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not list
 
 @dataclass(frozen=True)
 class ModelErrorRow:
-    """The half-plane's model error in a quantity, at one friction coefficient or several alike.
+    """The half-plane's model error in a quantity, at one or more friction coefficients.
 
     contributions  what makes it up, the largest first, each with its sign
     """

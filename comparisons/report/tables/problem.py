@@ -29,9 +29,10 @@ def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
     """Headings, each with its rows of a name and a value."""
     scene = outcome.problem.scene
     info = scene.profile_info
+    before = "" if scene.run_in is None else " before running-in"
     return [
         ("Geometry", _geometry(scene)),
-        *([] if info is None else [(_standard_heading(scene), _standard(info))]),
+        *([] if info is None else [(f"Roughness{before} (ISO 21920-2)", _standard(info))]),
         ("Materials", _materials(outcome)),
         ("Load", _load(outcome)),
         ("Dimensionless groups", _groups(outcome)),
@@ -48,24 +49,18 @@ def _geometry(scene: ResolvedScene) -> Rows:
     rows.append(("body, width w", "unbounded" if scene.width is None else given(scene.width, "m")))
     if scene.profile_info is None:
         return [*rows, ("surface", "smooth")]
-    return (
-        rows
-        + _profile(scene.profile_info)
-        + [("place of the roller on the trace", given(scene.position, "m"))]
-    )
+    place = ("place of the roller on the trace", given(scene.position, "m"))
+    return [*rows, *_profile(scene.profile_info), place]
 
 
 def _profile(info: ProfileInfo) -> Rows:
     figures = info.roughness
     rows = [
         ("profile", info.source),
-        (
-            "samples, length, spacing",
-            f"{info.samples}, {with_unit(info.length, 'm')}, {with_unit(info.spacing, 'm')}",
-        ),
+        ("samples, length, spacing", f"{info.samples}, {_pair_in_m(info.length, info.spacing)}"),
         ("form", str(info.form)),
         ("filter", filter_text(info)),
-        ("Ra, Rq as pressed", f"{with_unit(figures.ra, 'm')}, {with_unit(figures.rq, 'm')}"),
+        ("Ra, Rq as pressed", _pair_in_m(figures.ra, figures.rq)),
         ("highest peak to deepest valley", with_unit(figures.rt, "m")),
         ("skewness, kurtosis", f"{decimal(figures.rsk, 2)}, {decimal(figures.rku, 2)}"),
     ]
@@ -89,29 +84,25 @@ def in_mm(cutoff: float) -> str:
     return f"{plain(1e3 * cutoff)} mm"
 
 
-def _standard_heading(scene: ResolvedScene) -> str:
-    run_in = "" if scene.run_in is None else " before running-in"
-    return f"Roughness{run_in} (ISO 21920-2)"
-
-
 def _standard(info: ProfileInfo) -> Rows:
     """The standard's parameters of the trace, pressed as it is or not."""
     found = info.standard
     if found is None:
         return [("parameters", f"none: {info.standard_why}")]
     short = "none" if found.short_cutoff is None else given(found.short_cutoff, "m")
-    rows = [
+    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
+    return [
         ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
         ("section lengths", str(found.sections)),
+        ("Ra, Rq", _pair_in_m(found.ra, found.rq)),
+        ("Rz, Rt", _pair_in_m(found.rz, found.rt)),
+        ("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"),
+        ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}"),
     ]
-    for name, first, second in (
-        ("Ra, Rq", found.ra, found.rq),
-        ("Rz, Rt", found.rz, found.rt),
-    ):
-        rows.append((name, f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"))
-    rows.append(("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"))
-    width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
-    return [*rows, ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}")]
+
+
+def _pair_in_m(first: float, second: float) -> str:
+    return f"{with_unit(first, 'm')}, {with_unit(second, 'm')}"
 
 
 def _materials(outcome: Outcome) -> Rows:

@@ -67,7 +67,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
     problem, check = outcome.problem, run.far_boundary_check
     levels = [*run.levels, *([check] if check else [])]
     pitch = scale_of([run.levels[0].grid.pitch], "m")
-    head = _head(len(run.levels), block=check is not None, domain=check is not None)
+    head = _head(run, with_check=True)
     rows = [
         ("pitch of the pressure elements", *(pitch.text(v.grid.pitch) for v in levels)),
         ("unknowns", *(integer(v.unknowns) for v in levels)),
@@ -75,14 +75,14 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
     ]
     rows = [row + ("",) * (len(head) - len(row)) for row in rows]
     for friction in problem.scene.friction:
-        doubts = uncertainties(run, problem, friction)
+        found = uncertainties(run, problem, friction)
         values = [figures(level, problem, friction) for level in levels]
         for name in values[0]:
             words = _row_name(problem, name, friction)
             if words and name != "contact_ratio":  # the ratio is the length over a constant
                 scale = scale_of([v[name] for v in values], QUANTITIES[name].unit)
                 numbers = (scale.text(v[name], 5) for v in values)
-                rows.append((words, *numbers, *_doubts(doubts[name], domain=check is not None)))
+                rows.append((words, *numbers, *_parts(found[name], check is not None)))
     return TextTable(LABELS[run.name].capitalize(), head, tuple(rows))
 
 
@@ -94,8 +94,8 @@ def _of_pair(outcome: Outcome) -> TextTable:
             words = _row_name(outcome.problem, name, pair.friction)
             if words:
                 numbers = (percent(norms[name], digits=3) for norms in pair.norms)
-                rows.append((words, *numbers, *_doubts(pair.uncertainties[name], domain=checked)))
-    head = _head(len(run.levels), block=False, domain=checked)
+                rows.append((words, *numbers, *_parts(pair.uncertainties[name], checked)))
+    head = _head(run, with_check=False)
     return TextTable("Difference of both models", head, tuple(rows))
 
 
@@ -108,26 +108,27 @@ def _row_name(problem: Problem, name: str, friction: float) -> str:
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
 
 
-def _head(levels: int, block: bool, domain: bool) -> tuple[str, ...]:
-    """`block`: a level with the block halved; `domain`: whether the far boundary was checked."""
-    numbered = tuple(f"level {k + 1}" for k in range(levels))
-    halved = ("level 1, block halved",) if block else ()
-    far = ("far boundary",) if domain else ()
-    return ("", *numbered, *halved, "order", "discretisation", "iteration", *far, "total")
+def _head(run: ModelRun, with_check: bool) -> tuple[str, ...]:
+    """`with_check`: the level of the far-boundary check is a column too."""
+    checked = run.far_boundary_check is not None
+    numbered = (f"level {k + 1}" for k in range(len(run.levels)))
+    check = ["level 1, block halved"] if checked and with_check else []
+    far = ["far boundary"] if checked else []
+    return ("", *numbered, *check, "order", "discretisation", "iteration", *far, "total")
 
 
-def _doubts(doubt: Uncertainty, domain: bool) -> tuple[str, ...]:
-    """Observed order and the parts of an uncertainty; `domain`: whether that part was looked at."""
-    known = doubt.convergence
+def _parts(found: Uncertainty, checked: bool) -> tuple[str, ...]:
+    """Observed order and parts of an uncertainty; `checked`: the far boundary is one of them."""
+    known = found.convergence
     order = significant(known.order, 2) if known.order is not None else ""
     if known.behaviour != "monotone":
         order = f"{order} {known.behaviour}".strip()
     return (
         order,
-        percent(doubt.discretisation),
-        percent(doubt.iteration),
-        *([percent(doubt.domain)] if domain else []),
-        percent(doubt.total),
+        percent(found.discretisation),
+        percent(found.iteration),
+        *([percent(found.domain)] if checked else []),
+        percent(found.total),
     )
 
 

@@ -12,7 +12,7 @@ from comparisons.report.figures.mesh import mesh_pictures
 from comparisons.report.figures.pressures import close_up_picture, pressure_picture
 from comparisons.report.figures.problem import problem_picture
 from comparisons.report.figures.sections import section_pictures
-from comparisons.report.figures.style import handed_over
+from comparisons.report.figures.style import collected_figures
 from comparisons.report.figures.surfaces import surface_picture
 from comparisons.results.outcome import Outcome
 
@@ -31,7 +31,7 @@ DRAWN = (
 
 def drawn(draw: Callable, outcome: Outcome) -> tuple[list, object]:
     """The figures that a function draws of a run, and what it returns."""
-    with handed_over() as figures:
+    with collected_figures() as figures:
         made = draw(outcome)
         for figure in figures:
             figure.draw_without_rendering()
