@@ -5,7 +5,6 @@ with empty extents of the entities.
 """
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -34,13 +33,12 @@ def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
 
 
 def write_msh(mesh: BlockMesh, path: str | Path) -> None:
-    """Saves the real body, its named sides and its BlockSpec; the file is complete or absent.
+    """Saves the real body, its named sides and its BlockSpec.
 
     Coordinates are x, z, 0 [m], z into the body.
     """
     import meshio
 
-    path = Path(path)
     lines = side_lines(mesh)
     cells = [("line3", lines[name]) for name in SIDES] + [("triangle6", mesh.triangles)]
     tags = [
@@ -59,14 +57,9 @@ def write_msh(mesh: BlockMesh, path: str | Path) -> None:
         name: value.tolist() if isinstance(value, np.ndarray) else value
         for name, value in asdict(mesh.spec).items()
     }
-    unfinished = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        meshio.write(unfinished, content, file_format="gmsh22", binary=True)
-        with unfinished.open("a") as file:
-            file.write(f"${SPEC_SECTION}\n{json.dumps(spec, default=float)}\n$End{SPEC_SECTION}\n")
-        os.replace(unfinished, path)
-    finally:
-        unfinished.unlink(missing_ok=True)
+    meshio.write(path, content, file_format="gmsh22", binary=True)
+    with Path(path).open("a") as file:
+        file.write(f"${SPEC_SECTION}\n{json.dumps(spec, default=float)}\n$End{SPEC_SECTION}\n")
 
 
 def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:

@@ -51,7 +51,7 @@ def run(
     from comparisons.runs.run import run as run_scene
 
     warnings = warnings_about(resolved)
-    if sys.stderr.isatty():  # whoever waits need not wait for that
+    if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
     with progress() as callback:
         try:

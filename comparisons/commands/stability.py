@@ -1,27 +1,23 @@
 """`crosscheck stability`: the stiff and extreme cases."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_file
 
 
+@job
 def stability(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the rows.", show_default="results/stability")
     ] = None,
     junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
     as_json: Annotated[bool, json_option("stability.json")] = False,
-) -> Job:
+) -> int:
     """Solve the stiff and extreme cases; end with 0 only if every one holds."""
-    return partial(_stability, out, junit, as_json)
-
-
-def _stability(out: Path | None, junit: Path | None, as_json: bool) -> int:
     from comparisons.studies.checks import rows_table, verdict_lines
     from comparisons.studies.robustness.run import run_robustness
 

@@ -1,27 +1,23 @@
 """`crosscheck verify`: both models against exact solutions."""
 
-from functools import partial
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show, show_file
 
 
+@job
 def verify(
     out: Annotated[
         Path | None, typer.Option(help="Folder for the figures.", show_default="results/verify")
     ] = None,
     junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
     as_json: Annotated[bool, json_option("verify.json")] = False,
-) -> Job:
+) -> int:
     """Hold both models to exact solutions, and stated uncertainties to true errors."""
-    return partial(_verify, out, junit, as_json)
-
-
-def _verify(out: Path | None, junit: Path | None, as_json: bool) -> int:
     from comparisons.studies.verify.run import verify as verify_all
     from comparisons.studies.verify.table import verify_summary
 

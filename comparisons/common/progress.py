@@ -1,4 +1,4 @@
-"""Seconds of a run by stage, a callback that hears of each stage, and memory."""
+"""Seconds of a run by stage, a callback for each stage, and memory."""
 
 import math
 import resource

@@ -146,5 +146,5 @@ def solve(
 
 
 def _interrupted(out: Path | None) -> KeyboardInterrupt:
-    """With how to go on, if anything is kept."""
+    """With how to go on, where levels are cached."""
     return KeyboardInterrupt(*([] if out is None else [GOES_ON]))

@@ -36,7 +36,7 @@ _MAKERS = {
     "ground": ground_texture,
     "turned": turned,
 }
-# What to say where a file does not tell it, and the scene does not either.
+# What a message allows for a field that neither the file nor the scene gives.
 _ALLOWED = {
     "x_unit": "exactly one of x_unit and spacing",
     "z_unit": allowed(ProfileSection, "z_unit"),
