@@ -55,15 +55,7 @@ STEEL = Material(200.0, 0.3)  # in units of the yield stress, which is 1
 CAPS = {f"cap {cap:g} Y": cap for cap in (2.4, 2.6, 2.8, 3.0)}  # hardness over yield stress
 BLOCK = 60.0  # half-width and depth of the body, in reaches of the hats
 INCREMENTS = 6  # from one load to the next
-COLUMNS = (
-    "smooth elastic peak",
-    "model",
-    "length",
-    "mean / Y",
-    "peak / Y",
-    "at x",
-    "from flow, L2",
-)
+COLUMNS = ("elastic peak", "model", "length", "mean / Y", "peak / Y", "at x", "from flow, L2")
 
 
 @dataclass(frozen=True)
