@@ -190,9 +190,9 @@ def compare(
     """Every quantity at one friction coefficient, in the order of QUANTITIES."""
     one = figures(half_plane.finest, problem, friction)
     other = figures(finite_element.finest, problem, friction)
-    doubt_one = uncertainties(half_plane, problem, friction)
-    doubt_other = uncertainties(finite_element, problem, friction)
-    doubt_norm = pair_history(half_plane, finite_element, problem, friction, window).uncertainties
+    of_one = uncertainties(half_plane, problem, friction)
+    of_other = uncertainties(finite_element, problem, friction)
+    of_norm = pair_history(half_plane, finite_element, problem, friction, window).uncertainties
     listed = []
     for name in QUANTITIES:
         if name in one:
@@ -200,15 +200,15 @@ def compare(
             least = QUANTITIES[name].scale(problem.hertz)
             scale = abs(second) or least
             difference = (first - second) / scale
-            own = (abs(first) or least) / scale * doubt_one[name].total
-            doubt = difference_of_figures(own, first / scale, doubt_other[name].total)
-        elif name in doubt_norm:
+            own = (abs(first) or least) / scale * of_one[name].total
+            uncertainty = difference_of_figures(own, first / scale, of_other[name].total)
+        elif name in of_norm:
             first = second = None
-            difference, doubt = doubt_norm[name].convergence.value, doubt_norm[name].total
+            difference, uncertainty = of_norm[name].convergence.value, of_norm[name].total
         else:
             continue
         tolerance = problem.scene.tolerance.get(name)
-        verdict = judge(difference, doubt, tolerance) if tolerance else None
+        verdict = judge(difference, uncertainty, tolerance) if tolerance else None
         listed.append(
             Comparison(
                 quantity=name,
@@ -216,7 +216,7 @@ def compare(
                 half_plane=first,
                 finite_element=second,
                 difference=difference,
-                uncertainty=doubt if np.isfinite(doubt) else None,
+                uncertainty=uncertainty if np.isfinite(uncertainty) else None,
                 tolerance=tolerance,
                 verdict=verdict,
             )

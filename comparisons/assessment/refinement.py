@@ -19,14 +19,13 @@ if TYPE_CHECKING:
     from comparisons.models.level import ExpectedCost
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
-USUAL_GROWTH = 2.2  # of a level's time over the one before: for what is told, nothing is decided
+USUAL_GROWTH = 2.2  # of a level's time over the one before: for the progress bar alone
 NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger than that
 FAR_BOUNDARY_CHECK = "finite_element-far_boundary_check"
 
 
 class CurrentBodies:
-    """The finite elements' bodies of the latest pitch alone, for a second level of it: coarser ones
-    would only fill the memory."""
+    """The finite elements' bodies of the latest pitch alone, for the far-boundary check on it."""
 
     def __init__(self) -> None:
         self._pitch: float | None = None
@@ -45,28 +44,29 @@ def refined(
     problem: Problem,
     plan: Plan,
     window: Window | None,
-    checkpoint: Cache,
+    cache: Cache,
     callback: ProgressCallback,
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.
 
-    Levels that `checkpoint` has from a run that was stopped are not computed again, but their
-    time counts.
+    Levels in the `cache` of a stopped run are not computed again; their expected time counts.
     """
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     check: Level | None = None
     bodies = CurrentBodies()
 
-    def solved(name: str, kept: str, pitch: float, tell: ProgressCallback, **how: bool) -> Level:
-        level = checkpoint.load(kept)
+    def solved(
+        name: str, name_in_cache: str, pitch: float, progress: ProgressCallback, **how: bool
+    ) -> Level:
+        level = cache.load(name_in_cache)
         if level is None:
-            level = _solve(name, problem, plan, pitch, window, tell, bodies, **how)
-            checkpoint.save(kept, level)
+            level = _solve(name, problem, plan, pitch, window, progress, bodies, **how)
+            cache.save(name_in_cache, level)
         return level
 
     begin = perf_counter()
 
-    def tell(number: int) -> ProgressCallback:
+    def progress(number: int) -> ProgressCallback:
         """A callback for a level."""
         spent = perf_counter() - begin
         behind = spent / (spent + _expected(levels, len(problem.pitches)))
@@ -76,13 +76,13 @@ def refined(
     if "half_plane" in levels:  # first, while nothing else is in memory
         for number, pitch in enumerate(problem.pitches, start=1):
             levels["half_plane"].append(
-                solved("half_plane", f"half_plane-{number}", pitch, tell(number))
+                solved("half_plane", f"half_plane-{number}", pitch, progress(number))
             )
     for number in count(1):
         pitch = problem.pitches[0] / 2.0 ** (number - 1)
         for name, done in levels.items():
             if len(done) < number:
-                done.append(solved(name, f"{name}-{number}", pitch, tell(number)))
+                done.append(solved(name, f"{name}-{number}", pitch, progress(number)))
         if number == 1 and plan.domain_check:
             callback("finite elements: far boundary at half the distance")
             check = solved(
@@ -119,11 +119,11 @@ def _numbered(callback: ProgressCallback, number: int, behind: float) -> Progres
     """Adds to stages the number of their level, and to the first how much lies behind."""
     names = count()
 
-    def told(stage: str) -> None:
+    def numbered(stage: str) -> None:
         words = f"{stage}, level {number}"
         callback(words if next(names) else Step(words, behind))
 
-    return told
+    return numbered
 
 
 def unresolved(

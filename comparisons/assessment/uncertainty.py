@@ -45,7 +45,7 @@ ORDER_MARGIN = 0.25  # an order this little beyond its limits is still regular
 # displacements' range was seen to leave 2e-3.
 PRESSURE_PER_RESIDUAL = 2e3
 # Of a pitch: how well `contact_patches` finds the edge of a smooth contact between two nodes, at
-# any place of it and on every level alike (0.047 at worst in 280 contacts).
+# any place of it and on every level (0.047 at worst in 280 contacts).
 EDGE_FOUND = 0.05
 LENGTHS = ("contact_length", "contact_ratio")  # quantities that are read with that resolution
 
@@ -77,7 +77,7 @@ def grid_convergence(
 ) -> Convergence:
     """Convergence of `values` (coarse to fine, each level of half the size).
 
-    resolution  how finely the figure can be told on the finest grid, in its own unit
+    resolution  least uncertainty with which the figure can be read on the finest grid, in its unit
     """
     value = float(values[-1])
     if len(values) < 3:
@@ -131,7 +131,7 @@ class Uncertainty:
         return self.iteration + self.discretisation + self.domain
 
 
-# How the parts are composed, one function a rule. Two rules stand for the residuals of two models.
+# How the parts are composed, one function a rule.
 
 
 def largest_iteration(*levels: Level) -> float:
@@ -155,9 +155,16 @@ def length_resolution(pitch: float, patches: int) -> float:
     """How finely the length of contact [m] in a number of patches can be read: one model's length,
     in a run and in `verify`.
 
-    The two edges of a patch may err alike, those of different patches err by chance.
+    The errors of a patch's two edges may add; those of different patches are independent.
     """
     return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
+
+
+def effect_discretisation(values: Sequence[float], formal_order: float, resolution: float) -> float:
+    """Of an effect on two levels or more: by `two_grids` on two, else by `grid_convergence`."""
+    if len(values) < 3:
+        return two_grids(values, resolution)
+    return grid_convergence(values, formal_order, resolution).uncertainty
 
 
 def effect_resolution(level: Level) -> float:

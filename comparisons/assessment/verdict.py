@@ -37,7 +37,7 @@ def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
     """Verdict on a relative difference.
 
     `inconclusive` when the difference is smaller than an uncertainty that exceeds the tolerance:
-    the numerics cannot tell, refine before you conclude. Otherwise the tolerance decides.
+    refine before you conclude. Otherwise the tolerance decides.
     """
     if abs(difference) < uncertainty and uncertainty > tolerance:
         return "inconclusive"
@@ -46,11 +46,11 @@ def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
 
 @dataclass(frozen=True)
 class ToleranceCheck:
-    """Where the half-plane stands in a judged quantity; all relative.
+    """The model error of the half-plane in a judged quantity against its tolerance; all relative.
 
-    value        its own error: half-plane against finite elements with every effect that matters
-    uncertainty  numerical, of that
-    not_modelled      by name, estimates of the effects that no model has; independent of each other
+    value         half-plane against finite elements with every effect that matters
+    uncertainty   numerical, of `value`
+    not_modelled  by name, estimates of the effects that no model has; independent of each other
     """
 
     quantity: str
@@ -62,35 +62,32 @@ class ToleranceCheck:
 
     @property
     def total_uncertainty(self) -> float:
-        """Uncertainty with what no model shows, which is added as squares."""
+        """Uncertainty and the root of the sum of squares of what is not modelled."""
         return self.uncertainty + math.hypot(*self.not_modelled.values())
 
     @property
     def is_inside(self) -> bool:
-        """Whether the error is within the tolerance beyond doubt."""
+        """Whether the error is within the tolerance, its total uncertainty included."""
         return abs(self.value) + self.total_uncertainty <= self.tolerance
 
     @property
     def is_outside(self) -> bool:
-        """Whether the error exceeds the tolerance beyond doubt."""
+        """Whether the error exceeds the tolerance by more than its total uncertainty."""
         return abs(self.value) - self.total_uncertainty > self.tolerance
 
     @property
     def verdict(self) -> Validity:
-        """The same as one word."""
+        """In one word."""
         return "holds" if self.is_inside else "fails" if self.is_outside else "inconclusive"
 
     @property
     def is_unresolved(self) -> bool:
-        """Whether the uncertainty alone reaches across the tolerance, whatever is not shown."""
+        """Whether the numerical uncertainty alone makes the verdict inconclusive."""
         return self.uncertainty >= abs(abs(self.value) - self.tolerance)
 
 
 def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
-    """Whether the half-plane's assumption holds in a scene, and which figures decide it.
-
-    An error within the tolerance, or outside it, counts only where no doubt could move it across.
-    """
+    """Whether the half-plane's assumption holds in a scene, and which figures decide it."""
     if not checks:
         return "inconclusive", "no quantity was judged against a tolerance"
     outside = [s for s in checks if s.is_outside]

@@ -1,4 +1,4 @@
-"""What the models of a scene take for granted, in words: both alike, or the half-plane alone."""
+"""The assumptions of a scene's models in words: of both, or of the half-plane alone."""
 
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
@@ -13,8 +13,7 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     listed.append(_roller(settings, rigid=scene.roller is None))
     if scene.coating is not None:
         listed.append(
-            "finite elements: a coating is bonded to the body; half-plane: the body is of its own "
-            "material throughout"
+            _split("the body is of one material", "a coating is bonded to the body of another")
         )
     if scene.running_in is not None:
         listed += running_in_assumptions(scene)
@@ -26,66 +25,58 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     return tuple(listed)
 
 
+def _split(half_plane: str, finite_elements: str) -> str:
+    return f"half-plane: {half_plane}; finite elements: {finite_elements}"
+
+
 def _deformation(settings: FiniteElementSettings) -> str:
+    linear, small = "linear elasticity", "small deformation"
     if settings.plastic:
-        return (
-            "small deformation, plane strain; half-plane: linear elasticity; finite elements: "
-            "von Mises' yield with isotropic hardening"
-        )
+        flow = "von Mises' yield with isotropic hardening"
+        return f"{small}, plane strain; {_split(linear, flow)}"
     if settings.deformation == "finite":
-        return (
-            "plane strain; half-plane: linear elasticity, small deformation; finite elements: "
-            "neo-Hookean elasticity, finite deformation"
-        )
-    return "linear elasticity, small deformation, plane strain"
+        finite = "neo-Hookean elasticity, finite deformation"
+        return f"plane strain; {_split(f'{linear}, {small}', finite)}"
+    return f"{linear}, {small}, plane strain"
 
 
 def _gap(settings: FiniteElementSettings) -> str:
+    undeformed = "the gap is on the undeformed surface"
     if settings.deformation == "finite":
-        return (
-            "half-plane: the gap is taken at the undeformed place; finite elements: at the "
-            "current one, and the pressure acts along the current normal, by deformed area"
-        )
-    if settings.gap == "displaced":
-        return (
-            "half-plane: the gap is taken at the undeformed place; finite elements: at the "
-            "displaced one, and the pressure acts along the roller's normal"
-        )
-    return "the gap is taken at the undeformed place, and the pressure acts along the mean normal"
+        normal = "current normal, by deformed area"
+    elif settings.gap == "displaced":
+        normal = "roller's normal"
+    else:
+        return f"{undeformed}, and the pressure acts along the mean normal"
+    return _split(undeformed, f"on the deformed one, and the pressure acts along the {normal}")
 
 
 def _boundary(settings: FiniteElementSettings) -> str:
     if settings.geometry == "flat":
         return "the roughness is in the gap: the boundary is flat"
-    return (
-        "half-plane: the roughness is in the gap; finite elements: it is the boundary, and next "
-        "to it stresses are those of asperities that do not flatten"
+    return _split(
+        "the roughness is in the gap",
+        "it is the boundary, and next to it stresses are those of asperities that do not flatten",
     )
 
 
 def _roller(settings: FiniteElementSettings, rigid: bool) -> str:
-    parts = []
-    if settings.roller_shape == "circle":
-        parts.append("a circle")
+    parts = ["an exact circle"] if settings.roller_shape == "circle" else []
     if settings.roller_body == "disc" and not rigid:
-        parts.append("an elastic body of a disc's shape")
-    both = "the roller is a parabola of the relative curvature"
-    if not parts:
-        return both
-    return f"half-plane: {both}; finite elements: it is {' and '.join(parts)}"
+        parts.append("an elastic body of finite size")
+    parabola = "the roller is a parabola of the relative curvature"
+    return _split(parabola, f"it is {' and '.join(parts)}") if parts else parabola
 
 
 def _friction(problem: Problem) -> str:
     scene, beta = problem.scene, problem.dundurs_beta
     product = max(scene.friction) * abs(beta)
-    # by itself it tells how much of half-planes alone
+    # for layers the product alone does not say how much
     size = "" if is_layered(scene) else f" (friction times Dundurs' beta is {product:.3g})"
     moves = f"the sliding traction moves the surfaces{size}"
     still = "the sliding traction does not change the pressure"
-    if scene.coupled == scene.finite_element.coupled:
-        if scene.coupled:
-            return moves
-        return still + (" (exact: Dundurs' beta is 0)" if size and beta == 0.0 else size)
-    which = ("half-plane", "finite elements")
-    mover, other = which if scene.coupled else which[::-1]
-    return f"{mover}: {moves}; {other}: {still}"
+    if scene.coupled != scene.finite_element.coupled:
+        return _split(moves, still) if scene.coupled else _split(still, moves)
+    if scene.coupled:
+        return moves
+    return still + (" (exact: Dundurs' beta is 0)" if size and beta == 0.0 else size)

@@ -86,7 +86,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         )
         skip(
             not effects,
-            "effects that the finite elements lack",
+            "effects beside the scene's own finite elements",
             "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged",
         )
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")

@@ -80,7 +80,7 @@ def window_of(problem: Problem) -> Window:
 
 
 def search_window(problem: Problem, window: Window) -> Window:
-    """Points from which the extremes inside a window are climbed, whatever its own density.
+    """Points from which the search for extremes inside a window starts, whatever its density.
 
     As dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from
     a fraction of that by a fixed ratio.

@@ -174,8 +174,8 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return _of_model_error(recorded["model_error"][quantity][entry], place, value)
         case ("error_budget", "quantities", quantity, int(entry), "numerical", model, "limit"):
             row = recorded["error_budget"]["quantities"][quantity][entry]
-            doubt = _number(row["numerical"][model]["discretisation"])
-            return Stated(doubt * abs(value), "itself", abs(value) or 1.0)
+            share = _number(row["numerical"][model]["discretisation"])
+            return Stated(share * abs(value), "itself", abs(value) or 1.0)
         case ("error_budget", "quantities", _, int(_), *_):
             return Stated(abs(value), "itself", 1.0)
         case ("groups", "peak_pressure_over_hardness"):

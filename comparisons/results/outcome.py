@@ -57,7 +57,7 @@ class Outcome:
     @property
     def exit_status(self) -> ExitStatus:
         """3: a solver did not converge; 1: the models differ by more than a tolerance; else 0,
-        whatever the half-plane lacks."""
+        whatever the model error of the half-plane."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
         if any(c.verdict == "differ" for c in self.comparisons):

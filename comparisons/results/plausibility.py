@@ -1,8 +1,7 @@
-"""What of a scene can hardly be meant: signs of a unit that was left out or mistaken.
+"""Plausibility warnings: signs in a scene of a missing or mistaken unit.
 
 A scene with `radius = 8` for 8 mm, `youngs_modulus = 207` for 207 GPa or a trace in the wrong unit
-is solved like any other, and its figures look like any others. Nothing here is forbidden: these
-are doubts, which the user is told of.
+is solved like any other. Nothing here is refused; the user is warned.
 """
 
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What a run's folder tells of the run: its record and its figures, checked.
+"""The record and the figures in a run's folder, checked.
 
 Everything comes from the folder itself. A profile's file may have changed or gone.
 """

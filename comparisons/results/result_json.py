@@ -233,7 +233,7 @@ def error_budget_content(
 ) -> dict:
     """What became of every effect, and by quantity the numerical parts and the sampling's, all
     relative; None for what is unknown."""
-    doubts = {
+    stated = {
         (model, friction): uncertainties(run, problem, friction)
         for model, run in runs.items()
         for friction in problem.scene.friction
@@ -241,7 +241,7 @@ def error_budget_content(
     quantities: dict[str, list[dict]] = {}
     for row in rows:
         numerical = {
-            model: _numerical(doubts[model, row.friction].get(row.quantity)) for model in runs
+            model: _numerical(stated[model, row.friction].get(row.quantity)) for model in runs
         }
         quantities.setdefault(row.quantity, []).append(
             {"friction": row.friction}
@@ -274,14 +274,14 @@ def _effect(name: str, budget: ErrorBudget) -> dict:
     return {"status": status, "because": why, "estimate": estimate}
 
 
-def _numerical(doubt: Uncertainty | None) -> dict | None:
-    if doubt is None:
+def _numerical(uncertainty: Uncertainty | None) -> dict | None:
+    if uncertainty is None:
         return None
-    convergence = doubt.convergence
+    convergence = uncertainty.convergence
     return {
-        "iteration": doubt.iteration,
-        "discretisation": _known(doubt.discretisation),
-        "domain": doubt.domain,
+        "iteration": uncertainty.iteration,
+        "discretisation": _known(uncertainty.discretisation),
+        "domain": uncertainty.domain,
         "convergence": convergence.behaviour,
         "order": convergence.order,
         "limit": convergence.limit,

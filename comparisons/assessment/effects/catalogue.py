@@ -1,9 +1,10 @@
-"""The half-plane's assumptions, each as an effect that finite elements may have or lack.
+"""The half-plane's assumptions, each as an effect that finite elements may contain.
 
-A scene is taken apart into the plain half-plane's scene and its effects, and put together again
-with any of them: that is how each one is measured by itself. Finite strain is the exception: at
-finite deformation the gap is at the displaced place, the boundary is the real one and the sliding
-traction moves it, so that its effect is measured beside a linear body that has all these.
+A new finite-element effect gets its entry in EFFECTS, an estimate in `estimates`, and its place in
+the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and given any
+effects (`with_effects`): so each is measured alone. Finite strain cannot be alone: at finite
+deformation the gap is on the deformed surface, the boundary is rough and sliding traction moves it,
+so that it is measured beside a linear body with these effects.
 """
 
 from collections.abc import Callable, Iterable
@@ -131,7 +132,7 @@ EFFECTS: dict[str, Effect] = {
 }
 
 
-# What finite deformation has whatever the scene says.
+# What finite deformation contains in any scene.
 IN_FINITE_STRAIN = "deformed_gap"
 
 
@@ -142,7 +143,7 @@ def contained(scene: ResolvedScene) -> frozenset[str]:
 
 
 def is_taken_apart(scene: ResolvedScene) -> bool:
-    """Whether the scene's finite elements are the half-plane's and effects, and nothing else."""
+    """Whether the scene's finite elements are the plain ones with effects, and nothing else."""
     own = scene
     if scene.finite_element.deformation == "finite":
         own = EFFECTS[IN_FINITE_STRAIN].give(scene, scene)
@@ -150,7 +151,7 @@ def is_taken_apart(scene: ResolvedScene) -> bool:
 
 
 def plain(scene: ResolvedScene) -> ResolvedScene:
-    """The scene as the half-plane takes it."""
+    """The scene as the half-plane assumes it."""
     settings = replace(
         scene.finite_element,
         geometry="flat",

@@ -5,12 +5,12 @@
     mu beta friction times Dundurs' beta                           E, H  modulus, hardness
     s       rms slope of the surface                               lambda  its shortest wave
 
-All are relative sizes without a sign, meant to be too large rather than too small: they decide
-what is computed, and stand for what is not. Each is a factor times a group; the factors bound what
-full solutions of smooth and wavy bodies showed, those of the maps among them, by quantity: stresses
-keep more of an effect than the contact, fields next to the surface most. That friction moves the
-surfaces is measured on the half-plane (`comparisons.assessment.normal_tangential_coupling`) where
-it is known.
+All are relative sizes without a sign, rather too large than too small: they decide which effects
+are computed, and count for those that are not. Each is a factor times a group. The factors bound
+the full solutions of smooth and wavy bodies, the maps' among them, quantity by quantity: an effect
+is larger in stresses than in the contact, and largest in fields next to the surface.
+Normal-tangential coupling is measured on the half-plane where that is possible
+(`comparisons.assessment.normal_tangential_coupling`).
 """
 
 from collections.abc import Iterable
@@ -34,31 +34,31 @@ def estimates(
     linear: Iterable[str],
     couplings: tuple[Coupling, ...] = (),
 ) -> dict[str, Sizes]:
-    """By effect and quantity; effects and quantities of no size are left out.
+    """By effect and quantity, without those of no size.
 
     peak       largest pressure [Pa] of the half-plane
     linear     names of the effects that the linear body has, beside which strain is not small
     couplings  of the half-plane, one a friction coefficient
     """
     found = {
-        "finite_size": _finite_body(problem),
+        "finite_size": _finite_size(problem),
         "coating": _coating(problem),
-        "rough_boundary": _real_boundary(_slope(problem)),
-        "deformed_gap": _displaced_gap(problem, peak),
-        "exact_circle": _circle(_curvature(problem)),
-        "finite_roller": _disc(problem),
+        "rough_boundary": _rough_boundary(_slope(problem)),
+        "deformed_gap": _deformed_gap(problem, peak),
+        "exact_circle": _exact_circle(_curvature(problem)),
+        "finite_roller": _finite_roller(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
         "finite_strain": _finite_strain(problem, peak, set(linear)),
         "plastic_flow": _plastic_flow(problem, peak),
     }
-    kept = {
+    sized = {
         effect: {name: size for name, size in sizes.items() if size > 0.0}
         for effect, sizes in found.items()
     }
-    return {effect: sizes for effect, sizes in kept.items() if sizes}
+    return {effect: sizes for effect, sizes in sized.items() if sizes}
 
 
-def _alike(size: float) -> Sizes:
+def _equal(size: float) -> Sizes:
     return dict.fromkeys(QUANTITIES, size)
 
 
@@ -78,8 +78,8 @@ REFLECTED = {"tau1_max": 1.0, "tau1_max_depth": 1.0, "tau1_field_near": 4.0, "ta
 BROADER = 1.5  # reflected by free sides, of what a base reflects
 
 
-def _finite_body(problem: Problem) -> Sizes:
-    scene, found = problem.scene, _alike(0.0)
+def _finite_size(problem: Problem) -> Sizes:
+    scene, found = problem.scene, _equal(0.0)
     for extent, length, factor in (
         ("thickness", scene.thickness, 1.0),
         ("width", scene.width, BROADER),
@@ -102,7 +102,7 @@ def _coating(problem: Problem) -> Sizes:
     ratio = coating.material.plane_strain_modulus / body.plane_strain_modulus
     size = max(ratio, 1.0 / ratio) - 1.0
     depth = min(1.0, coating.thickness / problem.hertz.half_width)
-    return _alike(size * depth) | dict.fromkeys(NEAR_SURFACE, size)
+    return _equal(size * depth) | dict.fromkeys(NEAR_SURFACE, size)
 
 
 # 0.25 % in contact length and 0.14 % in peak pressure of a ground surface of rms slope 0.066: of
@@ -113,8 +113,8 @@ BOUNDARY_PER_SLOPE_SQUARED = 1.0
 UNFLATTENED = {"tau1_max": 2.1, "txz_max_abs": 2.1, "tau1_field_near": 5.0, "tau1_max_depth": 7.0}
 
 
-def _real_boundary(slope: float) -> Sizes:
-    found = _alike(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
+def _rough_boundary(slope: float) -> Sizes:
+    found = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
     found["pressure_l2"] *= 2.0
     return found | _unflattened(slope)
 
@@ -131,11 +131,11 @@ def _unflattened(slope: float) -> Sizes:
 TILT, TILT_OF_STRESS, UNTURNED, SHIFTED = 0.25, 2.2, 5.0, 6.0
 
 
-def _displaced_gap(problem: Problem, peak: float) -> Sizes:
+def _deformed_gap(problem: Problem, peak: float) -> Sizes:
     body, curvature = problem.scene.body, _curvature(problem)
     strain = (1.0 - 2.0 * body.poissons_ratio) * (1.0 + body.poissons_ratio) / body.youngs_modulus
     size = TILT * curvature + strain * peak
-    found = _alike(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
+    found = _equal(size) | dict.fromkeys(STRESSES, TILT_OF_STRESS * size)
     found["tau1_field_near"] += UNTURNED * curvature
     if problem.scene.profile is not None:
         wave = shortest_wavelength(problem.scene.profile)
@@ -148,8 +148,8 @@ def _displaced_gap(problem: Problem, peak: float) -> Sizes:
 CIRCLE, CIRCLE_IN_NORMS = 0.25, 0.8
 
 
-def _circle(curvature: float) -> Sizes:
-    found = _alike(CIRCLE * curvature**2)
+def _exact_circle(curvature: float) -> Sizes:
+    found = _equal(CIRCLE * curvature**2)
     return found | dict.fromkeys(NORMS, CIRCLE_IN_NORMS * curvature**2)
 
 
@@ -157,23 +157,23 @@ def _circle(curvature: float) -> Sizes:
 DISC, DISC_IN_NORMS = 0.8, 2.5
 
 
-def _disc(problem: Problem) -> Sizes:
+def _finite_roller(problem: Problem) -> Sizes:
     if problem.scene.roller is None:
         return {}
     square = _curvature(problem) ** 2
-    return _alike(DISC * square) | dict.fromkeys(NORMS, DISC_IN_NORMS * square)
+    return _equal(DISC * square) | dict.fromkeys(NORMS, DISC_IN_NORMS * square)
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
 # at 0.035 (`comparisons.benchmarks.finite_deformation`); 2 % in tau1 at 0.038. Beside a
-# linear body that has the displaced gap or the real boundary by halves it takes back what these
-# overdo.
+# linear body that has the deformed gap or the rough boundary without strain it takes back what
+# these overestimate.
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 
 def _finite_strain(problem: Problem, peak: float, linear: set[str]) -> Sizes:
     pressure = peak / problem.scene.body.youngs_modulus
-    found = _alike(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
+    found = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
     if "deformed_gap" in linear:
         found["tau1_field_near"] += UNTURNED * _curvature(problem)
     if "rough_boundary" in linear:
@@ -182,13 +182,13 @@ def _finite_strain(problem: Problem, peak: float, linear: set[str]) -> Sizes:
     return found
 
 
-# Sliding traction that moves the surfaces, where the half-plane does not tell: 1.4 % in contact
+# Coupling where it is not measured on the half-plane: 1.4 % in contact
 # length at mu beta = 0.28, of second order; the pressure shifts by 0.64 mu beta half-widths, which
 # norms see, and stresses next to the surface at high friction.
 COUPLING_SQUARE, COUPLING_SHIFT = 0.25, 1.6
 COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 0.8, "txz_max_abs": 0.3}
-# A layer and a coat are moved otherwise than half-planes, like ones too: the pressures of steel on
-# steel by 10 %, 7 % and 3 % at a/t = 3, 1 and 1/4 and friction 0.3.
+# A layer and a coating couple even where both bodies have equal constants: pressures of steel on
+# steel change by 10 %, 7 % and 3 % at a/t = 3, 1 and 1/4 and friction 0.3.
 FAR_SIDE, COAT_SIDE = 2.0, 3.0
 
 
@@ -206,7 +206,7 @@ def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
                 if moved is None:  # zero without: by the scale that differences then take
                     moved = change.value / QUANTITIES[name].scale(problem.hertz)
                 sizes[name] = abs(moved)
-        layered = _coupled(friction * _layered_beta(problem))  # no half-plane tells of that
+        layered = _coupled(friction * _layered_beta(problem))  # which no half-plane shows
         found = {
             name: max(size, layered[name], found.get(name, 0.0)) for name, size in sizes.items()
         }
@@ -215,13 +215,13 @@ def _coupling(problem: Problem, couplings: tuple[Coupling, ...]) -> Sizes:
 
 def _coupled(size: float) -> Sizes:
     """Of surfaces that traction moves by `size` = mu beta."""
-    sizes = _alike(COUPLING_SQUARE * size**2) | dict.fromkeys(NORMS, COUPLING_SHIFT * size)
+    sizes = _equal(COUPLING_SQUARE * size**2) | dict.fromkeys(NORMS, COUPLING_SHIFT * size)
     return sizes | {name: factor * size for name, factor in COUPLING_OF_STRESS.items()}
 
 
 def _layered_beta(problem: Problem) -> float:
-    """What stands for Dundurs' beta where the body is a layer or has a coating: of the coating,
-    as deep as it reaches, and of the body on its own, as near as its far side is."""
+    """In place of Dundurs' beta for a layer or a coating: that of the coating by its depth, and
+    that of the body alone by the nearness of its far side."""
     scene, half_width = problem.scene, problem.hertz.half_width
     found = 0.0
     if scene.coating is not None:
@@ -245,4 +245,4 @@ def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     if scene.yielding is not None or scene.hardness is None:
         return {}  # the scene's own finite elements flow, or nothing does
     beyond = (peak / scene.hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)
-    return _alike(CAP * min(1.0, beyond)) if beyond > 0.0 else {}
+    return _equal(CAP * min(1.0, beyond)) if beyond > 0.0 else {}

@@ -1,10 +1,10 @@
-"""The half-plane's own error: what is left when numerics are accounted for, split into effects.
+"""The half-plane's model error: its error beyond the numerical ones, split into effects.
 
-All is relative to the whole, the finite elements with every effect, so that the same error is found
-whether they are added here or switched on in the scene. Figures: what the models differ by on their
-finest level, and what the scene's own finite elements still lack of the whole, on the level that
-the effects were taken to. Norms do not add: theirs are those of the half-plane against the whole,
-on that level; the far boundary counts as in the models' difference.
+All is relative to the whole, the finite elements with every effect that matters, so that the error
+is the same whether an effect is added here or switched on in the scene. A figure's error is the
+models' difference on their finest level plus what the scene's own finite elements do not contain of
+the whole, on the level of the effects. Norms do not add: their error is the norm of the half-plane
+against the whole on that level, with the far boundary of the models' difference.
 """
 
 from dataclasses import dataclass
@@ -24,10 +24,9 @@ from comparisons.assessment.uncertainty import (
     LENGTHS,
     difference_of_figures,
     difference_of_norms,
+    effect_discretisation,
     effect_resolution,
-    grid_convergence,
     largest_iteration,
-    two_grids,
 )
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.quantities import QUANTITIES
@@ -49,11 +48,10 @@ class ModelError:
     """Of one quantity at one friction coefficient, relative to the whole.
 
     effects      by name, what each changes in the finite elements
-    interaction  what the linear effects change together beyond their sum
+    interaction  what the linear effects change jointly beyond their sum
     value        (half-plane - whole) / whole, or the norm of that difference
     uncertainty  of `value`
-    stand_in     the part of that which refinement cannot lower: how well the stand-in's strain
-                 tells that of two bodies
+    stand_in     its part that refinement cannot lower: finite strain measured on a stand-in
     """
 
     quantity: str
@@ -101,10 +99,11 @@ def model_errors(
             values = [change.figures[name] / scale for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
-        doubt = _doubt(values, name, edge)
-        return Estimate(values[-1], doubt + iteration)
+        resolution = edge if name in LENGTHS else 0.0
+        refined = effect_discretisation(values, QUANTITIES[name].formal_order, resolution)
+        return Estimate(values[-1], refined + iteration)
 
-    lacking = [parts.not_contained for parts in history]
+    not_contained = [parts.not_contained for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]
     pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
     found = []
@@ -120,18 +119,18 @@ def model_errors(
             stand_in = strain_share_uncertainty(problem) * abs(strain.value)
             effects["finite_strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
         numerical = np.inf if row.uncertainty is None else row.uncertainty
-        missing = share(name, lacking)
+        missing = share(name, not_contained)
         if not QUANTITIES[name].of_pair:
-            value, doubt = _of_figure(
-                row, numerical, last.not_contained.figures[name], missing, problem
-            )
+            added = last.not_contained.figures[name]
+            value, uncertainty = _of_figure(row, numerical, added, missing, problem)
         elif _is_any(last.not_contained):
             norm, there = share(name, own), pair.norms[number][name]
             parts = numerical, abs(there - row.difference), missing.uncertainty
             value = norm.value
-            doubt = difference_of_norms(norm.uncertainty, pair.uncertainties[name].domain, parts)
+            domain = pair.uncertainties[name].domain
+            uncertainty = difference_of_norms(norm.uncertainty, domain, parts)
         else:
-            value, doubt = row.difference, numerical
+            value, uncertainty = row.difference, numerical
         found.append(
             ModelError(
                 name,
@@ -139,7 +138,7 @@ def model_errors(
                 effects,
                 relative_sizes(last.interaction, whole[-1], problem, window)[name],
                 value,
-                doubt + stand_in,
+                uncertainty + stand_in,
                 stand_in,
             )
         )
@@ -147,31 +146,23 @@ def model_errors(
 
 
 def _of_figure(
-    row: Comparison, numerical: float, lacking: float, missing: Estimate, problem: Problem
+    row: Comparison, numerical: float, added: float, missing: Estimate, problem: Problem
 ) -> tuple[float, float]:
     """Error of a figure and its uncertainty, relative to the whole.
 
     numerical  uncertainty of the models' difference, relative to the finite elements
-    lacking    what these lack of the whole [SI]; `missing` the same, relative to the whole
+    added      what the whole adds to these [SI]; `missing` the same, relative to the whole
     """
-    whole = row.finite_element + lacking
+    whole = row.finite_element + added
     scale = _scale(whole, row.quantity, problem)
     numerical *= _scale(row.finite_element, row.quantity, problem) / scale
-    doubt = difference_of_figures(numerical, row.half_plane / scale, missing.uncertainty)
-    return (row.half_plane - whole) / scale, doubt
+    uncertainty = difference_of_figures(numerical, row.half_plane / scale, missing.uncertainty)
+    return (row.half_plane - whole) / scale, uncertainty
 
 
 def _scale(figure: float, name: str, problem: Problem) -> float:
     """What differences are measured by [SI]: the figure, the Hertz contact's where it vanishes."""
     return abs(figure) or QUANTITIES[name].scale(problem.hertz)
-
-
-def _doubt(values: list[float], name: str, edge: float) -> float:
-    """Discretisation uncertainty of a difference of bodies on two levels or more."""
-    resolution = edge if name in LENGTHS else 0.0
-    if len(values) < 3:
-        return two_grids(values, resolution)
-    return grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
 
 
 def _is_any(answer: QuantitiesOfInterest) -> bool:

@@ -1,7 +1,6 @@
-"""What a model answers on one level, as something that can be added and subtracted.
+"""A model's quantities of interest on one level, which can be added and subtracted.
 
-The effects of assumptions are differences of answers on the same pressure elements and the same
-field points; figures, pressures and fields alike.
+Effects are differences of them, on the same pressure elements and the same field points.
 """
 
 from __future__ import annotations
@@ -49,7 +48,7 @@ class QuantitiesOfInterest:
 
 
 def quantities_of(level: Level, problem: Problem, friction: float) -> QuantitiesOfInterest:
-    """The answer of a solved level; `problem` is the one that it solves."""
+    """Of a solved level; `problem` is the one that it solves."""
     stress = level.stress(friction)
     return QuantitiesOfInterest(
         figures(level, problem, friction),
@@ -64,7 +63,7 @@ def relative_sizes(
     problem: Problem,
     window: Window | None,
 ) -> dict[str, float]:
-    """A difference relative to a whole answer, by quantity in the order of QUANTITIES.
+    """A difference relative to a reference, by quantity in the order of QUANTITIES.
 
     Figures keep their sign; norms are relative L2. What vanishes is measured by the Hertz contact.
     """

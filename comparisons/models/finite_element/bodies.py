@@ -27,7 +27,7 @@ from meshes.build import build_block
 Result = TypeVar("Result")
 
 UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
-KEPT = 2  # of the body and of the roller
+HELD = 2  # of the body and of the roller
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class BodyPair:
 class BodyStore:
     """The latest meshes and factored bodies: what asks for the same again shares them.
 
-    Loads, friction coefficients and profiles in the gap change neither; what is asked for next is
-    mostly the same or never comes back, so that few are kept.
+    Loads, friction coefficients and profiles in the gap change neither. Few are held: the next
+    request is mostly the same, or older ones never return.
     """
 
     def __init__(self) -> None:
@@ -67,13 +67,13 @@ class BodyStore:
 
     def mesh(self, spec: BlockSpec) -> BlockMesh:
         """The flat mesh of a spec."""
-        return _kept(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
+        return _held(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
 
     def body(
         self, shape: Hashable, make: Callable[[], ElasticBody], *properties: Hashable
     ) -> ElasticBody:
         """The body of a shape and its properties, made and factored where it is new."""
-        return _kept(self._bodies, (shape, *properties), make)
+        return _held(self._bodies, (shape, *properties), make)
 
 
 def bodies_of(
@@ -148,12 +148,12 @@ def _key(spec: BlockSpec) -> Hashable:
     return tuple(value.tobytes() if isinstance(value, np.ndarray) else value for value in values)
 
 
-def _kept(kept: OrderedDict, key: Hashable, make: Callable[[], Result]) -> Result:
-    """The result of a key, made where it is not there; the oldest beyond KEPT is dropped."""
-    if key in kept:
-        kept.move_to_end(key)
-        return kept[key]
-    while len(kept) >= KEPT:  # before the next is made: memory
-        kept.popitem(last=False)
-    kept[key] = make()
-    return kept[key]
+def _held(held: OrderedDict, key: Hashable, make: Callable[[], Result]) -> Result:
+    """The result of a key, made where it is not there; the oldest beyond HELD is dropped."""
+    if key in held:
+        held.move_to_end(key)
+        return held[key]
+    while len(held) >= HELD:  # before the next is made: memory
+        held.popitem(last=False)
+    held[key] = make()
+    return held[key]

@@ -87,17 +87,17 @@ class Differences:
 class ComplianceCheck:
     """Of one level.
 
-    nearest     from the analytic surface that is nearest to the scene's bodies
-    datum       whether displacements count from a base; else a constant was removed
-    lacks       what the nearest surface does not model of these finite elements
-    half_plane  from half-planes of body and roller, where the body is `finite` in some respect;
-                this difference is an effect of the body and no error
-    verdict     neither | mesh | modulus | block | geometry, and why
+    nearest       from the analytic surface that is nearest to the scene's bodies
+    datum         whether displacements count from a base; else a constant was removed
+    not_modelled  what the nearest surface does not model of these finite elements
+    half_plane    from half-planes of body and roller, where the body is `finite` in some respect;
+                  this difference is an effect of the body and no error
+    verdict       neither | mesh | modulus | block | geometry, and why
     """
 
     nearest: Differences
     datum: bool
-    lacks: tuple[str, ...]
+    not_modelled: tuple[str, ...]
     half_plane: Differences | None
     finite: tuple[str, ...]
     verdict: str
@@ -114,14 +114,16 @@ class ComplianceCheck:
             "because": self.because,
             "datum_removed": not self.datum,
             **{name: list(found[name]) for name in ("columns", "waves")},
-            "lacks": list(self.lacks),
+            "not_modelled": list(self.not_modelled),
             "body_effect": effect,
         }
 
 
-def judged(found: Differences, lacks: tuple[str, ...]) -> tuple[str, str]:
-    """Verdict and why. The body is not judged where the nearest surface `lacks` something."""
-    shared = 0.0 if lacks else _shared([w.difference for w in found.waves if w.elements >= 8.0])
+def judged(found: Differences, not_modelled: tuple[str, ...]) -> tuple[str, str]:
+    """Verdict and why. The body is not judged where something is `not_modelled`."""
+    shared = (
+        0.0 if not_modelled else _shared([w.difference for w in found.waves if w.elements >= 8.0])
+    )
     for wave in found.waves:
         bound = SHORT_WAVES.get(wave.elements)
         if bound is not None and wave.difference - shared < -bound:
@@ -131,12 +133,15 @@ def judged(found: Differences, lacks: tuple[str, ...]) -> tuple[str, str]:
             )
     if shared:
         return "modulus", (
-            f"all waves are off alike, by {percent(shared, signed=True)}: the elastic constants"
+            f"all waves are off by the same {percent(shared, signed=True)}: the elastic constants"
         )
     far = max(column.beyond for column in found.columns)
     text = f"{percent(far)} of a column is off far from its load"
-    if far > BEYOND and lacks:
-        return "geometry", f"{text}; the analytic surface lacks {' and '.join(lacks)}"
+    if far > BEYOND and not_modelled:
+        return (
+            "geometry",
+            f"{text}; the analytic surface does not model {' and '.join(not_modelled)}",
+        )
     if far > BEYOND:
         return (
             "block",
@@ -151,8 +156,8 @@ def _shared(differences: list[float]) -> float:
         return 0.0
     least = min(differences, key=abs)
     spread = max(abs(np.array(differences) - least))
-    alike = spread <= max(SPREAD * abs(least), MESH_SPREAD)
-    return least if alike and abs(least) > SHARED else 0.0
+    equal = spread <= max(SPREAD * abs(least), MESH_SPREAD)
+    return least if equal and abs(least) > SHARED else 0.0
 
 
 def operator_check(
@@ -181,13 +186,15 @@ def operator_check(
         return _differences(grid, finite, exact, pressures, columns, waves, datum)
 
     datum = scene.thickness is not None and scene.roller is None
-    nearest, lacks, bounds = against(model, datum), _lacks(scene), _finite(scene)
+    nearest, not_modelled, bounds = against(model, datum), _not_modelled(scene), _finite(scene)
     effect = None
     if bounds:
         size = problem.dundurs_beta * (scene.friction[0] if scene.finite_element.coupled else 0.0)
         half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, size)
         effect = against(half_plane, datum=False)
-    return ComplianceCheck(nearest, datum, lacks, effect, bounds, *judged(nearest, lacks))
+    return ComplianceCheck(
+        nearest, datum, not_modelled, effect, bounds, *judged(nearest, not_modelled)
+    )
 
 
 def no_check(scene: ResolvedScene) -> str | None:
@@ -274,7 +281,7 @@ def _packet(refined: np.ndarray, length: float) -> np.ndarray:
     return pressure
 
 
-def _lacks(scene: ResolvedScene) -> tuple[str, ...]:
+def _not_modelled(scene: ResolvedScene) -> tuple[str, ...]:
     """What the nearest analytic surface does not model of a scene's finite elements."""
     settings = scene.finite_element
     shared = scene.roller is not None and is_layered(scene)

@@ -28,7 +28,7 @@ Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 class Part:
     """One body's share of the mutual displacement.
 
-    factor    of the body's compliance, for one that stands for a body of another modulus too
+    factor    of the body's compliance, where it serves for a body of another modulus too
     friction  sliding traction over pressure, towards +x
     """
 
@@ -71,8 +71,8 @@ class MutualCompliance:
 def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> MutualCompliance:
     """Both bodies under the same hats.
 
-    Along the roller's normal where the gap is taken at the displaced place: the displacement along
-    it is what closes the gap there, to first order.
+    Along the roller's normal where the gap is on the deformed surface: to first order the
+    displacement along it closes the gap there.
     """
     scene, settings = problem.scene, problem.scene.finite_element
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])

@@ -43,7 +43,7 @@ def expected(
 
 def flow_increments(problem: Problem, pitch: float) -> int:
     """Steps of the load in which a body flows; their number doubles from level to level, so that
-    what they leave out belongs to the uncertainty of the discretisation."""
+    what is missing belongs to the uncertainty of the discretisation."""
     return max(FEWEST_INCREMENTS, round(INCREMENTS / 2.0 ** problem.coarser(pitch)))
 
 

@@ -34,10 +34,10 @@ def pressed_finitely(
     linear: ContactSolution,
     constraints: Constraints,
 ) -> LoadedBody:
-    """The body at finite strains, met by the roller where its surface has come to.
+    """The body at finite strains, in contact on its deformed surface.
 
-    Pressures are those on the deformed surface, where it has come to along x. Raises FemError
-    where it finds none, and where only at finite deformation contact reaches the grid's ends.
+    Pressures are those on the deformed surface, at its displaced x. Raises FemError where there is
+    no solution, and where contact reaches the grid's ends only at finite deformation.
     """
     scene, rough = problem.scene, operator.rough
     weights, x = grid.weights, grid.x
@@ -57,7 +57,7 @@ def pressed_finitely(
         ended = profile is not None and (
             x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
         )
-        beyond = "the trace: a longer one would tell" if ended else "the pressure elements"
+        beyond = "the trace: take a longer one" if ended else "the pressure elements"
         raise FemError(f"the contact at finite deformation reaches beyond {beyond}")
     counts = {
         "increments": len(found.solution.parts),

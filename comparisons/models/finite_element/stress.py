@@ -49,7 +49,7 @@ def pressed_linearly(
     """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
     one, weighted by each hat.
 
-    Where the gap is taken at the displaced place, so are the pressures.
+    Where the gap is on the deformed surface, so are the pressures.
     """
     rough, settings = operator.rough, problem.scene.finite_element
     displaced = settings.gap == "displaced"
@@ -91,7 +91,7 @@ class DeformedSurface:
     depth: np.ndarray
 
     def carried(self, problem: Problem, pressed: LoadedBody) -> LoadedBody:
-        """What was found at the nodes, told at the grid's x again.
+        """What was found at the displaced nodes, interpolated to the grid's x.
 
         The residuals stay those of the equations that were solved, over the undeformed surface.
         """

@@ -83,7 +83,7 @@ class TestVerdict:
     def test_a_body_that_the_surface_is_not_of_is_not_judged(self):
         word, because = judged(differences(RIGHT, 0.1), ("the rough boundary",))
         assert word == "geometry" and because.endswith(
-            "the analytic surface lacks the rough boundary"
+            "the analytic surface does not model the rough boundary"
         )
         shared = differences({n: off + 0.1 for n, off in RIGHT.items()}, 1e-4)
         assert judged(shared, ("the rough boundary",))[0] == "neither"
@@ -157,16 +157,16 @@ class TestScenes:
         assert found.half_plane.worst_wave.difference == pytest.approx(wave, rel=0.3)
 
     @pytest.mark.parametrize(
-        ("given", "lacks"),
+        ("given", "count"),
         [
             (scene(profile=SINUSOID, finite_element={"geometry": "rough"}), 2),
             (scene(finite_element={"gap": "displaced"}), 1),
             (scene(body={"width": 20 * HALF_WIDTH, "thickness": 10 * HALF_WIDTH}), 1),
         ],
     )
-    def test_geometry_of_its_own(self, given, lacks):
+    def test_geometry_of_its_own(self, given, count):
         found = checked(given)
-        assert found.verdict == "geometry" and len(found.lacks) == lacks
+        assert found.verdict == "geometry" and len(found.not_modelled) == count
         # a roller's normal leans by up to a/R; the sides are ten half-widths away
         assert 5e-3 < max(column.beyond for column in found.nearest.columns) < 0.03
 

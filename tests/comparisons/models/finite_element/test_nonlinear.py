@@ -38,7 +38,7 @@ def pressed(problem, shift: float):
 
 @pytest.mark.parametrize(
     ("profile", "pitches", "words"),
-    [(None, 0, "elements$"), (COMPUTED, 9, "elements$"), (COMPUTED, 1, "trace: a longer one")],
+    [(None, 0, "elements$"), (COMPUTED, 9, "elements$"), (COMPUTED, 1, "trace: take a longer one")],
 )
 def test_it_is_told_what_ends_there(profile, pitches, words):
     posed = problem(RIGID if profile is None else RIGID | {"profile": profile})

@@ -202,10 +202,10 @@ def test_bodies_that_cannot_be(sections, complaint):
 @pytest.mark.parametrize(
     ("given", "said", "unsaid"),
     [
-        ({}, "the gap is taken at the undeformed place", "finite elements:"),
-        ({"gap": "displaced"}, "the displaced one, and the pressure acts along the roller's", None),
-        ({"roller_shape": "circle"}, "finite elements: it is a circle", "disc"),
-        ({"roller_body": "disc"}, "finite elements: it is an elastic body of a disc's", None),
+        ({}, "the gap is on the undeformed surface", "finite elements:"),
+        ({"gap": "displaced"}, "the deformed one, and the pressure acts along the roller's", None),
+        ({"roller_shape": "circle"}, "finite elements: it is an exact circle", "disc"),
+        ({"roller_body": "disc"}, "finite elements: it is an elastic body of finite", None),
         ({"coupled": True}, "finite elements: the sliding traction moves the surfaces", None),
     ],
 )
