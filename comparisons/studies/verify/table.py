@@ -1,9 +1,11 @@
 """The verification for people to read: on the terminal, and as a page of its own."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.report.html import STYLES, rendered
 from comparisons.studies.checks import MODEL_LABELS, rows_table, verdict_lines
 from comparisons.studies.verify.coverage import Coverage, ExactFindings, Verification
 
@@ -11,28 +13,6 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
-PAGE = """<!doctype html><html lang=en><meta charset=utf-8><title>crosscheck verify</title>
-<style>
-body { font: 15px/1.4 system-ui, sans-serif; margin: 2em auto; max-width: 70em; padding: 0 1em }
-table { border-collapse: collapse; margin: 1em 0 }
-th, td { padding: .15em .8em; text-align: right; border-bottom: 1px solid #ddd }
-th:first-child, td:first-child, th:nth-child(2), td:nth-child(2) { text-align: left }
-.no { color: #b00; font-weight: bold }
-</style>
-<h1>{{ title }}</h1>
-<p>Stated uncertainty against true error, wherever the exact answer is known. Ratio: stated
-uncertainty over true error (overestimation ratio). Figures whose error is rounding are not
-informative.</p>
-{% for line in faults %}<p class=no>{{ line }}</p>{% endfor %}
-{% for heading, columns, rows in tables %}
-<h2>{{ heading }}</h2>
-<table><tr>{% for name in columns %}<th>{{ name }}</th>{% endfor %}</tr>
-{% for row in rows %}<tr>{% for cell in row -%}
-<td{% if cell == "NO" %} class=no{% endif %}>{{ cell }}</td>
-{%- endfor %}</tr>
-{% endfor %}</table>{% endfor %}
-</html>
-"""
 
 
 def coverage_line(found: Verification) -> str:
@@ -60,8 +40,6 @@ def verify_summary(found: Verification) -> "RenderableType":
 
 def verify_page(found: Verification) -> str:
     """One self-contained page: coverage, every figure without a pair, and every pair."""
-    from jinja2 import Environment
-
     figures = [
         [row.case.group, f"{row.case.name}: {f.name}", f"{f.value:.4g}", f.bounds, _yes(f.holds)]
         for row in found.rows
@@ -92,8 +70,8 @@ def verify_page(found: Verification) -> str:
         ("Figures", exact, pairs),
     ]
     title = f"{'Holds' if found.holds else 'Does not hold'}: {coverage_line(found)}"
-    page = Environment(autoescape=True).from_string(PAGE)
-    return page.render(title=title, faults=found.faults, tables=tables)
+    template = Path(__file__).parent / "verify.html.j2"
+    return rendered(template, policy=STYLES, title=title, faults=found.faults, tables=tables)
 
 
 def _coverage_rows(found: Verification) -> list[tuple[str, ...]]:

@@ -99,11 +99,15 @@ def written(tmp_path):
     return run_robustness(tmp_path, junit, announced.append, lambda: cases), tmp_path, announced
 
 
-def test_one_bad_row_does_not_end_the_others(written):
+def test_one_bad_row_does_not_end_the_others_and_the_table_shows_all(written):
     study, _, announced = written
     assert study.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     assert [row.holds for row in study.rows] == [False, False, True]
     assert announced[-1] == "3 of 3, 2 failed: half_plane: tests: good"
+    console = Console(width=160, file=io.StringIO())
+    console.print(rows_table(study.rows), verdict_lines(study))
+    text = console.file.getvalue()
+    assert "1 of 3 cases hold" in text and "[bold]" in text and "DOES NOT HOLD" in text
 
 
 def test_json_holds_all_rows_beside_the_other_files_of_the_folder(written):
@@ -137,14 +141,6 @@ def test_junit_has_a_testcase_for_each_figure_and_error(written):
     assert "inf, expected at most 1" in first.find("failure").get("message")
     assert "ArithmeticError" in raised.find("failure").get("message")
     assert good.find("system-out").text == "0.1, expected at most 1 (the exact one); a note"
-
-
-def test_the_table_shows_what_holds_and_what_does_not(written):
-    study, _, _ = written
-    console = Console(width=160, file=io.StringIO())
-    console.print(rows_table(study.rows), verdict_lines(study))
-    text = console.file.getvalue()
-    assert "1 of 3 cases hold" in text and "[bold]" in text and "DOES NOT HOLD" in text
 
 
 def test_no_rows_are_no_success(tmp_path):

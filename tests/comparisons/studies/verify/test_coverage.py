@@ -22,21 +22,16 @@ from comparisons.studies.verify.table import coverage_line, verify_page
 
 
 def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
-    exact = 2.0
-    convergence = Convergence(exact, exact, 0.0, 1.0, "monotone")
-    given = {
-        "case": "case <&>",
-        "source": "source",
-        "kind": "Hertz",
-        "model": "half_plane",
-        "quantity": "contact_length",
-        "levels": (1.9, 1.95, exact * (1.0 + error)),
-        "exact": exact,
-        "uncertainty": Uncertainty(0.0, stated, 0.0, convergence),
-        "scale": exact,
-        "converged": True,
-    }
-    return Pair(**(given | others))
+    uncertainty = Uncertainty(0.0, stated, 0.0, Convergence(2.0, 2.0, 0.0, 1.0, "monotone"))
+    made = Pair(
+        *("case <&>", "source", "Hertz", "half_plane", "contact_length"),
+        levels=(1.9, 1.95, 2.0 * (1.0 + error)),
+        exact=2.0,
+        scale=2.0,
+        uncertainty=uncertainty,
+        converged=True,
+    )
+    return replace(made, **others)
 
 
 def whole(pairs: Iterable[Pair], error: str | None = None) -> Verification:
