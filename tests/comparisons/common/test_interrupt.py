@@ -8,11 +8,11 @@ import time
 from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 
-ROOT = Path(__file__).parents[3]
 PATIENT = 60.0  # s; far longer than anything here takes
 SCENE = """
 roller = {radius = "8 mm", youngs_modulus = "210 GPa", poissons_ratio = 0.3}
@@ -83,7 +83,7 @@ def folder(tmp_path) -> Path:
 
 def started(folder: Path, replaced: str = "") -> subprocess.Popen:
     (folder / "there").unlink(missing_ok=True)
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
     return subprocess.Popen(
         [sys.executable, "-c", COMMAND.format(replaced=replaced)],
         cwd=folder,

@@ -5,11 +5,11 @@ import subprocess
 import sys
 from decimal import Decimal
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from scenes import PROJECT
 
 from comparisons.common.units import (
     COMMON_UNITS,
@@ -151,7 +151,7 @@ TOKENS = st.lists(
 )
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(st.text() | TOKENS.map("".join), st.sampled_from(DIMENSIONS))
 @example("1 delta_degC", LENGTH)
 @example("1 lambda", LENGTH)
@@ -178,9 +178,8 @@ def test_pint_is_loaded_for_rare_units_only(text, loaded):
         "import sys; from comparisons.common.units import LENGTH, to_si; "
         f"to_si({text!r}, LENGTH); print('pint' in sys.modules)"
     )
-    root = Path(__file__).parents[3]
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=root, capture_output=True, text=True, check=True
+        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, check=True
     )
     assert done.stdout.strip() == str(loaded)
 

@@ -273,7 +273,7 @@ TOML_VALUES = st.recursive(
 PLACES = [(section, name) for section, table in SECTIONS.items() for name in table.model_fields]
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(st.sampled_from([*PLACES, *((s, None) for s in [*SECTIONS, "title"])]), TOML_VALUES)
 def test_any_value_is_taken_or_refused_in_one_line(place, value):
     section, name = place

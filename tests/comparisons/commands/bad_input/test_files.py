@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
-ROOT = Path(__file__).parents[4]
 MEASURED = {"profile.file": '"trace.csv"', "profile.x_unit": '"um"', "profile.z_unit": '"um"'}
 
 FILES = {
@@ -133,7 +133,7 @@ def test_as_a_process(tmp_path, changes, arguments, fragment, toml):
     done = subprocess.run(
         [sys.executable, "-m", "comparisons.cli", "run", *arguments],
         cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        env={**os.environ, "PYTHONPATH": str(PROJECT)},
         capture_output=True,
         text=True,
         check=False,

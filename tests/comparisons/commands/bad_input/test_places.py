@@ -5,14 +5,12 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.commands.output import show_json
-
-ROOT = Path(__file__).parents[4]
 
 
 @pytest.mark.parametrize(
@@ -53,7 +51,7 @@ def test_heights_that_are_all_the_same_have_no_radius(folder, capsys):
 def test_a_closed_stream_is_no_defect(closed, told):
     done = subprocess.run(
         ["sh", "-c", f'"$0" -m comparisons.cli scenes {closed}', sys.executable],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        env={**os.environ, "PYTHONPATH": str(PROJECT)},
         capture_output=True,
         text=True,
         check=False,
@@ -67,7 +65,7 @@ def test_characters_that_the_terminal_lacks_are_shown_otherwise(tmp_path, trace)
     done = subprocess.run(
         [sys.executable, "-m", "comparisons.cli", "init", "trace.csv"],
         cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "ascii"},
+        env={**os.environ, "PYTHONPATH": str(PROJECT), "PYTHONIOENCODING": "ascii"},
         capture_output=True,
         check=False,
     )
