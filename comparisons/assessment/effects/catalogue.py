@@ -33,15 +33,28 @@ class Effect:
     give: Callable[[ResolvedScene, ResolvedScene], ResolvedScene]
 
 
-def _set(**settings: object) -> Callable[[ResolvedScene, ResolvedScene], ResolvedScene]:
-    def give(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
-        return replace(scene, finite_element=replace(scene.finite_element, **settings))
-
-    return give
+def _has_profile(problem: Problem) -> bool:
+    return problem.scene.profile is not None
 
 
-def _is(name: str, value: object) -> Callable[[ResolvedScene], bool]:
-    return lambda scene: getattr(scene.finite_element, name) == value
+def _always(problem: Problem) -> bool:
+    return True
+
+
+def _switch(
+    label: str, words: str, applies: Callable[[Problem], bool] = _always, **setting: object
+) -> Effect:
+    """An effect that is one field of the scene's [finite_element], at this value."""
+    [(field, value)] = setting.items()
+    return Effect(
+        label,
+        words,
+        lambda scene: getattr(scene.finite_element, field) == value,
+        applies,
+        lambda scene, whole: replace(
+            scene, finite_element=replace(scene.finite_element, **setting)
+        ),
+    )
 
 
 def _bounded(scene: ResolvedScene) -> bool:
@@ -52,13 +65,15 @@ def _give_bounds(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
     return replace(scene, thickness=whole.thickness, width=whole.width, base=whole.base)
 
 
+def _couples(problem: Problem) -> bool:
+    scene = problem.scene
+    moves = problem.dundurs_beta != 0.0 or is_layered(scene)
+    return moves and any(scene.friction) and not scene.coupled
+
+
 def _give_flow(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
     settings = replace(scene.finite_element, plastic=True)
     return replace(scene, finite_element=settings, yielding=whole.yielding)
-
-
-def _always(problem: Problem) -> bool:
-    return True
 
 
 EFFECTS: dict[str, Effect] = {
@@ -76,61 +91,41 @@ EFFECTS: dict[str, Effect] = {
         lambda problem: problem.scene.coating is not None,
         lambda scene, whole: replace(scene, coating=whole.coating),
     ),
-    "rough_boundary": Effect(
-        "rough boundary",
-        "the trace as boundary",
-        _is("geometry", "rough"),
-        lambda problem: problem.scene.profile is not None,
-        _set(geometry="rough"),
+    "rough_boundary": _switch(
+        "rough boundary", "the trace as boundary", _has_profile, geometry="rough"
     ),
-    "deformed_gap": Effect(
+    "deformed_gap": _switch(
         "deformed gap",
         "the gap on the deformed surface, along the roller's normal",
-        _is("gap", "displaced"),
-        _always,
-        _set(gap="displaced"),
+        gap="displaced",
     ),
-    "exact_circle": Effect(
-        "exact circle",
-        "the roller's circle",
-        _is("roller_shape", "circle"),
-        _always,
-        _set(roller_shape="circle"),
-    ),
-    "finite_roller": Effect(
+    "exact_circle": _switch("exact circle", "the roller's circle", roller_shape="circle"),
+    "finite_roller": _switch(
         "finite roller",
         "a roller of finite size",
-        _is("roller_body", "disc"),
         lambda problem: problem.scene.roller is not None,
-        _set(roller_body="disc"),
+        roller_body="disc",
     ),
     "normal_tangential_coupling": Effect(
         "normal-tangential coupling",
         "sliding traction that moves the surfaces",
         lambda scene: scene.finite_element.coupled and not scene.coupled,
-        lambda problem: (
-            (problem.dundurs_beta != 0.0 or is_layered(problem.scene))
-            and any(problem.scene.friction)
-            and not problem.scene.coupled
+        _couples,
+        lambda scene, whole: replace(
+            scene, finite_element=replace(scene.finite_element, coupled=True)
         ),
-        _set(coupled=True),
     ),
-    "finite_strain": Effect(
-        "finite strain",
-        "strains and rotations that are not small",
-        _is("deformation", "finite"),
-        _always,
-        _set(deformation="finite"),
+    "finite_strain": _switch(
+        "finite strain", "strains and rotations that are not small", deformation="finite"
     ),
     "plastic_flow": Effect(
         "plastic flow",
         "flow in place of the cap on the pressure",
-        _is("plastic", True),
+        lambda scene: scene.finite_element.plastic,
         lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
         _give_flow,
     ),
 }
-
 
 # What finite deformation contains in any scene.
 IN_FINITE_STRAIN = "deformed_gap"
