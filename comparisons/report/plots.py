@@ -5,6 +5,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError
+from comparisons.report.figures.fields import COMPONENTS, field_pictures
+from comparisons.report.figures.mesh import mesh_pictures
+from comparisons.report.figures.model_error import model_error_picture
+from comparisons.report.figures.pressures import close_up_picture, pressure_picture
+from comparisons.report.figures.problem import problem_picture
+from comparisons.report.figures.sections import section_pictures
+from comparisons.report.figures.style import collected_figures
+from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
 
@@ -25,26 +33,18 @@ class Plots:
 
     def problem(self) -> "list[Axes]":
         """The bodies to scale, and the contact close up."""
-        from comparisons.report.figures.problem import problem_picture
-
         return self._axes(problem_picture)
 
     def pressure(self) -> "list[Axes]":
         """Pressures of the models over Hertz's, their difference, the surfaces below."""
-        from comparisons.report.figures.pressures import pressure_picture
-
         return self._axes(pressure_picture)
 
     def close_up(self) -> "list[Axes]":
         """The same around the highest peak, with the nodes of the pressures."""
-        from comparisons.report.figures.pressures import close_up_picture
-
         return self._axes(close_up_picture)
 
     def surfaces(self) -> "list[Axes]":
         """Both bodies' surfaces before and under load."""
-        from comparisons.report.figures.surfaces import surface_picture
-
         return self._axes(surface_picture)
 
     def field(self, component: str = "tau1", friction: float | None = None) -> "list[Axes]":
@@ -53,8 +53,6 @@ class Plots:
         component  tau1 or txz
         friction   coefficient; the scene's first by default
         """
-        from comparisons.report.figures.fields import COMPONENTS, field_pictures
-
         names = [each.name for each in COMPONENTS]
         if component not in names:
             raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
@@ -67,20 +65,14 @@ class Plots:
 
     def sections(self, place: int = 0) -> "list[Axes]":
         """tau1 over depth: 0 under the highest pressure, 1 under the edge of the contact."""
-        from comparisons.report.figures.sections import section_pictures
-
         return self._axes(section_pictures, place)
 
     def mesh(self, place: int = 1) -> "list[Axes]":
         """The finite elements' mesh: 0 all, 1 under the contact, 2 under the highest pressure."""
-        from comparisons.report.figures.mesh import mesh_pictures
-
         return self._axes(mesh_pictures, place)
 
-    def budget(self) -> "list[Axes]":
-        """What the differences consist of, beside their tolerances."""
-        from comparisons.report.figures.model_error import model_error_picture
-
+    def model_error(self) -> "list[Axes]":
+        """The half-plane's errors by source, beside their tolerances."""
         return self._axes(model_error_picture)
 
     def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
@@ -112,8 +104,6 @@ class Plots:
     def _axes(self, draw: Callable[[Outcome], object], place: int = 0) -> "list[Axes]":
         """Axes of one of the figures that `draw` makes; the others are closed."""
         from matplotlib import pyplot
-
-        from comparisons.report.figures.style import collected_figures
 
         with collected_figures() as drawn:
             draw(self.outcome)

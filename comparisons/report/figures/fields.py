@@ -292,11 +292,8 @@ def _difference_said(x: np.ndarray, z: np.ndarray, difference: np.ndarray, end: 
     """Where the colours of the difference end, why there, and its largest value."""
     row, column = np.unravel_index(np.nanargmax(np.abs(difference)), difference.shape)
     largest = difference[row, column]
-    reason = (
-        f", which covers {COVERED:g} % of the points or more, to show what is small"
-        if abs(largest) > end
-        else ""
-    )
+    covers = f", which covers {COVERED:g} % of the points or more, to show what is small"
+    reason = covers if abs(largest) > end else ""
     return (
         f"The difference's colours end at ±{significant(end, 2)} p₀{reason}; the largest "
         f"difference at a point of the grid, {significant(largest, 2)} p₀, stands at "

@@ -156,7 +156,7 @@ def pyplot():
         (lambda plot: plot.field("txz", 0.1), "z/a"),
         (lambda plot: plot.sections(1), None),
         (lambda plot: plot.mesh(2), None),
-        (lambda plot: plot.budget(), None),
+        (lambda plot: plot.model_error(), None),
     ],
 )
 def test_plots_return_the_axes_of_one_open_figure(found, pyplot, draw, words):
