@@ -13,23 +13,26 @@ ProgressCallback = Callable[[str], None]
 
 def peak_memory() -> int:
     """Largest resident memory of this process so far [bytes]."""
-    try:  # getrusage includes the parent's, in a process just started
-        with open("/proc/self/status") as file:
-            kilobytes = dict(line.split(":", 1) for line in file)["VmHWM"].split()[0]
-        return 1024 * int(kilobytes)
-    except (OSError, KeyError):
-        kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        return kilobytes * (1 if sys.platform == "darwin" else 1024)
+    found = _kilobytes("/proc/self/status", "VmHWM")
+    if found is not None:  # getrusage includes the parent's, in a process just started
+        return 1024 * found
+    found = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return found * (1 if sys.platform == "darwin" else 1024)
 
 
 def machine_memory() -> float:
     """Memory that processes of this machine could still get [bytes]; infinite where unknown."""
+    found = _kilobytes("/proc/meminfo", "MemAvailable")
+    return math.inf if found is None else 1024.0 * found
+
+
+def _kilobytes(path: str, name: str) -> int | None:
+    """A figure of Linux's tables of memory."""
     try:
-        with open("/proc/meminfo") as file:
-            kilobytes = dict(line.split(":") for line in file)["MemAvailable"].split()[0]
+        with open(path) as file:
+            return int(dict(line.split(":", 1) for line in file)[name].split()[0])
     except (OSError, KeyError):
-        return math.inf
-    return 1024.0 * float(kilobytes)
+        return None
 
 
 def no_progress(stage: str) -> None:

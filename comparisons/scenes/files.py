@@ -46,29 +46,29 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
 
 def read_toml(path: Path) -> dict:
     """The tables of a TOML file. Raises SceneError if it cannot be read as TOML or is empty."""
+
+    def wrong(problem: str) -> SceneError:
+        return SceneError(f"{path}: {problem}")
+
     try:
-        if path.is_dir():
-            raise SceneError(f"{path}: is a directory; allowed is a TOML file")
         if not path.is_file():
-            raise SceneError(f"{path}: is not a regular file; allowed is a TOML file")
+            kind = "a directory" if path.is_dir() else "not a regular file"
+            raise wrong(f"is {kind}; allowed is a TOML file")
         size = path.stat().st_size
         if size > LARGEST_FILE:
-            raise SceneError(f"{path}: has {size} bytes; allowed are {LARGEST_FILE} for a scene")
+            raise wrong(f"has {size} bytes; allowed are {LARGEST_FILE} for a scene")
         tables = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+    except SceneError:
+        raise
     except OSError as error:
-        raise SceneError(f"{path}: cannot be read: {error.strerror}") from error
+        raise wrong(f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
-        raise SceneError(
-            f"{path}: is not text (byte {error.start} is not UTF-8); allowed is a TOML file"
-        ) from error
+        place = f"byte {error.start} is not UTF-8"
+        raise wrong(f"is not text ({place}); allowed is a TOML file") from error
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{path}: is not TOML: {error}") from error
+        raise wrong(f"is not TOML: {error}") from error
     except (RecursionError, ValueError) as error:
-        if isinstance(error, SceneError):
-            raise
-        raise SceneError(f"{path}: is beyond what TOML may hold: {error}") from error
+        raise wrong(f"is beyond what TOML may hold: {error}") from error
     if not tables:
-        raise SceneError(
-            f"{path}: is empty; allowed are sections, at least [roller], [body], [load]"
-        )
+        raise wrong("is empty; allowed are sections, at least [roller], [body], [load]")
     return tables
