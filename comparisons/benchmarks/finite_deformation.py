@@ -225,7 +225,7 @@ def _body(mesh: BlockMesh) -> ElasticBody:
 
 def _undeformed(body: ElasticBody, case: RollerCase) -> LinearContact:
     forces = FiniteElementCompliance(body, case.hats)
-    return LinearContact(len(body.nodes), body.surface, forces.normal)
+    return LinearContact(forces)
 
 
 def _linear_figures(found: FiniteDeformation) -> ModelFigures:

@@ -31,7 +31,6 @@ about the same: 1e-4 of the displacement needs 17 000 quadratic unknowns or 10 0
 
 from dataclasses import dataclass
 from functools import cached_property
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -68,7 +67,6 @@ class ElasticBody:
     space              dolfinx's space of displacements
     owned              our number of each node of it that this process owns
     matrix             PETSc stiffness for Young's modulus 1; held rows are those of the identity
-    assembly_seconds   time of mesh transfer and assembly
     """
 
     mesh: BlockMesh
@@ -82,7 +80,6 @@ class ElasticBody:
     matrix: "Mat"
     # After the matrix, which uses its communicator: from dolfinx 0.9 on it must be freed later.
     space: "FunctionSpace"
-    assembly_seconds: float
 
     def __post_init__(self) -> None:
         release_with(self, self.matrix)
@@ -229,7 +226,6 @@ def elastic_body(
     load_dolfinx()
     from dolfinx import fem
 
-    start = perf_counter()
     numbering = nodes_of(mesh, degree)
     held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
     folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
@@ -257,9 +253,8 @@ def elastic_body(
     matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
 
     owned = node[: space.dofmap.index_map.size_local]
-    seconds = perf_counter() - start
     return ElasticBody(
-        mesh, material, support, coating, coated, numbering, held, owned, matrix, space, seconds
+        mesh, material, support, coating, coated, numbering, held, owned, matrix, space
     )
 
 

@@ -116,12 +116,10 @@ class ContactState:
 
 @dataclass(frozen=True)
 class ContactPoint:
-    """A state with the linearisation of the bodies and of the contact there."""
+    """A state with the force, tangent and contact terms of each body there."""
 
     state: ContactState
-    forces: tuple[np.ndarray, ...]
-    tangents: tuple[csr_matrix, ...]
-    terms: tuple[ContactTerms, ...]
+    bodies: list[tuple[np.ndarray, csr_matrix, ContactTerms]]
 
 
 @dataclass(frozen=True)
@@ -156,39 +154,27 @@ class ContactProblem:
 
     def at(self, state: ContactState) -> ContactPoint:
         """Raises FemError if a body cannot deform so."""
-        forces, tangents, terms = [], [], []
+        bodies = []
         for (body, contact), u in zip(self.bodies, state.displacements, strict=True):
             force, tangent = body.linearised(u)
             if not np.isfinite(force).all():
                 raise FemError("the internal forces are not finite")
-            forces.append(force.ravel())
-            tangents.append(tangent)
-            terms.append(contact.at(u, state.pressure))
-        return ContactPoint(state, tuple(forces), tuple(tangents), tuple(terms))
+            bodies.append((force.ravel(), tangent, contact.at(u, state.pressure)))
+        return ContactPoint(state, bodies)
 
-    def gap(self, point: ContactPoint) -> np.ndarray:
+    def weighted_gap(self, point: ContactPoint) -> np.ndarray:
         """g (count,) [m^2]."""
-        return self._gap(point.terms, point.state.approach)
-
-    def opening(self, state: ContactState) -> np.ndarray:
-        """Mean opening (count,) [m] under each hat."""
-        terms = [
-            contact.at(u, state.pressure)
-            for (_, contact), u in zip(self.bodies, state.displacements, strict=True)
-        ]
-        return self._gap(terms, state.approach) / self.weights
-
-    def _gap(self, terms: Sequence[ContactTerms], approach: float) -> np.ndarray:
-        return self.constant + sum(each.gap for each in terms) - approach * self.weights
+        parts = sum(terms.gap for _, _, terms in point.bodies)
+        return self.constant + parts - point.state.approach * self.weights
 
     def residual(self, point: ContactPoint, load: float | None) -> float:
         """The largest of the three parts (see RESIDUAL)."""
         pressure = point.state.pressure
         worst = 0.0
-        for force, terms, free in zip(point.forces, point.terms, self.free, strict=True):
+        for (force, _, terms), free in zip(point.bodies, self.free, strict=True):
             applied = (terms.force @ pressure)[free]
             worst = max(worst, _ratio(force[free] - applied, applied))
-        wanted = pressure - self.stiff * self.gap(point) / self.weights
+        wanted = pressure - self.stiff * self.weighted_gap(point) / self.weights
         clipped = np.clip(wanted, 0.0, self.hardness)
         worst = max(worst, _ratio(pressure - clipped, pressure))
         if load is not None:
@@ -204,8 +190,9 @@ def _ratio(left: np.ndarray, whole: np.ndarray) -> float:
 
 def newton(
     problem: ContactProblem, guess: ContactState, load: float | None
-) -> tuple[ContactState, list[float]]:
-    """Equilibrium at the load, or at the guess's approach, and the residuals of the iterations.
+) -> tuple[ContactState, np.ndarray, list[float]]:
+    """Equilibrium at the load, or at the guess's approach, its mean gaps (count,) [m], and the
+    residuals of the iterations.
 
     Raises FemError if it does not converge.
     """
@@ -215,7 +202,7 @@ def newton(
     while history[-1] > RESIDUAL:
         if len(history) > MOST_ITERATIONS:
             raise FemError(f"residual {history[-1]:.1e} after {MOST_ITERATIONS} iterations")
-        gap = problem.gap(point) / problem.weights
+        gap = problem.weighted_gap(point) / problem.weights
         if len(history) > 1:
             states.exchange(point.state.pressure, gap, problem.stiff)
         states.keep_one_in_contact(gap)
@@ -224,7 +211,8 @@ def newton(
         history.append(residual)
     final = np.clip(point.state.pressure, 0.0, problem.hardness)
     total = load if load is not None else float(problem.weights @ final)
-    return replace(point.state, pressure=final, load=total), history
+    opening = problem.weighted_gap(point) / problem.weights
+    return replace(point.state, pressure=final, load=total), opening, history
 
 
 def _moved(
@@ -265,8 +253,7 @@ def _step(
     The unknowns are the lengths u, p w / k and d; the equations are divided by k or w.
     """
     weights, stiff, width = problem.weights, problem.stiffness, problem.weights.mean()
-    gap = problem.gap(point)
-    pressure = point.state.pressure
+    gap, pressure = problem.weighted_gap(point), point.state.pressure
     hats = np.flatnonzero(states == CONTACT)
     fixed = np.where(states == CAPPED, problem.hardness, 0.0)
     fixed[hats] = pressure[hats]
@@ -274,8 +261,8 @@ def _step(
     size = len(problem.bodies) + 2
     rows: list[list[csr_matrix | None]] = [[None] * size for _ in range(size)]
     right = []
-    for place, (force, tangent, terms, free) in enumerate(
-        zip(point.forces, point.tangents, point.terms, problem.free, strict=True)
+    for place, ((force, tangent, terms), free) in enumerate(
+        zip(point.bodies, problem.free, strict=True)
     ):
         matrix = tangent if terms.stiffness is None else tangent - terms.stiffness
         rows[place][place] = matrix[free][:, free] / stiff
@@ -311,14 +298,12 @@ class NonlinearSolution:
     state       displacements, pressure, approach and load
     gap         (count,) [m] mean opening under each hat
     residuals   dimensionless residuals of the iterations of each accepted increment
-    parts       (increments,) part of the way at the end of each accepted increment; the last is 1
     cuts        increments that failed and were bisected
     """
 
     state: ContactState
     gap: np.ndarray
     residuals: tuple[tuple[float, ...], ...]
-    parts: tuple[float, ...]
     cuts: int
 
     @property
@@ -327,12 +312,10 @@ class NonlinearSolution:
         return sum(len(history) - 1 for history in self.residuals)
 
 
-def state_at_rest(
-    bodies: Sequence[tuple[Response, Contact]], pressure: np.ndarray, approach: float = 0.0
-) -> ContactState:
+def state_at_rest(bodies: Sequence[tuple[Response, Contact]], pressure: np.ndarray) -> ContactState:
     """Undeformed bodies with a guessed pressure (count,), whose support is the first active set."""
     displacements = tuple(np.zeros(body.held.shape) for body, _ in bodies)
-    return ContactState(displacements, pressure, approach)
+    return ContactState(displacements, pressure, approach=0.0)
 
 
 def solve_nonlinear_contact(
@@ -364,15 +347,14 @@ def solve_nonlinear_contact(
     problem = ContactProblem(bodies, gap, weights, hardness)
     first, goal = (start.load, load) if approach is None else (start.approach, approach)
     at_rest = start.load == 0.0
-    state, done, parts, histories, cuts = start, 0.0, [], [], 0
-    step = 1.0
+    state, done, step, histories, cuts = start, 0.0, 1.0, [], 0
     while done < 1.0:
         # the last increment ends exactly on the goal
         part = 1.0 if done + step > 1.0 - LEAST_INCREMENT else done + step
         target = goal if part == 1.0 else first + part * (goal - first)
-        guess = _scaled(start, part) if at_rest and not parts else state
+        guess = _scaled(start, part) if at_rest and not histories else state
         try:
-            found, history = newton(
+            found, opening, history = newton(
                 problem,
                 replace(guess, approach=target) if load is None else guess,
                 target if load is not None else None,
@@ -387,11 +369,10 @@ def solve_nonlinear_contact(
             continue
         for (body, _), displacement in zip(bodies, found.displacements, strict=True):
             body.accept(displacement)
-        parts.append(part)
         histories.append(tuple(history))
         state, done = found, part
         step = min(1.0, LONGER * step)
-    return NonlinearSolution(state, problem.opening(state), tuple(histories), tuple(parts), cuts)
+    return NonlinearSolution(state, opening, tuple(histories), cuts)
 
 
 def _scaled(start: ContactState, part: float) -> ContactState:

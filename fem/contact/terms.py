@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import Surface
+from fem.compliance.operator import FiniteElementCompliance
 
 
 class Response(Protocol):
@@ -83,25 +83,16 @@ class Contact(Protocol):
 class LinearContact:
     """Contact on the undeformed surface: gap B'u, forces B p + friction T p.
 
-    `normal` B and `tangential` T (2k, count) are the `hat_forces` on the k nodes of `surface`,
-    `count` the number n of the body's nodes.
+    B and T are the `normal` and `tangential` forces of the compliance's hats.
     """
 
-    def __init__(
-        self,
-        count: int,
-        surface: Surface,
-        normal: csr_matrix,
-        friction: float = 0.0,
-        tangential: csr_matrix | None = None,
-    ) -> None:
-        if friction and tangential is None:
-            raise ValueError("friction needs the nodal forces of a sliding traction")
+    def __init__(self, compliance: FiniteElementCompliance, friction: float = 0.0) -> None:
         self.frictionless = not friction
-        self._gradient = on_all_nodes(count, surface, normal)
+        self._gradient = on_all_nodes(compliance.body, compliance.normal)
         self._force = self._gradient
         if friction:
-            self._force = self._gradient + friction * on_all_nodes(count, surface, tangential)
+            tangential = on_all_nodes(compliance.body, compliance.tangential)
+            self._force = self._gradient + friction * tangential
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `Contact`; only the gap depends on the displacement."""
@@ -109,8 +100,8 @@ class LinearContact:
         return ContactTerms(gap, self._gradient, self._force)
 
 
-def on_all_nodes(count: int, surface: Surface, forces: csr_matrix) -> csr_matrix:
+def on_all_nodes(body: ElasticBody, forces: csr_matrix) -> csr_matrix:
     """Rows of all 2n components from those (2k, m) of the surface's nodes."""
-    component = (2 * surface.point[:, None] + np.arange(2)).ravel()
+    component = (2 * body.surface.point[:, None] + np.arange(2)).ravel()
     place = (component, np.arange(component.size))
-    return csr_matrix((np.ones(component.size), place), (2 * count, component.size)) @ forces
+    return csr_matrix((np.ones(component.size), place), (body.unknowns, component.size)) @ forces

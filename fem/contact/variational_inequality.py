@@ -34,12 +34,11 @@ MOST_ITERATIONS = 200
 
 @dataclass(frozen=True)
 class VariationalSolution:
-    """`pressure` (n,) [Pa], `approach` [m], Newton `iterations`, PETSc's converged `reason`."""
+    """`pressure` (n,) [Pa], `approach` [m], Newton `iterations`."""
 
     pressure: np.ndarray
     approach: float
     iterations: int
-    reason: int
 
 
 def solve_variational_inequality(
@@ -114,7 +113,6 @@ def solve_variational_inequality(
         x.array[pressures] * pressure_unit,
         float(x.array[-1]) * length_unit,
         snes.getIterationNumber(),
-        int(reason),
     )
 
 
@@ -132,7 +130,7 @@ def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: flo
     for place, ((body, forces), soft) in enumerate(zip(bodies, softness, strict=True)):
         k = body.stiffness() / body.material.youngs_modulus
         free = diags((~body.held).ravel().astype(float))  # held components bear no forces
-        b = free @ on_all_nodes(len(body.nodes), body.surface, forces) / pitch
+        b = free @ on_all_nodes(body, forces) / pitch
         rows[place][place], rows[place][-2] = k, -b
         rows[-2][place] = soft * (b.T - b.T @ k)
         rows[-2][-2] = rows[-2][-2] + soft * (b.T @ b)

@@ -213,10 +213,10 @@ def press_plastically(
     if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
         raise ValueError("the first load must be positive, and none negative")
     body = PlasticBody(compliance.body, metal)
-    bodies: list[tuple[Response, Contact]] = [(body, _contact(compliance, friction))]
+    bodies: list[tuple[Response, Contact]] = [(body, LinearContact(compliance, friction))]
     if roller is not None:
         # its z points away from the body; on it the traction acts towards -x
-        bodies.append((LinearResponse(roller.body), _contact(roller, -friction)))
+        bodies.append((LinearResponse(roller.body), LinearContact(roller, -friction)))
 
     state, history = state_at_rest(bodies, guess), []
     for load in loads:
@@ -239,12 +239,6 @@ def press_plastically(
             PlasticContact(load, pressure, state.approach, displacement, body.state, iterations)
         )
     return body, tuple(history)
-
-
-def _contact(compliance: FiniteElementCompliance, friction: float) -> LinearContact:
-    body = compliance.body
-    tangential = compliance.tangential if friction else None
-    return LinearContact(len(body.nodes), body.surface, compliance.normal, friction, tangential)
 
 
 def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:

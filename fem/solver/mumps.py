@@ -1,7 +1,6 @@
 """Factorisations by MUMPS: symmetric for many right-hand sides, general for one, and their cost."""
 
 import weakref
-from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -61,7 +60,6 @@ class SymmetricFactor:
     """LDL^T of an assembled symmetric positive definite PETSc matrix.
 
     matrix      PETSc Mat, both triangles stored
-    seconds     what analysis and factorisation took
     bytes       memory that MUMPS holds for the factor, over all processes
     solves      right-hand sides so far
 
@@ -71,14 +69,12 @@ class SymmetricFactor:
     def __init__(self, matrix) -> None:
         from petsc4py import PETSc
 
-        start = perf_counter()
         matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         matrix.setOption(PETSc.Mat.Option.SPD, True)
         self._matrix = matrix
         self._right, self._left = matrix.createVecs()
         self._ksp, self._factor = factorised(matrix)
         release_with(self, self._ksp.getPC(), self._factor, self._ksp, self._right, self._left)
-        self.seconds = perf_counter() - start
         self.bytes = 1_000_000 * self._factor.getMumpsInfog(22)
         self.solves = 0
 

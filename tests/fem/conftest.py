@@ -14,9 +14,8 @@ from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import NodalStress, nodal_stress
-from meshes.block import BlockMesh, BlockSpec
+from meshes.block import BlockMesh, BlockSpec, structured
 from meshes.build import build_block
-from meshes.structured import structured
 
 
 def graded_grid(extent: float, first: float, ratio: float) -> np.ndarray:

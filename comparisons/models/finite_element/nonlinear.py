@@ -60,7 +60,7 @@ def pressed_finitely(
         beyond = "the trace: take a longer one" if ended else "the pressure elements"
         raise FemError(f"the contact at finite deformation reaches beyond {beyond}")
     counts = {
-        "increments": len(found.solution.parts),
+        "increments": len(found.solution.residuals),
         "newton_steps": found.solution.iterations,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }

@@ -27,9 +27,8 @@ from comparisons.studies.checks import (
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes
-from meshes.block import BlockMesh
+from meshes.block import BlockMesh, structured
 from meshes.real_shape import roughen
-from meshes.structured import structured
 
 BODY, COAT = Material(3.0, 0.3), Material(12.0, 0.2)
 THICKNESS = 0.25

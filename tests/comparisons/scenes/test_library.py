@@ -147,7 +147,6 @@ def test_two_roads_to_the_finite_element_contact_agree_on_a_rough_scene():
         grid.weights,
         problem.hertz.load_per_length,
     )
-    assert other.reason > 0
     assert other.pressure == pytest.approx(one.pressure, abs=1e-6 * one.pressure.max())
     assert grid.weights @ other.pressure == pytest.approx(one.load, rel=1e-6)
 

@@ -12,8 +12,7 @@ from fem.solver.mumps import FemError
 @pytest.fixture(scope="module")
 def contact(grid):
     def of_body(body, friction=0.0):
-        hats = grid.compliance(body)
-        return LinearContact(len(body.nodes), body.surface, hats.normal, friction, hats.tangential)
+        return LinearContact(grid.compliance(body), friction)
 
     return of_body
 
@@ -99,8 +98,6 @@ def test_friction_is_coupled(grid, block, dense, contact, solve):
     np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
     without, _ = dense(forces.matrix(), grid.smooth, grid.weights, 0.6)
     assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
-    with pytest.raises(ValueError, match="sliding traction"):
-        LinearContact(len(block.nodes), block.surface, forces.normal, friction)
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e9])
@@ -155,9 +152,8 @@ def test_a_body_that_cannot_follow_a_whole_step_is_led_there(grid, block, contac
     limited = Stiffening(block, 0.02, 1.02 * reach)
     found = solve([(limited, contact(block))], grid.smooth, load=0.6)
     np.testing.assert_allclose(found.state.pressure, free.state.pressure, atol=1e-7)
-    assert len(limited.accepted) == len(found.parts)
+    assert len(limited.accepted) == len(found.residuals) > 1
     np.testing.assert_array_equal(limited.accepted[-1], found.state.displacements[0])
-    assert found.parts[-1] == 1.0
 
 
 def test_what_does_not_converge_is_an_error(grid, block, contact, solve):

@@ -29,7 +29,6 @@ def test_pressure_and_approach_are_the_dense_ones(
     pressure, approach = dense(block_matrix, gap, grid.weights, load)
     np.testing.assert_allclose(found.pressure, pressure, atol=1e-8 * pressure.max())
     assert found.approach == pytest.approx(approach, rel=1e-8)
-    assert found.reason > 0
     assert found.iterations <= 15
     assert grid.weights @ found.pressure == pytest.approx(load, rel=1e-10)
 

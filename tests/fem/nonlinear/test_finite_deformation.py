@@ -52,7 +52,7 @@ def body():
 def linear(body, curvature, load):
     """The linear theory's pressure and displacement for a parabola, on the same hats."""
     compliance = FiniteElementCompliance(body, HATS)
-    contact = LinearContact(len(body.nodes), body.surface, compliance.normal)
+    contact = LinearContact(compliance)
     gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
     start = peak(curvature) * HERTZ
     return press([(LinearResponse(body), contact)], body, HATS, start, load, gap=gap).state
@@ -113,9 +113,7 @@ def test_a_sinusoid_under_a_flat_differs_by_less_than_half_a_per_cent():
     mesh = roughen(build_block(spec), lambda x: amplitude * np.cos(2.0 * np.pi * x / wave))
     body = elastic_body(mesh, Material(1.0, POISSON), Support("bonded", "rollers"))
     hats = hat_nodes(-20 * edge, edge, 41)
-    contact = LinearContact(
-        len(body.nodes), body.surface, FiniteElementCompliance(body, hats).normal
-    )
+    contact = LinearContact(FiniteElementCompliance(body, hats))
     flat, start = parabola(np.inf), exact.pressure(hats[1:-1])
     gap = CurrentContact(body, hats, flat).at(0.0 * body.nodes, start).gap
     load = exact.load_per_wavelength
@@ -169,9 +167,7 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
     curvature, friction = 0.005, 0.3
     load = 0.5 * np.pi * peak(curvature)
     forces = FiniteElementCompliance(body, HATS)
-    contact = LinearContact(
-        len(body.nodes), body.surface, forces.normal, friction, forces.tangential
-    )
+    contact = LinearContact(forces, friction)
     gap = 0.5 * EDGE * curvature * (X**2 + EDGE**2 / 6.0)
     bodies = [(LinearResponse(body), contact)]
     start = peak(curvature) * HERTZ

@@ -34,7 +34,7 @@ def pressed(structured_block, graded):
 
 def problem(pressed, hardening):
     body = PlasticBody(pressed.body, ElasticPlastic(STEEL, 1.0, hardening))
-    contact = LinearContact(len(body.held), pressed.body.surface, pressed.normal)
+    contact = LinearContact(pressed)
     return body, [(body, contact)]
 
 

@@ -171,8 +171,7 @@ def limit(edges, approaches):
     hats = np.linspace(-1.0, 1.0, 2 * edges + 1)
     weights = np.full(len(hats) - 2, 1.0 / edges)
     plastic = PlasticBody(body, metal)
-    normal = FiniteElementCompliance(body, hats).normal
-    bodies = [(plastic, LinearContact(len(body.nodes), body.surface, normal))]
+    bodies = [(plastic, LinearContact(FiniteElementCompliance(body, hats)))]
     state, found = state_at_rest(bodies, np.ones(len(weights))), []
     for approach in approaches:
         state, _ = newton_by_contacts(
