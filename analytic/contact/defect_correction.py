@@ -29,7 +29,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import SET_TOLERANCE, Constraints
 from analytic.contact.problem import (
     KKT_TOLERANCE,
@@ -39,14 +38,11 @@ from analytic.contact.problem import (
     solve_contact,
 )
 from analytic.operators.half_plane import ComplianceOperator, HalfPlane, ModelOperator
-from analytic.operators.tangential import CoupledOperator
 
 MAX_STEPS = 40
 SECANTS = 2  # with one, half as many steps again over 144 cases; with three, no fewer
 PATIENCE = 3  # four lose time on what does not lead on, two lose secants that do
 SECANT_RANK = 1e-10  # of the larger difference: below, the two point the same way
-
-_Solver = Callable[..., ContactSolution]
 
 
 def solve_with_model(
@@ -57,51 +53,21 @@ def solve_with_model(
     constraints: Constraints,
     start: np.ndarray | None = None,
     tolerance: float = KKT_TOLERANCE,
+    solver: Callable[..., ContactSolution] = solve_contact,
 ) -> ContactSolution:
     """Solve the contact problem of `operator`; residuals are those of `operator` itself.
 
-    weighted_gap G (n,) [m^2], weights w (n,) [m], start: pressures (n,) [Pa] of a nearby problem.
+    operator      C: its symmetric part must be positive definite, nothing else
+    weighted_gap  G (n,) [m^2]      weights  w (n,) [m]
+    start         pressures (n,) [Pa] of a nearby problem
+    solver        of the model's problem: `solve_contact`, or `solve_coupled` where sliding traction
+                  moves the surfaces and the model is a `CoupledOperator`
+
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
     `iterations` counts the steps and the applications of C and of D; C is applied once more than
     there are steps where an approach is prescribed and the model is a half-plane.
     """
-    return _solve(
-        operator, model, solve_contact, weighted_gap, weights, constraints, start, tolerance
-    )
-
-
-def solve_with_coupled_model(
-    operator: ComplianceOperator,
-    model: CoupledOperator,
-    weighted_gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    start: np.ndarray | None = None,
-    tolerance: float = KKT_TOLERANCE,
-) -> ContactSolution:
-    """As `solve_with_model`, where sliding traction moves the surfaces.
-
-    `operator` turns pressures into displacements under them and under the traction that they drag
-    along; nothing is asked of it but that its symmetric part is positive definite. `model` is such
-    an operator, too (`analytic.operators.tangential`); without a skew part it serves a frictionless
-    contact.
-    """
-    return _solve(
-        operator, model, solve_coupled, weighted_gap, weights, constraints, start, tolerance
-    )
-
-
-def _solve(
-    operator: ComplianceOperator,
-    model: ModelOperator,
-    solver: _Solver,
-    weighted_gap: np.ndarray,
-    weights: np.ndarray,
-    constraints: Constraints,
-    start: np.ndarray | None,
-    tolerance: float,
-) -> ContactSolution:
     common, constraints = common_gap(weighted_gap, weights, constraints)
     weighted_gap = weighted_gap - common * weights
     pressure, carried, share = start, np.zeros_like(weighted_gap), 1.0

@@ -73,7 +73,7 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
     square = np.sum(weights * z**2)
     cube, fourth = np.sum(weights * z**3), np.sum(weights * z**4)
     slope = curve.derivative(1)
-    steepest = slope(np.append(curve.x, _zeros(curve.derivative(2))))
+    steepest = slope(np.append(curve.x, crossings(curve.derivative(2))))
     return Roughness(
         mean=mean,
         ra=_mean_deviation(curve, level),
@@ -88,12 +88,7 @@ def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
 
 def turning_points(curve: PPoly) -> np.ndarray:
     """Places [m], ascending, that include every extreme of a piecewise cubic and both its ends."""
-    return np.sort(np.append(curve.x, _zeros(curve.derivative(1))))
-
-
-def crossings(curve: PPoly, level: float = 0.0) -> np.ndarray:
-    """Places [m], ascending, where a piecewise cubic takes the height `level` [m]."""
-    return _zeros(curve, level)
+    return np.sort(np.append(curve.x, crossings(curve.derivative(1))))
 
 
 def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:
@@ -136,8 +131,8 @@ def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return points, 0.5 * weights[:, None] * steps / (x[-1] - x[0])
 
 
-def _zeros(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
-    """Where a piecewise polynomial takes `value` [m], ascending, without its constant pieces."""
+def crossings(piecewise: PPoly, value: float = 0.0) -> np.ndarray:
+    """Places where a piecewise polynomial takes `value`, ascending, without its constant pieces."""
     if len(piecewise.c) <= 3 and value == 0.0:
         return _zeros_of_quadratics(piecewise)
     zeros = piecewise.solve(value, discontinuity=False, extrapolate=False)
@@ -159,6 +154,6 @@ def _zeros_of_quadratics(piecewise: PPoly) -> np.ndarray:
 def _mean_deviation(curve: PPoly, mean: float) -> float:
     """Mean of |curve - mean|, exact between the crossings of the mean line."""
     first, last = curve.x[0], curve.x[-1]
-    ends = np.concatenate(([first], _zeros(curve, mean), [last]))
+    ends = np.concatenate(([first], crossings(curve, mean), [last]))
     area = curve.antiderivative()(ends) - mean * (ends - first)
     return float(np.sum(np.abs(np.diff(area))) / (last - first))

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution
+from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
@@ -128,12 +129,12 @@ def solve_mutual(
 ) -> ContactSolution:
     """The contact of the finite elements; if the iteration with the model does not converge, on
     their whole matrix."""
-    solve, dense = (
-        (solve_with_coupled_model, DenseCoupledCompliance)
+    solver, dense = (
+        (solve_coupled, DenseCoupledCompliance)
         if operator.coupled
-        else (solve_with_model, DenseCompliance)
+        else (solve_contact, DenseCompliance)
     )
-    solution = solve(operator, model, gap, weights, constraints, start)
+    solution = solve_with_model(operator, model, gap, weights, constraints, start, solver=solver)
     if solution.converged or len(gap) > MOST_DENSE:
         return solution
     return solve_on(dense(operator.matrix()), gap, weights, constraints, solution.pressure)

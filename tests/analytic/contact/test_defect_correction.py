@@ -1,12 +1,14 @@
 """The outer iteration with a model: it solves the operator's problem, not the model's."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
 from analytic.contact import defect_correction as defect
 from analytic.contact.coupled import solve_coupled
-from analytic.contact.defect_correction import solve_with_coupled_model, solve_with_model
+from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import assessed, solve_contact
 from analytic.grid import HatGrid, roller_gap
@@ -17,6 +19,8 @@ from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, SumOfBodies
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
 from analytic.surface.synthetic import self_affine
+
+solve_with_coupled_model = partial(solve_with_model, solver=solve_coupled)
 
 RADIUS, MODULUS, LOAD = 7.5706e-3, 115.385e9, 1.0e6
 GRID = HatGrid.within(-0.5e-3, 0.5e-3, 4e-6)

@@ -6,14 +6,14 @@ Requirement: place and pressures of the contact of a sliding cylinder are the ex
 
 import json
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 from scenes import DATA, hat_nodes
 
 from analytic.contact.coupled import solve_coupled
-from analytic.contact.defect_correction import solve_with_coupled_model
+from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.exact.sliding import SlidingContact, sliding_from_load
@@ -26,6 +26,8 @@ from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec
 from meshes.build import build_block
+
+solve_with_coupled_model = partial(solve_with_model, solver=solve_coupled)
 
 TABLE = json.loads((DATA / "f_rounded_punch_and_sliding.json").read_text())["sliding_cylinder"]
 STEEL, SOFT, CORK = Material(1.0, 0.3), Material(1.0, 0.49), Material(1.0, 0.0)
