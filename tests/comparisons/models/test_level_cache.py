@@ -10,7 +10,7 @@ from scenes import SMOOTH, problem
 from comparisons.common import provenance
 from comparisons.models.level_cache import CODE, level_cache
 from comparisons.models.plan import make_plan
-from comparisons.studies.cost import cache as cost_cache
+from comparisons.studies.cost import study as cost_study
 from comparisons.studies.maps import request as map_request
 
 
@@ -34,7 +34,7 @@ def project(tmp_path, monkeypatch):
     """A project with one function in every place that shapes a cached result, and in two more."""
     places = {
         *CODE,
-        *cost_cache.CODE,
+        *cost_study.CODE,
         *map_request.CODE,
         "comparisons/report",
         "comparisons/cli.py",
@@ -57,7 +57,7 @@ def keys() -> tuple[str, str, str]:
     posed = problem(SMOOTH)
     provenance.program_code.cache_clear()
     levels = level_cache(Path("out"), posed.scene, make_plan(posed, ("half_plane",))).key
-    cost, points = (provenance.program_code(*each.CODE) for each in (cost_cache, map_request))
+    cost, points = (provenance.program_code(*each.CODE) for each in (cost_study, map_request))
     return levels, cost, points
 
 
@@ -93,5 +93,5 @@ def test_the_key_follows_the_code_and_not_its_text(project):
 
 
 def test_every_place_that_shapes_a_result_is_there():
-    for place in {*CODE, *cost_cache.CODE, *map_request.CODE}:
+    for place in {*CODE, *cost_study.CODE, *map_request.CODE}:
         assert (provenance.PROJECT / place).exists(), place
