@@ -142,21 +142,6 @@ def test_surface_carries_the_pressure_under_many_points(rng):
     np.testing.assert_allclose(just_below.sz, -expected, rtol=0.0, atol=3e-12)
 
 
-def test_mirror_and_shape_under_many_points(rng):
-    nodes, load = line(rng, 200, signs=True)
-    x, z = rng.uniform(-0.3, 0.6, (30, 40)), rng.uniform(0.0, 0.2, (30, 40))
-    base = friction_stress_at(nodes, load, x, z)
-    mirror = friction_stress_at(-nodes[::-1], load[::-1], -x, z)
-    assert base.normal.sx.shape == (30, 40)
-    for mine, other, sign in (
-        (base.normal.sx, mirror.normal.sx, 1.0),
-        (base.normal.sz, mirror.normal.sz, 1.0),
-        (base.normal.txz, mirror.normal.txz, -1.0),
-        (base.traction_sx, mirror.traction_sx, -1.0),
-    ):
-        assert np.abs(mine - sign * other).max() < 1e-13
-
-
 def test_an_idle_stretch_and_idle_ends_change_nothing(rng):
     nodes, load = line(rng, 900, signs=False)
     load[:90], load[400:700], load[850:] = 0.0, 0.0, 0.0
