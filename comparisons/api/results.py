@@ -99,15 +99,11 @@ class Figures(Printed):
     rows: tuple[Row, ...]
 
     def _table(self) -> "RenderableType":
-        from rich import box
-        from rich.table import Table
-
         from comparisons.common.numbers import percent, with_unit
-        from comparisons.report.terminal import PLAIN, SHORT
+        from comparisons.report.terminal import PLAIN, SHORT, plain_table
 
-        table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-        for name in ("run", "quantity", "mu", "half-plane", "finite elements", "model error"):
-            table.add_column(name, justify="left" if name in ("run", "quantity") else "right")
+        numbers = ("mu", "half-plane", "finite elements", "model error")
+        table = plain_table("run", "quantity", numbers=numbers)
         for row in self.rows:
             values = (row["half_plane"], row["finite_element"])
             cells = ["" if v is None else with_unit(v, row["unit"]) for v in values]

@@ -1,5 +1,6 @@
 """The short table of a run for the terminal: figures, verdict, where the files are, time."""
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -64,7 +65,10 @@ def summary(outcome: Outcome) -> "RenderableType":
 
 
 def _comparison(outcome: Outcome) -> "Table":
-    table = _table("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%")
+    table = plain_table(
+        "quantity",
+        numbers=("mu", "half-\nplane", "finite\nelements", "differ.\n%", "uncert.\n%", "tol.\n%"),
+    )
     table.add_column("verdict", overflow="fold")
     table.caption = "difference: (half-plane - finite elements) / finite elements"
     rows = comparison_rows(outcome)
@@ -86,7 +90,7 @@ def _comparison(outcome: Outcome) -> "Table":
 
 def _model_errors(outcome: Outcome) -> "Table":
     """Of the half-plane in what is judged, and what it is made of."""
-    table = _table("mu", "error\n%", "uncert.\n%", "tol.\n%")
+    table = plain_table("quantity", numbers=("mu", "error\n%", "uncert.\n%", "tol.\n%"))
     table.add_column("dominant\ncontributions, %", overflow="fold")
     table.title = "model error of the half-plane"
     table.caption = "minus: the half-plane's figure is too low"
@@ -98,14 +102,14 @@ def _model_errors(outcome: Outcome) -> "Table":
 
 
 def _figures(outcome: Outcome) -> "Table":
-    table = _table("mu", "value", "of Hertz", "uncert.\n%")
+    table = plain_table("quantity", numbers=("mu", "value", "of Hertz", "uncert.\n%"))
     for quantity, *cells in figure_rows(outcome):
         table.add_row(SHORT[quantity], *map(_cell, cells))
     return table
 
 
-def _table(*columns: str) -> "Table":
-    """An empty table of a quantity and columns of numbers."""
+def plain_table(*words: str, numbers: Iterable[str] = ()) -> "Table":
+    """An empty table with columns of words, and then of numbers."""
     from rich import box
     from rich.table import Table
 
@@ -120,8 +124,9 @@ def _table(*columns: str) -> "Table":
         caption_style="default",
     )
     # where a terminal is too narrow, cells break: cut short they would be other numbers
-    table.add_column("quantity", overflow="fold")
-    for column in columns:
+    for column in words:
+        table.add_column(column, overflow="fold")
+    for column in numbers:
         table.add_column(column, justify="right", overflow="fold")
     return table
 

@@ -14,7 +14,7 @@ from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
-from comparisons.report.terminal import STYLES
+from comparisons.report.terminal import STYLES, plain_table
 from comparisons.results.changes import ROUNDING, Moved, Movement, movement
 from comparisons.results.outcome import Outcome
 from comparisons.results.recorded_run import Record, read_record
@@ -137,14 +137,10 @@ def rerun_summary(repetition: Repetition) -> "RenderableType":
 
 
 def _table(moved: tuple[Moved, ...]) -> "Table":
-    from rich import box
-    from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    table.add_column("figure", overflow="fold")
-    for column in ("recorded", "repeated", "relative\nchange", "stated\nuncert."):
-        table.add_column(column, justify="right", overflow="fold")
+    numbers = ("recorded", "repeated", "relative\nchange", "stated\nuncert.")
+    table = plain_table("figure", numbers=numbers)
     table.add_column("of")
     for row in moved:
         cells = (

@@ -8,7 +8,7 @@ from comparisons.common.quantities import label
 from comparisons.report.figures.style import drawing
 from comparisons.report.html import STYLES as POLICY
 from comparisons.report.html import rendered
-from comparisons.report.terminal import PLAIN, SHORT, STYLES
+from comparisons.report.terminal import PLAIN, SHORT, STYLES, plain_table
 from comparisons.studies.cost.picture import cost_picture
 from comparisons.studies.cost.recommend import AssessedRow, Recommendation, scene_sections
 from comparisons.studies.cost.result import Cost
@@ -24,17 +24,13 @@ MARK = " *"  # on the Pareto front
 
 def cost_table(cost: Cost) -> "RenderableType":
     """For rich: rows, sentences, references and machine."""
-    from rich import box
     from rich.console import Group
-    from rich.table import Table
     from rich.text import Text
 
     names = shown(cost)
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    table.add_column("method")
     heads = ("setting", "unknowns", "contact", "with\nstresses", "memory")
-    for column in (*heads, *(SHORT[name].replace(" ", "\n", 1) for name in names)):
-        table.add_column(column, justify="right", overflow="fold")
+    quantities = (SHORT[name].replace(" ", "\n", 1) for name in names)
+    table = plain_table("method", numbers=(*heads, *quantities))
     styles = {OK: "", FAILED: STYLES["differ"]}
     for each in cost.assessed:
         style = styles.get(each.row.status, STYLES["inconclusive"])

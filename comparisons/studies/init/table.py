@@ -6,7 +6,7 @@ import numpy as np
 
 from comparisons.common.numbers import significant, with_unit
 from comparisons.report.tables.problem import in_mm
-from comparisons.report.terminal import PLAIN
+from comparisons.report.terminal import PLAIN, plain_table
 from comparisons.results.plausibility import warnings_about_surface
 from comparisons.scenes.scene import ProfileInfo
 from comparisons.studies.init.first_scene import FirstScene
@@ -24,9 +24,7 @@ NONE = "-"
 
 def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "RenderableType":
     """For rich to print; with a picture that is `columns` wide, without one where it is None."""
-    from rich import box
     from rich.console import Group
-    from rich.table import Table
     from rich.text import Text
 
     info = made.scene.profile_info
@@ -38,9 +36,7 @@ def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "Rendera
     parts.append("")
     if columns:
         parts += [*_picture(made, min(columns, MOST_COLUMNS), not unicode), ""]
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    for name in ("roughness", "as pressed", "ISO 21920-2"):
-        table.add_column(name, justify="left" if name == "roughness" else "right")
+    table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"))
     for row in _rows(info):
         table.add_row(*(cell.translate(PLAIN) for cell in row))
     parts += [table, ""]

@@ -80,7 +80,7 @@ def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
 def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) -> dict:
     """SI tables of a scene in which every named group has its value.
 
-    Raises SceneError where the scene lacks what a group is about.
+    Raises SceneError where the scene does not have what a group is about.
     """
     changed = copy.deepcopy(dict(tables))
     for name in sorted(values, key=lambda name: not GROUPS[name].early):

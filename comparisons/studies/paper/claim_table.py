@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import MINUS, UNKNOWN, significant
 from comparisons.common.quantities import LABELS
-from comparisons.report.terminal import PLAIN, STYLES
+from comparisons.report.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.paper.claims.judgement import (
     CONFIRMED,
     DENIED,
@@ -94,16 +94,10 @@ def summary(judged: tuple[JudgedClaim, ...]) -> str:
 
 def paper_table(paper: "Paper") -> "RenderableType":
     """For rich: one row a claim, how many ended how, and where the page is."""
-    from rich import box
     from rich.console import Group
-    from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    table.add_column("claim")
-    table.add_column("figure")
-    for label in LABELS.values():
-        table.add_column(label, justify="right")
+    table = plain_table("claim", "figure", numbers=LABELS.values())
     table.add_column("outcome")
     for row in map(claim_row, paper.judged):
         cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in LABELS))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.report.html import STYLES, rendered
+from comparisons.report.terminal import plain_table
 from comparisons.studies.checks import MODEL_LABELS, rows_table, verdict_lines
 from comparisons.studies.verify.coverage import Coverage, ExactFindings, Verification
 
@@ -23,15 +24,9 @@ def coverage_line(found: Verification) -> str:
 
 def verify_summary(found: Verification) -> "RenderableType":
     """Coverage by model and quantity, rows that have no pairs or do not hold, and the verdict."""
-    from rich import box
     from rich.console import Group
-    from rich.table import Table
 
-    table = Table(box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0), pad_edge=False, show_edge=False)
-    for name in ("model", "quantity"):
-        table.add_column(name, overflow="fold")
-    for name in COLUMNS:
-        table.add_column(name, justify="right", overflow="fold")
+    table = plain_table("model", "quantity", numbers=COLUMNS)
     for row in _coverage_rows(found):
         table.add_row(*row)
     shown = [r for r in found.rows if not (r.holds and isinstance(r.findings, ExactFindings))]

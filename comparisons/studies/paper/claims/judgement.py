@@ -99,7 +99,7 @@ class JudgedClaim:
     why: str | None = None
 
     def as_dict(self) -> dict:
-        """For paper.json: None stands for a bound or an uncertainty that there is not."""
+        """For paper.json: None stands for what is infinite."""
         claim = self.claim
         return {
             "key": claim.key,

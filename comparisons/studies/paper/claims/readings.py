@@ -33,7 +33,7 @@ HALF, CORE = 0.5, 0.8  # of the smooth maximum: what counts as highly sheared; a
 SLIDING = 0.1  # friction of the paper's sliding contacts
 ACROSS = np.array([0.0, 0.25, 0.48, 0.5, 0.52, 0.75])  # elements: both sides of edges too
 SHALLOWEST = 0.02  # sampling intervals: the least depth at which the sum of elements is read
-EDGE = 0.9  # a: farther out the elements' own edge of the contact shows
+EDGE = 0.9  # a: farther out the elements' error at the edge of the contact shows
 
 
 @dataclass(frozen=True)

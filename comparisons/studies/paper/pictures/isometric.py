@@ -4,7 +4,7 @@ The surface lies at the back, depth comes towards the viewer, stress stands upwa
 two neighbouring depths are painted from the back to the front, each with the line of its nearer
 depth on it; whatever is painted later stands in front. That is right for any view from above.
 
-matplotlib's own three dimensions are not used: they fail where pip's copy lies beside Debian's.
+matplotlib's mplot3d is not used: it fails where pip's copy lies beside Debian's.
 """
 
 from typing import TYPE_CHECKING

@@ -72,11 +72,11 @@ def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray
     pressure = np.zeros(grid.count)
     first = level.grid.first - grid.first
     pressure[first : first + level.grid.count] = level.solution.pressure
-    moved = HalfPlane(grid.count, pitch, problem.modulus).apply(pressure) / grid.weights
-    gap = grid.hat_integrals(problem.gap, problem.knots) / grid.weights + moved
+    of_both = HalfPlane(grid.count, pitch, problem.modulus).apply(pressure) / grid.weights
+    gap = grid.hat_integrals(problem.gap, problem.knots) / grid.weights + of_both
     gap -= np.median(gap[pressure > 0.0])
-    given_way = problem.modulus / problem.scene.body.plane_strain_modulus * moved
-    body = mean_height(problem, grid) - given_way
+    displacement = problem.modulus / problem.scene.body.plane_strain_modulus * of_both
+    body = mean_height(problem, grid) - displacement
     return grid.x, body, body + np.maximum(gap, 0.0)
 
 
