@@ -31,7 +31,7 @@ from comparisons.studies.paper.sections import sections_of
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-SCHEMA = 1
+SCHEMA = 2
 SOLVING = 0.8  # share of the progress that solving takes
 PAGE, NUMBERS = "paper.html", "paper.json"
 SOURCE = "Bailey and Sayles 1991"
