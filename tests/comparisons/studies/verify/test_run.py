@@ -62,7 +62,7 @@ class TestCases:
             kinds = {scene.kind for scene in scenes if model in scene.models}
             assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
         figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
-        assert figures + sum(len(c.exact) for c in operator_contacts()) >= 541
+        assert figures + sum(len(c.exact) for c in operator_contacts()) >= 585
         assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
 
     def test_no_two_cases_put_the_edge_at_the_same_place(self):
