@@ -19,6 +19,7 @@ from comparisons.report.figures.model_error import (
     model_error_picture,
 )
 from comparisons.report.figures.style import drawing
+from comparisons.report.page import render
 from comparisons.report.tables.model_error import effects_table, model_error_rows, not_modelled_line
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
@@ -137,6 +138,16 @@ class TestBars:
             picture = model_error_picture(split)
         assert "peak pressure" in picture.alternative and "−3.1 %" in picture.alternative
         assert picture.source.startswith("data:image/svg+xml;base64,")
+
+
+def test_the_page_lists_contributions_where_errors_were_split(
+    split: Outcome, wavy_page, page_of, no_pictures, monkeypatch
+):
+    monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
+    [table] = [table for table in page_of(render(split)).tables if "model error" in table[0]]
+    assert table[1][-1] == "finite thickness or width −4.0 %, deformed gap +1.2 %"
+    [table] = [table for table in wavy_page.tables if "model error" in table[0]]
+    assert "dominant contributions" not in table[0]  # no effect was computed
 
 
 def test_the_terminal_shows_it_in_80_columns(split: Outcome):
