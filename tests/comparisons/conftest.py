@@ -17,6 +17,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
+from scenes import STEEL, resolved
 
 import meshes.build
 from analytic.contact.patches import contact_patches
@@ -39,13 +40,11 @@ from comparisons.report.page import Pictures
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
-from comparisons.scenes.resolve import resolve_tables
 from meshes.block import BlockMesh, BlockSpec
 
 PROJECT = Path(__file__).resolve().parents[2]
 STIFFER = 1.01
 SAMPLING = 1.25e-3  # what half the samples of a trace change, in any figure
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
     "title": "Smooth roller on a smooth half-plane",
     "roller": {"radius": 8e-3, **STEEL},
@@ -128,7 +127,7 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
 
 def finished_run(tables: dict, models: tuple[str, ...] = MODELS) -> Outcome:
     """The outcome of a scene given as tables."""
-    scene = resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+    scene = resolved(tables)
     problem = problem_of(scene)
     plan = make_plan(problem, models)
     window = None

@@ -1,10 +1,10 @@
 """The finite elements' compliance before contact: right where it is, and each error by its name."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import STEEL, changed, resolved
 
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
@@ -27,10 +27,9 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.scenes.resolve import load_scene, resolve_tables
+from comparisons.scenes.resolve import load_scene
 from fem.body.elasticity import elastic_body
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SMOOTH = {
     "title": "Smooth",
     "roller": {"radius": 8e-3, "rigid": True},
@@ -43,8 +42,7 @@ SINUSOID = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.4e-6}
 
 
 def scene(**sections):
-    tables = SMOOTH | {name: SMOOTH.get(name, {}) | more for name, more in sections.items()}
-    return resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+    return resolved(changed(SMOOTH, **sections))
 
 
 def checked(given) -> ComplianceCheck:

@@ -1,18 +1,17 @@
 """The real boundary of a rough body: the trace under every pressure element, on every level."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scenes import problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
-from comparisons.scenes.resolve import resolve_tables
+from comparisons.models.problem import Problem
 from fem.solver.mumps import FemError
 from meshes.block import BlockMesh, real_points
 from meshes.build import build_block
@@ -37,7 +36,7 @@ def problem_with(profile: dict, **finite_element) -> Problem:
         "profile": profile,
         "finite_element": {"geometry": "rough", **finite_element},
     }
-    return problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
+    return problem(tables)
 
 
 def self_affine(slope: float, length: float = 2e-3, seed: int = 3) -> Problem:

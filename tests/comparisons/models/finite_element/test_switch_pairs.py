@@ -1,21 +1,18 @@
 """Every two switches of the finite elements together: solved with finite figures, or refused."""
 
 from itertools import combinations
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import STEEL, changed, problem, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
-from comparisons.scenes.resolve import resolve_tables
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 BASE = {
     "roller": {"radius": 8e-3, "rigid": True},
     "body": dict(STEEL),
@@ -52,14 +49,6 @@ SWITCHES = {
 }
 
 
-def merged(*changes: dict) -> dict:
-    tables = {name: dict(fields) for name, fields in BASE.items()}
-    for change in changes:
-        for name, fields in change.items():
-            tables[name] = {**tables.get(name, {}), **fields}
-    return tables
-
-
 REFUSED = {
     frozenset(pair)
     for pair in [
@@ -84,19 +73,20 @@ REFUSED = {
 
 @pytest.mark.parametrize("pair", list(combinations(SWITCHES, 2)), ids="-".join)
 def test_pair(pair):
-    tables = merged(*(SWITCHES[name] for name in pair))
+    one, other = (SWITCHES[name] for name in pair)
+    tables = changed(changed(BASE, **one), **other)
     if frozenset(pair) in REFUSED:
         with pytest.raises(SceneError, match=r"made\.toml: finite_element\.\w+: .*allowed"):
-            resolve_tables(tables, name="made", folder=Path("."), source="made.toml")
+            resolved(tables)
         return
-    problem = problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
-    plan, window = make_plan(problem, ("finite_element",)), window_of(problem)
-    refinement = Refinement(problem.pitches[0])
-    level = finite_element_level(problem, plan, refinement, window, Stages())
+    posed = problem(tables)
+    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
+    refinement = Refinement(posed.pitches[0])
+    level = finite_element_level(posed, plan, refinement, window, Stages())
     solution = level.solution
     assert solution.converged
-    assert solution.load == pytest.approx(problem.hertz.load_per_length, rel=1e-6)
-    assert 0.5 < solution.pressure.max() / problem.hertz.peak_pressure < 2.5
+    assert solution.load == pytest.approx(posed.hertz.load_per_length, rel=1e-6)
+    assert 0.5 < solution.pressure.max() / posed.hertz.peak_pressure < 2.5
     found = [solution.pressure, solution.gap, level.displacement, level.patches]
     for stress in level.mesh_field.stresses.values():
         found += [stress.sx, stress.sz, stress.txz]

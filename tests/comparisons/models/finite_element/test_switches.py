@@ -1,10 +1,10 @@
 """One assumption of the finite elements switched off at a time, all else the same."""
 
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import changed, problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element.bodies import BodyStore
@@ -12,9 +12,8 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem, problem_of
+from comparisons.models.problem import Problem
 from comparisons.models.window import window_of
-from comparisons.scenes.resolve import resolve_tables
 
 STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
 RADIUS, HALF_WIDTH = 10e-3, 200e-6  # a/R = 0.02 under a rigid roller
@@ -27,9 +26,7 @@ ELASTIC = {**RIGID, "roller": {"radius": RADIUS, "youngs_modulus": 200e9, "poiss
 
 
 def problem_with(tables: dict, finite_element: dict, **sections: dict) -> Problem:
-    merged = {name: {**tables.get(name, {}), **fields} for name, fields in sections.items()}
-    tables = {**tables, **merged, "finite_element": finite_element}
-    return problem_of(resolve_tables(tables, name="made", folder=Path("."), source="made.toml"))
+    return problem(changed(tables, **sections) | {"finite_element": finite_element})
 
 
 def level_of(tables: dict, finite_element: dict, **sections: dict):

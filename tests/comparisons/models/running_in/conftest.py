@@ -2,15 +2,14 @@
 
 import copy
 from collections.abc import Callable
-from pathlib import Path
 
 import pytest
+import scenes
+from scenes import STEEL
 
 from analytic.exact.hertz import HertzContact, hertz_from_load
-from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import ResolvedScene
 
-STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 LOAD, RADIUS = 2e5, 10e-3
 PAIR = hertz_from_load(LOAD, RADIUS, 210e9 / 1.82)
 HARDNESS = 1.25 * PAIR.peak_pressure
@@ -54,6 +53,6 @@ def resolved(wavy) -> Callable[..., ResolvedScene]:
                 continue
             merged = {**tables.get(section, {}), **fields}
             tables[section] = {name: value for name, value in merged.items() if value is not None}
-        return resolve_tables(tables, name="wavy", folder=Path("."), source="wavy.toml")
+        return scenes.resolved(tables, "wavy")
 
     return changed
