@@ -3,42 +3,10 @@
 import pytest
 
 from comparisons.common.errors import InputError, SceneError
-from comparisons.studies.maps.groups import axis_of, counts_of
 from comparisons.studies.maps.request import request_of
 
 
 class TestRequest:
-    def test_axes(self):
-        axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
-        assert (axis.group, axis.values, axis.logarithmic) == (
-            "a_over_thickness",
-            (0.1, 1.0, 10.0),
-            True,
-        )
-        assert str(axis) == "a_over_thickness=0.1:10"
-        axis = axis_of("poissons_ratio", 3, "--x")
-        assert (axis.values, axis.logarithmic) == ((0.0, 0.245, 0.49), False)
-        assert counts_of("3x12") == (3, 12)
-
-    @pytest.mark.parametrize(
-        ("given", "what"),
-        [
-            ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
-            ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
-            ("rms_slope=a:b", "--x: the range is a:b"),
-            ("rms_slope=0:1", "--x: rms_slope begins at 0"),
-            ("rms_slope=1", "--x: is 'rms_slope=1'"),
-        ],
-    )
-    def test_wrong_axes(self, given, what):
-        with pytest.raises(InputError, match=f"^{what}"):
-            axis_of(given, 3, "--x")
-
-    @pytest.mark.parametrize("given", ["3", "1x3", "3x201", "x", "3x-2"])
-    def test_wrong_points(self, given):
-        with pytest.raises(InputError, match=r"^--points: is"):
-            counts_of(given)
-
     def test_usual_axes_are_what_the_scene_has(self):
         request = request_of("sinusoid", "2x2")
         assert (request.x.group, request.y.group) == ("wavelength_over_a", "rms_slope")

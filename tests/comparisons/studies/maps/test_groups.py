@@ -1,18 +1,13 @@
-"""Maps: groups take their values, the model error is the exact one, rules and pictures say so."""
+"""Groups of a map: a scene takes their values; and its axes."""
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from analytic.exact.layers import layer_references
-from analytic.exact.sliding import sliding_from_load
-from comparisons.common.errors import SceneError
+from comparisons.common.errors import InputError, SceneError
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.maps.groups import Origin, tables_with
-from comparisons.studies.maps.point import FAILED, SOLVED, PointError, solve_point
-from comparisons.studies.maps.request import PointRequest
+from comparisons.studies.maps.groups import Origin, axis_of, counts_of, tables_with
 
 HERE = Origin("made.toml", Path("."))
 RIGID = {
@@ -45,14 +40,6 @@ WAVES = {
 def set_to(tables: dict, **values: float):
     """The problem of a scene whose groups have these values."""
     return problem_of(resolve_tables(tables_with(tables, values, HERE), name="m", **vars(HERE)))
-
-
-def solved(tables: dict) -> dict:
-    answer = solve_point(
-        PointRequest(0.0, 0.0, "peak_pressure", tables, HERE.folder, "m", None, "key")
-    )
-    assert answer["found"]["status"] == SOLVED, answer
-    return answer["found"]["quantities"]
 
 
 class TestGroups:
@@ -141,62 +128,34 @@ class TestGroups:
             set_to(tables, **{group: 0.1})
 
 
-class TestModelError:
-    LAYERS = tuple(
-        case
-        for case in layer_references()
-        if (case.half_width, case.poissons_ratio, case.base)
-        in (
-            (0.1, 0.3, "bonded"),
-            (0.25, 0.45, "bonded"),
-            (1.0, None, "frictionless"),
-            (4.0, 0.3, "bonded"),
+class TestAxes:
+    def test_axes(self):
+        axis = axis_of("a-over-thickness=0.1:10", 3, "--x")
+        assert (axis.group, axis.values, axis.logarithmic) == (
+            "a_over_thickness",
+            (0.1, 1.0, 10.0),
+            True,
         )
-    )
-
-    @pytest.mark.parametrize("case", LAYERS, ids=lambda case: f"{case.base}-{case.half_width}")
-    def test_on_a_layer_it_is_the_exact_one(self, case):
-        """Hertz's figures under the load that gives an exact contact, over that contact's."""
-        smooth = 2.0 * np.sqrt(case.load / np.pi)  # a/t
-        nu = 0.3 if case.poissons_ratio is None else case.poissons_ratio
-        body = RIGID["body"] | {"poissons_ratio": nu, "thickness": 1.0, "base": case.base}
-        found = solved(tables_with(RIGID | {"body": body}, {"a_over_thickness": smooth}, HERE))
-        exact = {
-            "peak_pressure": 0.5 * smooth / case.peak_pressure - 1.0,
-            "contact_length": smooth / case.half_width - 1.0,
-        }
-        for name, most in (("peak_pressure", 2e-4), ("contact_length", 4e-3)):
-            error = found[name]
-            assert abs(error["difference"] - exact[name]) <= error["uncertainty"] <= most
-            assert abs(exact[name]) > error["uncertainty"]
-
-    def test_of_friction_that_moves_the_surfaces_it_is_the_exact_one(self):
-        problem = set_to(RIGID, friction_dundurs=0.25)
-        moved = sliding_from_load(
-            problem.hertz.load_per_length,
-            0.01,
-            problem.modulus,
-            problem.scene.friction[0],
-            problem.dundurs_beta,
-        )
-        error = solved(problem.scene.tables)["peak_pressure"]
-        exact = problem.hertz.peak_pressure / moved.peak_pressure - 1.0
-        assert abs(error["difference"] - exact) <= error["uncertainty"] < 0.1 * abs(exact)
+        assert str(axis) == "a_over_thickness=0.1:10"
+        axis = axis_of("poissons_ratio", 3, "--x")
+        assert (axis.values, axis.logarithmic) == ((0.0, 0.245, 0.49), False)
+        assert counts_of("3x12") == (3, 12)
 
     @pytest.mark.parametrize(
-        ("difference", "uncertainty", "is_open"),
-        [(-0.3, 0.11, True), (-0.3, 0.09, False), (0.0, 0.004, True), (0.0, 0.003, False),
-         (0.1, None, True)],
-    )  # fmt: skip
-    def test_levels_are_added_while_the_uncertainty_would_show(
-        self, difference, uncertainty, is_open
-    ):
-        assert PointError(1.0, 1.0, difference, uncertainty).is_open is is_open
+        ("given", "what"),
+        [
+            ("a_over_thicknes", "--x: there is no group a_over_thicknes; the nearest is a_over_th"),
+            ("rms_slope=0.2:0.1", "--x: the range is 0.2:0.1"),
+            ("rms_slope=a:b", "--x: the range is a:b"),
+            ("rms_slope=0:1", "--x: rms_slope begins at 0"),
+            ("rms_slope=1", "--x: is 'rms_slope=1'"),
+        ],
+    )
+    def test_wrong_axes(self, given, what):
+        with pytest.raises(InputError, match=f"^{what}"):
+            axis_of(given, 3, "--x")
 
-    def test_what_cannot_be_solved_is_an_answer(self):
-        tables = tables_with(RIGID, {"a_over_width": 1.0}, HERE)
-        answer = solve_point(
-            PointRequest(1.0, 1.0, "peak_pressure", tables, HERE.folder, "m", None, "k")
-        )
-        assert answer["found"]["status"] == FAILED
-        assert "reaches the end of the body" in answer["found"]["why"]
+    @pytest.mark.parametrize("given", ["3", "1x3", "3x201", "x", "3x-2"])
+    def test_wrong_points(self, given):
+        with pytest.raises(InputError, match=r"^--points: is"):
+            counts_of(given)
