@@ -76,7 +76,7 @@ def _wanted(profile: Profile) -> float:
 
 
 def running_in_account(scene: ResolvedScene) -> dict | None:
-    """For result.json: what running-in did, None where there was none; lengths in SI."""
+    """What running-in did, for result.json; None without it."""
     found = scene.run_in
     if found is None:
         return None
@@ -98,7 +98,7 @@ def running_in_account(scene: ResolvedScene) -> dict | None:
 
 
 def running_in_assumptions(scene: ResolvedScene) -> list[str]:
-    """What running-in takes for granted, and where it fell short."""
+    """The assumptions of running-in, and where it fell short."""
     found, settings = scene.run_in, scene.running_in
     listed = [
         f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "

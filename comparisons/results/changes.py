@@ -1,9 +1,8 @@
-"""Which figures of a repeated run moved, and whether by more than they state for themselves.
+"""Which figures of a repeated run moved, and whether by more than their stated uncertainty.
 
-A figure is every number, truth and verdict of result.json but for the numbers of elements, times
-and memory under `cost`. How far one may move without a finding is what the recorded run states:
-the total uncertainty of a figure, or of the one that it hangs on (a place of a largest shear on its
-depth's, say). Figures that state none may move by rounding alone.
+A figure is every number, truth and verdict of result.json but those under `cost`. It may move by
+the total uncertainty that the recorded run states for it, or for the figure that it depends on
+(DEPENDS); without one, by rounding.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,14 +16,14 @@ from analytic.contact.problem import KKT_TOLERANCE
 Value = float | int | bool | str | None
 Path = tuple[str | int, ...]
 
-# Relative: what two solutions may differ by that both count as converged. It is what other
-# processors and libraries leave; the same machine gives the same bits.
+# Relative, between two converged solutions: on other processors and libraries; the same machine
+# gives the same bits.
 ROUNDING = KKT_TOLERANCE
-# Observed orders jump where a sequence is not regular, the machine's memory may decide how many
-# levels there are, and estimates are no results.
+# Observed orders jump in irregular sequences, the machine's memory may decide the number of levels,
+# and estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
 NO_FIGURES |= {"estimate", "not_modelled"}
-HANGS_ON = {
+DEPENDS = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",
     "patches": "contact_length",
@@ -132,7 +131,7 @@ def _compared(
     ):
         return Moved(name, old, new, None, None, "", True), inf
     stated = stated_for(path, old, recorded)
-    difference = _unlike(old, new) if isinstance(old, list) else new - old
+    difference = _difference(old, new) if isinstance(old, list) else new - old
     change, allowed = difference / stated.scale, stated.allowed / stated.scale
     beyond = abs(change) > max(allowed, ROUNDING)
     return Moved(name, old, new, change, allowed, stated.by, beyond), abs(change)
@@ -145,7 +144,8 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
     name = str(path[-1])
     match path:
         case ("models", str(model), int(entry), "contact", "peak_position"):
-            return Stated(_pitch(recorded, model, entry), "one pressure element", half_width)
+            levels = (recorded["models"][model][entry].get("cost") or {}).get("levels") or [{}]
+            return Stated(_number(levels[-1].get("pitch")), "one pressure element", half_width)
         case ("models", str(model), int(entry), "checks", _):
             return Stated(KKT_TOLERANCE, "convergence", 1.0)
         case ("models", _, int(_), "operator", *_, "difference" | "beyond"):
@@ -153,10 +153,10 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
         case ("models", str(model), int(entry), "uncertainty", quantity, _):
             return Stated(_total(recorded, model, entry, quantity)[0], "itself", 1.0)
         case ("models", str(model), int(entry), "stress", place, _):
-            return _relative(recorded, model, entry, HANGS_ON.get(place, place), half_width)
+            return _relative(recorded, model, entry, DEPENDS.get(place, place), half_width)
         case ("models", str(model), int(entry), "contact", "patches"):
-            scale = _length(value) or half_width
-            return _relative(recorded, model, entry, "patches", scale)
+            length = float(sum(stop - start for start, stop in value))
+            return _relative(recorded, model, entry, "patches", length or half_width)
         case ("models", str(model), int(entry), "normal_tangential_coupling", quantity, part):
             scale = 1.0 if part == "difference" else _scale(value, quantity, hertz)
             return _relative(recorded, model, entry, quantity, scale)
@@ -191,8 +191,8 @@ def written(path: Path) -> str:
 
 
 def _relative(recorded: dict, model: str, entry: int, figure: str, scale: float) -> Stated:
-    """By the total uncertainty of a figure of a model, or of what it hangs on."""
-    total, by = _total(recorded, model, entry, HANGS_ON.get(figure, figure))
+    """By the total uncertainty of a figure of a model, or of what it depends on."""
+    total, by = _total(recorded, model, entry, DEPENDS.get(figure, figure))
     return Stated(total * scale, "itself" if by == figure else by, scale)
 
 
@@ -214,7 +214,8 @@ def _total(recorded: dict, model: str, entry: int, quantity: str) -> tuple[float
 
     With too few levels for a total its iteration's part counts: as many levels are repeated.
     """
-    stated = _entries(recorded, model, entry)
+    entries = recorded["models"].get(model) or []
+    stated = entries[entry].get("uncertainty") or {} if entry < len(entries) else {}
     chosen = [quantity] if quantity in stated else stated
     sizes = {}
     for name in chosen:
@@ -233,17 +234,6 @@ def _largest(recorded: dict, scale: float, quantity: str = "") -> Stated:
     ]
     total, by = max(found, default=(0.0, ""))
     return Stated(total * scale, by, scale)
-
-
-def _entries(recorded: dict, model: str, entry: int) -> dict:
-    entries = recorded["models"].get(model) or []
-    return entries[entry].get("uncertainty") or {} if entry < len(entries) else {}
-
-
-def _pitch(recorded: dict, model: str, entry: int) -> float:
-    """Of the pressure elements [m] on the finest level."""
-    cost = recorded["models"][model][entry].get("cost") or {}
-    return _number((cost.get("levels") or [{}])[-1].get("pitch"))
 
 
 def _moves_load(recorded: dict) -> bool:
@@ -268,11 +258,7 @@ def _number(value: object) -> float:
     return float(value) if isinstance(value, int | float) and isfinite(value) else 0.0
 
 
-def _length(patches: list) -> float:
-    return float(sum(stop - start for start, stop in patches))
-
-
-def _unlike(one: list, other: list) -> float:
+def _difference(one: list, other: list) -> float:
     """Length [m] that one of two sets of intervals covers and the other does not."""
     if one == other:
         return 0.0
