@@ -100,12 +100,12 @@ def half_plane_outcome(finish: Callable[..., Outcome], without_field: dict) -> O
 @pytest.fixture(scope="session")
 def rendered() -> Callable[[Outcome], str]:
     """`rendered(outcome)`: its page; drawn once for each of these fixtures' outcomes."""
-    kept: dict[int, tuple[Outcome, str]] = {}
+    pages: dict[int, tuple[Outcome, str]] = {}
 
     def page(outcome: Outcome) -> str:
-        if id(outcome) not in kept:
-            kept[id(outcome)] = outcome, render(outcome)
-        return kept[id(outcome)][1]
+        if id(outcome) not in pages:
+            pages[id(outcome)] = outcome, render(outcome)
+        return pages[id(outcome)][1]
 
     return page
 

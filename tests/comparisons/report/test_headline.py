@@ -50,7 +50,7 @@ def test_it_says_no_more_than_the_uncertainty_supports(smooth_outcome: Outcome):
         assert "the one judged error is within its tolerance" in said.sentence
 
 
-def test_failure_names_what_is_farthest_outside_and_what_makes_most_of_it(smooth_outcome: Outcome):
+def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_outcome: Outcome):
     errors = (
         own("peak_pressure", 0.5, 1e-3),
         own("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1),
@@ -72,7 +72,7 @@ def test_a_norm_has_no_sign(smooth_outcome: Outcome):
     )
 
 
-def test_doubt_tells_uncertainty_from_what_no_model_contains(smooth_outcome: Outcome):
+def test_inconclusive_by_uncertainty_or_by_what_is_not_modelled(smooth_outcome: Outcome):
     said = headline(judged(smooth_outcome, own("contact_length", 0.01, math.inf)))
     assert said.kind == "inconclusive"
     assert "uncertainty that reaches across the tolerance" in said.sentence

@@ -107,7 +107,7 @@ def capped(outcome: Outcome, one: float, other: float) -> Outcome:
     return replace(outcome, comparisons=(peak, *outcome.comparisons[1:]))
 
 
-def test_peaks_that_the_hardness_holds_are_no_evidence(
+def test_peaks_that_the_hardness_limits_are_no_evidence(
     wavy_outcome: Outcome, smooth_outcome: Outcome, monkeypatch, no_pictures
 ):
     monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
@@ -136,7 +136,7 @@ def test_convergence_shows_every_level_of_every_model(wavy_page, wavy_outcome: O
             assert peak == pytest.approx(level.solution.pressure.max(), rel=1e-4)
 
 
-def test_what_was_left_out_stands_with_its_reason(wavy_page, wavy_outcome: Outcome):
+def test_skipped_steps_stand_with_their_reasons(wavy_page, wavy_outcome: Outcome):
     assert wavy_outcome.plan.skipped
     for item in wavy_outcome.plan.skipped:
         assert [item.step, item.because] in [row for table in wavy_page.tables for row in table]
@@ -155,7 +155,7 @@ def test_the_record_names_versions_hashes_and_the_command(wavy_page, wavy_outcom
     assert "crosscheck rerun ." in wavy_page.text
 
 
-def test_the_headline_owns_up_to_a_solver_that_failed(
+def test_the_headline_names_a_solver_that_failed(
     smooth_outcome: Outcome, page_of, monkeypatch, no_pictures
 ):
     monkeypatch.setattr("comparisons.report.page.draw", no_pictures)

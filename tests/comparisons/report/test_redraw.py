@@ -1,4 +1,4 @@
-"""Reports drawn again from their folders: the same page, nothing solved, wrong folders told."""
+"""Reports drawn again from their folders: the same page, nothing solved, wrong folders refused."""
 
 import json
 import shutil
@@ -92,7 +92,7 @@ def spoil(folder: Path, what: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         (lambda f: shutil.rmtree(f), "run: is no folder; allowed is the folder of a finished run"),
         (lambda f: (f / FILE).unlink(), "run: holds no report.npz; allowed is what this version"),
@@ -114,12 +114,12 @@ def spoil(folder: Path, what: str) -> None:
         (lambda f: spoil(f, "finite_element/mesh.msh"), "mesh.msh: cannot be read: "),
     ],
 )
-def test_a_folder_that_holds_no_whole_run_is_wrong_input(copied, capsys, change, told):
+def test_a_folder_that_holds_no_whole_run_is_wrong_input(copied, capsys, change, message):
     change(copied)
     left = (copied / "report.html").read_bytes() if copied.is_dir() else None
     assert main(["report", str(copied)]) == 2
     said = capsys.readouterr().err
-    assert told in said
+    assert message in said
     assert said.count("\n") == 1
     if left is not None:
         assert (copied / "report.html").read_bytes() == left
@@ -137,22 +137,22 @@ def test_one_wrong_folder_of_two_leaves_the_other_as_it_was(copied, tmp_path, ca
     assert not summary.exists()
 
 
-def test_json_tells_what_was_made_and_without_a_browser_why_there_is_no_pdf(
+def test_json_says_what_was_made_and_without_a_browser_why_there_is_no_pdf(
     copied, tmp_path, capsys, monkeypatch, no_pictures
 ):
     monkeypatch.setattr("comparisons.report.page.draw", no_pictures)
     summary = tmp_path / "over" / "summary.html"
     monkeypatch.setenv("PATH", "/nowhere")
     assert main(["report", str(copied), "--summary", str(summary), "--pdf", "--json"]) == 0
-    told = capsys.readouterr()
-    content = json.loads(told.out)
+    printed = capsys.readouterr()
+    content = json.loads(printed.out)
     assert content["summary"] == str(summary)
     [run] = content["runs"]
     assert run["report"] == str(copied / "report.html")
     assert run["pdf"] is None
     assert not (copied / "report.pdf").exists()
-    assert "report.pdf: not printed: neither Chromium nor Chrome is installed" in told.err
-    assert told.err.count("\n") == 1
+    assert "report.pdf: not printed: neither Chromium nor Chrome is installed" in printed.err
+    assert printed.err.count("\n") == 1
     assert run["verdict"] in ("holds", "fails", "inconclusive")
     result = json.loads((copied / "result.json").read_text())
     peak = result["models"]["finite_element"][0]["contact"]["peak_pressure"]

@@ -77,7 +77,7 @@ def test_a_difference_below_its_uncertainty_is_shown_as_nothing(wavy_outcome: Ou
     assert words[4:6] == ["0.00", "0.38"]
 
 
-def test_peaks_that_the_hardness_holds_are_told(wavy_outcome: Outcome):
+def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Outcome):
     assert "capped" not in printed(wavy_outcome)
     hardness = wavy_outcome.problem.scene.hardness
     changed = replace(wavy_outcome.comparisons[0], half_plane=hardness, finite_element=hardness)

@@ -1,4 +1,4 @@
-"""What a reader meets in the pictures: words that stand apart, parts told apart in grey."""
+"""What a reader meets in the pictures: words apart, parts that differ in grey."""
 
 from itertools import combinations
 
@@ -84,7 +84,7 @@ def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome
             assert not box.overlaps(name.get_window_extent())
 
 
-def test_parts_of_the_budget_are_told_apart_in_grey():
+def test_parts_of_the_budget_differ_in_grey():
     assert set(EFFECTS) <= set(PART_LOOKS)
     greys = {
         name: float(np.dot(matplotlib.colors.to_rgb(colour), GREY))

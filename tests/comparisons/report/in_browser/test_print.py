@@ -79,7 +79,7 @@ def fake(folder: Path, script: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("script", "told"),
+    ("script", "message"),
     [
         (None, "neither Chromium nor Chrome is installed; apt-get install"),
         ("exit 7", "ended with 7 and left no PDF"),
@@ -92,7 +92,7 @@ def fake(folder: Path, script: str) -> None:
     ],
     ids=["none", "fails", "hangs", "torn"],
 )
-def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, told):
+def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch, script, message):
     tools = tmp_path / "bin"
     tools.mkdir()
     if script is not None:
@@ -103,7 +103,7 @@ def test_without_a_whole_pdf_there_is_none_and_a_sentence(tmp_path, monkeypatch,
     target.write_bytes(b"before")
     with pytest.raises(NoPdfError) as raised:
         print_pdf(page, target, patience=1.0)
-    assert told in str(raised.value)
+    assert message in str(raised.value)
     assert "\n" not in str(raised.value)
     assert target.read_bytes() == b"before"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["bin", "page.html", "page.pdf"]

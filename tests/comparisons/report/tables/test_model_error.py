@@ -46,7 +46,7 @@ EFFECTS_HERE = {
 
 @pytest.fixture
 def split(wavy_outcome: Outcome) -> Outcome:
-    """A run whose peak pressures were split; those at both frictions alike, and one norm."""
+    """A run whose peak pressures were split; equal at both frictions, and one norm."""
     own = (
         ModelError("peak_pressure", 0.0, EFFECTS_HERE, 0.002, -0.031, 0.0012),
         ModelError("peak_pressure", 0.1, EFFECTS_HERE, 0.002, -0.031, 0.0012),
@@ -66,7 +66,7 @@ def split(wavy_outcome: Outcome) -> Outcome:
     return replace(wavy_outcome, budget=budget, comparisons=rows, result=result)
 
 
-def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
+def test_rows_join_equal_frictions_and_list_what_counts(split: Outcome):
     peak, norm = model_error_rows(split)
     assert (peak.quantity, peak.friction) == ("peak_pressure", "0, 0.1")
     assert (peak.error, peak.uncertainty, peak.tolerance) == ("−3.1 %", "0.12 %", "2 %")
@@ -78,7 +78,7 @@ def test_rows_join_alike_frictions_and_list_what_counts(split: Outcome):
     assert [row.quantity for row in model_error_rows(split, judged=True)] == ["peak_pressure"]
 
 
-def test_what_is_left_out_stands_with_its_size_and_reason(split: Outcome):
+def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Outcome):
     assert not_modelled_line(split) == (
         "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
     )

@@ -13,7 +13,7 @@ NUMBER = r"(−?[\d.]+(?:e−?\d+)?)"
 
 
 def figures(text: str) -> dict[str, float]:
-    """Place and values that a line of the page tells."""
+    """Place and values that a line of the page shows."""
     names = ("x", "z", "half-plane", "finite elements", "difference")
     found = {}
     for name in names:
@@ -28,22 +28,22 @@ def field(outcome: Outcome, model: str, component: int, friction: float) -> np.n
 
 
 def expect(text: str, outcome: Outcome, component: int, friction: float) -> dict[str, float]:
-    """The told values are those of the told point; returns them."""
-    told, a = figures(text), outcome.problem.hertz.half_width
-    row = np.argmin(np.abs(outcome.window.z / a - told["z"]))
-    column = np.argmin(np.abs(outcome.window.x / a - told["x"]))
+    """The values shown are those of the point shown; returns them."""
+    shown, a = figures(text), outcome.problem.hertz.half_width
+    row = np.argmin(np.abs(outcome.window.z / a - shown["z"]))
+    column = np.argmin(np.abs(outcome.window.x / a - shown["x"]))
     one, other = (
         field(outcome, name, component, friction) for name in ("half_plane", "finite_element")
     )
-    assert told["half-plane"] == pytest.approx(one[row, column], abs=1e-4)
-    assert told["finite elements"] == pytest.approx(other[row, column], abs=1e-4)
+    assert shown["half-plane"] == pytest.approx(one[row, column], abs=1e-4)
+    assert shown["finite elements"] == pytest.approx(other[row, column], abs=1e-4)
     largest = np.max(np.abs(one - other))
     between = one[row, column] - other[row, column]
-    assert told["difference"] == pytest.approx(between, rel=0.06, abs=1e-4 * largest)
-    return told
+    assert shown["difference"] == pytest.approx(between, rel=0.06, abs=1e-4 * largest)
+    return shown
 
 
-def test_the_depth_that_is_chosen_is_the_one_that_is_told(tab, wavy_file, wavy_outcome: Outcome):
+def test_the_depth_that_is_chosen_is_the_one_that_is_shown(tab, wavy_file, wavy_outcome: Outcome):
     page = tab(wavy_file, WIDTH)
     depths = set()
     for component in (0, 1):
@@ -102,7 +102,7 @@ def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: 
     page = tab(wavy_file, WIDTH)
     frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width
     count = page.value("document.querySelectorAll('[data-field]').length")
-    assert count == 6  # two components and the ground next to the surface, twice
+    assert count == 6  # two components and next to the surface, twice
     for number in range(count):
         drawn, frame = page.value(
             f"""(() => {{
@@ -120,11 +120,11 @@ def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: 
             )
             text = page.value("document.querySelector('.tip').textContent")
             assert page.value("!document.querySelector('.tip').hidden")
-            told = expect(text, wavy_outcome, drawn["component"], frictions[drawn["friction"]])
+            shown = expect(text, wavy_outcome, drawn["component"], frictions[drawn["friction"]])
             wanted = drawn["x"][0] + 0.3 * np.ptp(drawn["x"])
-            assert told["x"] == pytest.approx(wanted, abs=0.02 * np.ptp(wavy_outcome.window.x) / a)
+            assert shown["x"] == pytest.approx(wanted, abs=0.02 * np.ptp(wavy_outcome.window.x) / a)
             wanted = drawn["z"][0] + 0.5 * np.ptp(drawn["z"])
             rows = np.abs(wavy_outcome.window.z / a - wanted)
-            assert abs(told["z"] - wanted) <= 1.001 * rows.min() + 1e-4
+            assert abs(shown["z"] - wanted) <= 1.001 * rows.min() + 1e-4
         page.point(frame[0] + 2.0, frame[1] + 2.0)
         assert page.value("document.querySelector('.tip').hidden")
