@@ -14,7 +14,7 @@ from analytic.grid import HatGrid
 from analytic.stress_state import von_mises
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.cost import flow_increments
-from comparisons.models.finite_element.stress import DeformedSurface, LoadedBody
+from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.problem import Problem
 from fem.nonlinear.finite_deformation import press_finitely
 from fem.nonlinear.plasticity import ElasticPlastic
@@ -75,10 +75,10 @@ def pressed_finitely(
     depth = np.interp(x, top.x, down)
     nodal, across = found.stress, found.stress_across
     others = {"sy": across, "von_mises": von_mises(nodal.stress, across)}
-    pressed = LoadedBody(
+    loaded = LoadedBody(
         rough.body, solution, depth * weights, lambda friction: nodal, patches, others
     )
-    return DeformedSurface(grid, found.place, depth).carried(problem, pressed)
+    return on_undeformed_grid(problem, grid, found.place, depth, loaded)
 
 
 def pressed_plastically(

@@ -1,4 +1,4 @@
-"""What a pressed body shows: its surface, its stresses on the window and at the mesh's points."""
+"""The loaded rough body: its surface, its stresses on the window and at the mesh's points."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -77,35 +77,29 @@ def pressed_linearly(
     place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
     stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
     solution = replace(solution, pressure=pressure / stretch)
-    pressed = LoadedBody(rough.body, solution, depth * grid.weights, stress, patches)
-    return DeformedSurface(grid, place, depth).carried(problem, pressed)
+    loaded = LoadedBody(rough.body, solution, depth * grid.weights, stress, patches)
+    return on_undeformed_grid(problem, grid, place, depth, loaded)
 
 
-@dataclass(frozen=True)
-class DeformedSurface:
-    """Where the nodes of a grid have come to: `place` (count,) [m] along x, `depth` (count,) [m]
-    by which they have sunk."""
+def on_undeformed_grid(
+    problem: Problem, grid: HatGrid, place: np.ndarray, depth: np.ndarray, loaded: LoadedBody
+) -> LoadedBody:
+    """What was found at displaced nodes, interpolated to the grid's x.
 
-    grid: HatGrid
-    place: np.ndarray
-    depth: np.ndarray
+    place, depth  (count,) [m] where the nodes are along x, and by how much they have sunk
 
-    def carried(self, problem: Problem, pressed: LoadedBody) -> LoadedBody:
-        """What was found at the displaced nodes, interpolated to the grid's x.
-
-        The residuals stay those of the equations that were solved, over the undeformed surface.
-        """
-        x, height = self.grid.x, mean_height(problem, self.grid)
-        pressure, gap, now = (
-            np.interp(x, self.place, value)
-            for value in (pressed.solution.pressure, pressed.solution.gap, height - self.depth)
-        )
-        return replace(
-            pressed,
-            solution=replace(pressed.solution, pressure=pressure, gap=gap),
-            displacement=(height - now) * self.grid.weights,
-            patches=np.interp(pressed.patches, x, self.place),
-        )
+    The residuals stay those of the equations that were solved, over the undeformed surface.
+    """
+    x, height, solution = grid.x, mean_height(problem, grid), loaded.solution
+    pressure, gap, now = (
+        np.interp(x, place, value) for value in (solution.pressure, solution.gap, height - depth)
+    )
+    return replace(
+        loaded,
+        solution=replace(solution, pressure=pressure, gap=gap),
+        displacement=(height - now) * grid.weights,
+        patches=np.interp(loaded.patches, x, place),
+    )
 
 
 def stresses_of(
