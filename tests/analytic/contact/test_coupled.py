@@ -11,6 +11,7 @@ from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import assessed
+from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.operators.tangential import (
@@ -46,36 +47,21 @@ class Reference:
 CASES = [pytest.param(row, id=f"beta {row['beta']} mu {row['mu']}") for row in SLIDING]
 
 
-def exact_pressure(roller, friction_dundurs: float):
-    """Edges (2,) [m] and pressure(x) [Pa] of the header's formula, for any mu beta."""
-    shift = np.arctan(friction_dundurs) / np.pi
-    half = roller.hertz.half_width / np.sqrt(1.0 - 4.0 * shift**2)
-    leading, trailing = 0.5 + shift, 0.5 - shift
-    b, c = 2.0 * leading * half, 2.0 * trailing * half
-
-    def pressure(x):
-        active = np.maximum(c - x, 0.0) ** leading * np.maximum(x + b, 0.0) ** trailing
-        return roller.modulus / (2.0 * roller.radius) * np.sin(np.pi * leading) * active
-
-    return np.array([-b, c]), pressure
-
-
 def sliding_errors(roller, friction_dundurs: float, elements: int):
     """L2 and peak error and largest edge error [pitches], over offsets of the apex off a node:
     the error depends on where the edges fall between two nodes."""
-    edges, pressure = exact_pressure(roller, friction_dundurs)
-    highest = pressure(np.linspace(*edges, 20001)).max()
+    sliding = sliding_from_load(roller.load, roller.radius, roller.modulus, friction_dundurs, 1.0)
     square, peak, edge = [], [], []
     for offset in np.arange(8) / 8:
         pitch = 3.6 * roller.hertz.half_width / elements
         grid = HatGrid.within(-2.0 * roller.hertz.half_width, 1.6 * roller.hertz.half_width, pitch)
         shift = offset * pitch
         found = roller.sliding(grid, lambda x, s=shift: roller.smooth()(x - s), friction_dundurs)
-        exact = pressure(grid.x - shift)
+        exact = sliding.pressure(grid.x - shift)
         square.append(np.sum((found.pressure - exact) ** 2) / np.sum(exact**2))
-        peak.append(abs(found.pressure.max() / highest - 1.0))
+        peak.append(abs(found.pressure.max() / sliding.peak_pressure - 1.0))
         patch = contact_patches(grid.x, found.pressure, found.gap)[0] - shift
-        edge.append(np.abs(patch - edges).max() / pitch)
+        edge.append(np.abs(patch - sliding.edges).max() / pitch)
     return np.sqrt(np.mean(square)), np.mean(peak), max(edge)
 
 
