@@ -14,8 +14,7 @@ from comparisons.scenes.schema.fields import field_type
 from comparisons.scenes.schema.profile import VARIETIES
 from comparisons.scenes.schema.scene import SECTIONS, SceneFile
 from comparisons.studies.init.first_scene import write_first_scene
-from comparisons.studies.init.scene_text import SECTIONS as DESCRIBED
-from comparisons.studies.init.scene_text import scene_text
+from comparisons.studies.init.scene_text import FIELDS, scene_text
 
 SHIPPED = sorted(PROFILES.glob("*.csv"))
 X = 0.5 * np.arange(801)  # um
@@ -166,16 +165,19 @@ def test_a_scene_is_not_overwritten_but_by_force(folder, capsys):
     assert load_scene("trace.toml").profile_info.samples == 801
 
 
+DESCRIBED = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
+
+
 def test_every_field_of_a_measured_scene_is_described_and_its_example_allowed():
     of_a_file = VARIETIES["file"].fields()
     for section, table in SECTIONS.items():
         names = set(table.model_fields) if section != "profile" else of_a_file
-        fields = DESCRIBED[section][1]
-        assert set(fields) == names
+        fields = dict(DESCRIBED[section])
+        assert fields.pop("section") and set(fields) == names
         for name, (_, example) in fields.items():
             value = tomllib.loads(f"value = {example}")["value"]
             field_type(table, name).read(value)
-    assert set(SceneFile.model_fields) == {"title", *DESCRIBED}
+    assert set(SceneFile.model_fields) == set(DESCRIBED)
 
 
 def test_unused_sections_come_alive_when_their_signs_are_taken_away():
@@ -187,7 +189,7 @@ def test_unused_sections_come_alive_when_their_signs_are_taken_away():
     text = scene_text("A title", values, {})
     lines = [line for line in text.splitlines() if not line.startswith("# ")]
     tables = tomllib.loads("\n".join(line.removeprefix("#") for line in lines))
-    assert {name: set(t) for name, t in tables.items() if name != "title"} == {
-        name: set(fields) for name, (_, fields) in DESCRIBED.items()
-    }
+    assert tables.keys() == DESCRIBED.keys()
+    sections = tables.keys() - {"title"}
+    assert all(tables[name].keys() == DESCRIBED[name].keys() - {"section"} for name in sections)
     assert max(map(len, text.splitlines())) <= 100
