@@ -36,7 +36,7 @@ friction; the block is fixed all round.
 
 import argparse
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import Literal, NamedTuple
 
@@ -59,7 +59,7 @@ from fem.contact.terms import Contact, LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import FiniteDeformation, press, press_finitely
 from fem.stress.maximum import maximum
 from fem.stress.stress import NodalStress, nodal_stress
-from meshes.block import BlockMesh, BlockSpec
+from meshes.block import BlockSpec
 from meshes.build import build_block
 from meshes.real_shape import roughen
 
@@ -69,6 +69,7 @@ SEEDS = (1, 2, 3)
 ROUGH_CURVATURE = 0.01  # a/R of the rough cases: its own effect is small
 MATTERS = 0.01  # of the peak pressure
 MATERIAL = Material(1.0, 0.3)
+MODULUS = MATERIAL.plane_strain_modulus
 BLOCK = 400.0
 GROWTH = 0.2  # of the elements
 HURST = 0.8
@@ -98,9 +99,8 @@ class RollerCase:
 
     @property
     def load(self) -> float:
-        modulus = MATERIAL.plane_strain_modulus
-        peak = 0.5 * modulus * self.curvature
-        return hertz_from_peak_pressure(peak, self.radius, modulus).load_per_length
+        peak = 0.5 * MODULUS * self.curvature
+        return hertz_from_peak_pressure(peak, self.radius, MODULUS).load_per_length
 
     @cached_property
     def reach(self) -> float:
@@ -129,7 +129,7 @@ class RollerCase:
         return grid.hat_integrals(roller_gap(self.radius, self.roughness, shape), knots)
 
     def half_plane_pressure(self, grid: HatGrid) -> np.ndarray:
-        model = HalfPlane(grid.count, grid.pitch, MATERIAL.plane_strain_modulus)
+        model = HalfPlane(grid.count, grid.pitch, MODULUS)
         gap, load = self.weighted_gap(grid, "parabola"), Constraints(load=self.load)
         return solve_contact(model, gap, grid.weights, load).pressure
 
@@ -189,19 +189,27 @@ def model_series(case: RollerCase) -> list[ModelFigures]:
     """All models in order, on the same hats and, flat or rough, the same triangles."""
     refined = np.array([[-case.reach, case.reach]])
     mesh = build_block(BlockSpec(0.5 * BLOCK, BLOCK, refined, 1.0 / case.edges, GROWTH))
-    flat = _body(mesh)
-    rough = _body(roughen(mesh, case.height)) if case.slope else flat
+    body_of = partial(elastic_body, material=MATERIAL, support=Support("bonded", "fixed"))
+    flat = body_of(mesh)
+    rough = body_of(roughen(mesh, case.height)) if case.slope else flat
     parabola, true = (case.weighted_gap(case.grid, shape) for shape in ("parabola", "circle"))
     start = case.half_plane_pressure(case.grid)
     roller = circle(case.radius)
 
-    def linear(body: ElasticBody, contact: Contact, gap: np.ndarray | None) -> FiniteDeformation:
+    def linear(
+        body: ElasticBody, contact: Contact, gap: np.ndarray | None = None
+    ) -> FiniteDeformation:
         bodies = [(LinearResponse(body), contact)]
         solution = press(bodies, body, case.hats, start, case.load, gap=gap)
         return FiniteDeformation(body, case.hats, roller, 0.0, solution)
 
-    undeformed = _undeformed(flat, case)
-    current = linear(rough, CurrentContact(rough, case.hats, roller), None)
+    def undeformed(body: ElasticBody, gap: np.ndarray) -> ModelFigures:
+        contact = LinearContact(FiniteElementCompliance(body, case.hats))
+        found = linear(body, contact, gap)
+        stress = nodal_stress(body, found.displacement, case.hats, found.pressure)
+        return _figures(found, stress, case.hats[1:-1], found.pressure)
+
+    current = linear(rough, CurrentContact(rough, case.hats, roller))
 
     def along_roller(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         return roller(x)[1], np.ones_like(x)
@@ -211,27 +219,12 @@ def model_series(case: RollerCase) -> list[ModelFigures]:
     )
     finite = press_finitely(rough, case.hats, roller, start, load=case.load)
     return [
-        _linear_figures(linear(flat, undeformed, parabola)),
-        _linear_figures(linear(flat, undeformed, true)),
-        _linear_figures(linear(rough, _undeformed(rough, case), true)),
+        undeformed(flat, parabola),
+        undeformed(flat, true),
+        undeformed(rough, true),
         _figures(current, current_stress, current.place, current.cauchy_pressure),
         _figures(finite, finite.stress, finite.place, finite.cauchy_pressure),
     ]
-
-
-def _body(mesh: BlockMesh) -> ElasticBody:
-    return elastic_body(mesh, MATERIAL, Support("bonded", "fixed"))
-
-
-def _undeformed(body: ElasticBody, case: RollerCase) -> LinearContact:
-    forces = FiniteElementCompliance(body, case.hats)
-    return LinearContact(forces)
-
-
-def _linear_figures(found: FiniteDeformation) -> ModelFigures:
-    """Pressure and stresses at the undeformed place."""
-    stress = nodal_stress(found.body, found.displacement, found.hats, found.pressure)
-    return _figures(found, stress, found.hats[1:-1], found.pressure)
 
 
 def _figures(

@@ -2,20 +2,15 @@
 
     python -m comparisons.benchmarks.stress_field
 
-A field on a grid by convolution (`analytic.stress.field`) beside two direct sums, which do not use
-that points lie on a grid:
+A field on a grid by convolution (`analytic.stress.field`) beside a direct sum, which does not use
+that points lie on a grid: per point and hat the closed form at its three nodes, 3 arctan2, 3 log.
 
-    hats    per point and element the closed form at its three nodes: 3 arctan2, 3 log
-    strips  Bailey and Sayles 1991, eq. (1) and (2), as published: 2 arctan2, 2 hypot, 1 log, sines
-            and cosines of both angles; of other elements, so its result differs
-
-Exit status 0 only if the field takes at most 1/300 of the time of the sum over hats, and differs by
-at most 1e-12 of the largest stress from a sum that keeps each element's digits. The error of the
-sum over hats itself is printed beside it.
+Exit status 0 only if the field takes at most 1/300 of the time of the direct sum, and differs by at
+most 1e-12 of the largest stress from a sum that keeps each element's digits. The error of the
+direct sum itself is printed beside it.
 """
 
 import argparse
-from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
@@ -29,7 +24,7 @@ from analytic.stress_state import StressState
 from comparisons.benchmarks import harness
 
 FRICTION = 0.1
-WANTED = 300.0  # times faster than the sum over hats
+WANTED = 300.0  # times faster than the direct sum
 CLOSE = 1e-12  # of the largest stress, between the field and the sum that keeps all digits
 PAIRS = 2**15  # of point and element at a time, which stay in the cache
 CHECKED_POINTS = 500  # of the field, whose stresses are compared
@@ -37,7 +32,7 @@ CHECKED_POINTS = 500  # of the field, whose stresses are compared
 
 class StressTime(NamedTuple):
     """One way, its median processor time [s], and its largest difference over the largest stress
-    from a sum of the same elements that keeps every digit; None for other elements."""
+    from a sum that keeps every digit; None where it is not measured."""
 
     name: str
     seconds: float
@@ -52,23 +47,18 @@ def rough_line(count: int) -> LoadedLine:
     return LoadedLine(nodes, load, (nodes[-1] - nodes[0]) / (count - 1), "hat")
 
 
-def direct(
-    terms: Callable[[np.ndarray, np.ndarray, LoadedLine], np.ndarray],
-    line: LoadedLine,
-    x: np.ndarray,
-    z: np.ndarray,
-) -> np.ndarray:
-    """sx, sz, txz (3, points) under p and q = FRICTION p by `hats` or `strips`."""
+def direct(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (3, points) under p and q = FRICTION p."""
     parts = np.empty((4, x.size))
     step = max(1, PAIRS // len(line.nodes))
     with np.errstate(divide="ignore", invalid="ignore"):
         for start in range(0, x.size, step):
             here = slice(start, start + step)
-            parts[:, here] = terms(x[here, None], z[here, None], line)
+            parts[:, here] = _sums(x[here, None], z[here, None], line)
     return _stacked(_with_friction(parts))
 
 
-def hats(x: np.ndarray, z: np.ndarray, line: LoadedLine) -> np.ndarray:
+def _sums(x: np.ndarray, z: np.ndarray, line: LoadedLine) -> np.ndarray:
     """(4, points): sx, sz, txz under p and sx under q = p; x, z (points, 1)."""
     offsets = [x - (line.nodes + shift) for shift in (-line.pitch, 0.0, line.pitch)]
     angles = [np.arctan2(z, y) for y in offsets]
@@ -90,18 +80,6 @@ def _bent(at: list[np.ndarray]) -> np.ndarray:
     return at[0] - 2.0 * at[1] + at[2]
 
 
-def strips(x: np.ndarray, z: np.ndarray, line: LoadedLine) -> np.ndarray:
-    """As `hats`, for uniform strips."""
-    right, left = (x - (line.nodes + shift) for shift in (0.5 * line.pitch, -0.5 * line.pitch))
-    t1, t2 = np.arctan2(z, right), np.arctan2(z, left)
-    turn = 2.0 * (t1 - t2)
-    sines = np.sin(2.0 * t1) - np.sin(2.0 * t2)
-    cosines = np.cos(2.0 * t1) - np.cos(2.0 * t2)
-    log = 4.0 * np.log(np.hypot(right, z) / np.hypot(left, z))
-    sums = [kernel @ line.load for kernel in (-(turn + sines), -(turn - sines), cosines)]
-    return np.array([*sums, (log - cosines) @ line.load]) / (2.0 * np.pi)
-
-
 def field_times(elements: int, levels: int, repeats: int) -> list[StressTime]:
     """A field on the `elements` hats' own columns and `levels` down to a half-width."""
     line = rough_line(elements)
@@ -111,11 +89,9 @@ def field_times(elements: int, levels: int, repeats: int) -> list[StressTime]:
     first, _ = harness.timed(field, 1)
     seconds, found = harness.timed(field, 5 * repeats)
     x, z = (a.ravel() for a in np.meshgrid(line.nodes, depths))
-    direct_hats, of_hats = harness.timed(partial(direct, hats, line, x, z), repeats)
-    direct_strips, _ = harness.timed(partial(direct, strips, line, x, z), repeats)
+    summing, summed = harness.timed(partial(direct, line, x, z), repeats)
     return [
-        StressTime("direct sum, hats", direct_hats, _difference(line, x, z, of_hats)),
-        StressTime("direct sum, strips", direct_strips),
+        StressTime("direct sum", summing, _difference(line, x, z, summed)),
         StressTime("convolution", seconds, _difference(line, x, z, _stacked(found.stress))),
         StressTime("convolution, first call of the process", first),
     ]
@@ -124,8 +100,7 @@ def field_times(elements: int, levels: int, repeats: int) -> list[StressTime]:
 def _difference(line: LoadedLine, x: np.ndarray, z: np.ndarray, found: np.ndarray) -> float:
     """To the sum over all elements in the form that keeps each one's digits, on some points."""
     some = np.random.default_rng(9).permutation(len(x))[:CHECKED_POINTS]
-    parts = direct_stress(line, x[some], z[some])
-    expected = _stacked(_with_friction(parts))
+    expected = _stacked(_with_friction(direct_stress(line, x[some], z[some])))
     return float(np.abs(found[:, some] - expected).max() / np.abs(expected).max())
 
 
@@ -140,7 +115,7 @@ def _stacked(stress: StressState) -> np.ndarray:
 def demands(rows: list[StressTime]) -> list[harness.Demand]:
     """Demands on the rows of `field_times`."""
     by_name = {row.name: row for row in rows}
-    ours, sums = by_name["convolution"], by_name["direct sum, hats"]
+    ours, sums = by_name["convolution"], by_name["direct sum"]
     ratio, off = sums.seconds / ours.seconds, ours.difference
     faster = f"field: {ratio:.3g} times faster than the {sums.name}, wanted {WANTED:g}"
     exact = f"field: off by {off:.1e} of the largest stress, allowed {CLOSE:g}"

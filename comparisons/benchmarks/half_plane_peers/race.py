@@ -16,7 +16,6 @@ slower, as many times faster as WANTED says, and its error no larger. Absent pee
 import argparse
 import statistics
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -48,14 +47,14 @@ class LineResult:
 
     seconds    median processor time; where `over`, the limit that it exceeded
     over       stopped by the limit before it met the yardstick
-    tolerance  index of the code's own tolerance
+    tolerance  the code's own
     steps      taken, where the code reports them
     """
 
     code: str
     seconds: float
     over: bool
-    tolerance: int
+    tolerance: float
     steps: int | None
     residuals: ContactResiduals
 
@@ -77,10 +76,8 @@ def main(arguments: list[str] | None = None) -> int:
     cases |= {f"self-affine, seed {seed}": partial(rough, seed=seed) for seed in options.seeds}
     found, rows = [], []
     for title, case_of in cases.items():
-        first: dict[str, int] = {}
         for count in options.sizes:
-            results = race(case_of(count), ours + peers, options.limit, options.repeats, first)
-            first = {result.code: result.tolerance for result in results}
+            results = race(case_of(count), ours + peers, options.limit, options.repeats)
             rows += [(title, str(count), *_cells(result, results[0])) for result in results]
             found += demands(f"{title}, n = {count}", count, results[0], results[len(ours) :])
     print_table("Processor time; ratio: time over that of the first row", COLUMNS, rows)
@@ -98,34 +95,21 @@ def _cells(result: LineResult, ours: LineResult) -> list[str]:
     ]
 
 
-def race(
-    case: LineCase, codes: list[LineCode], limit: float, repeats: int, first: dict[str, int]
-) -> list[LineResult]:
+def race(case: LineCase, codes: list[LineCode], limit: float, repeats: int) -> list[LineResult]:
     """One result a code, in their order.
 
     limit    seconds after which a code is stopped
     repeats  most timed runs
-    first    by code, the index of the tolerance to try first; others start with the loosest
     """
     most = {code.name: _most_steps(code, case, limit) for code in codes}
-    trials = []
-    for code in codes:
-
-        def trial(index: int, code: LineCode = code) -> LineResult:
-            answer, seconds = _timed(code, case, code.tolerances[index], most[code.name])
-            residuals = measure(case, answer.pressure, code.element)
-            over = residuals.worst > TOLERANCE and seconds > 0.8 * limit
-            return LineResult(code.name, seconds, over, index, answer.steps, residuals)
-
-        trials.append(_loosest(trial, first.get(code.name, 0), len(code.tolerances)))
+    trials = [_loosest(code, case, most[code.name], limit) for code in codes]
     times: list[list[float]] = [[] for _ in codes]
     for turn in range(repeats):
         for code, trial, spent in zip(codes, trials, times, strict=True):
             wanted = max(FEWEST, int(BUDGET / max(trial.seconds, 1e-6)))
             if trial.meets and trial.seconds <= SLOW and turn < wanted:
                 calls = 1 + int(BURST / max(trial.seconds, 1e-6))
-                tolerance = code.tolerances[trial.tolerance]
-                spent.append(_timed(code, case, tolerance, most[code.name], calls)[1])
+                spent.append(_timed(code, case, trial.tolerance, most[code.name], calls)[1])
     return [
         replace(trial, seconds=limit if trial.over else statistics.median(spent or [trial.seconds]))
         for trial, spent in zip(trials, times, strict=True)
@@ -152,21 +136,17 @@ def _most_steps(code: LineCode, case: LineCase, limit: float) -> int:
     return max(more, int(limit / each))
 
 
-def _loosest(trial: Callable[[int], LineResult], first: int, count: int) -> LineResult:
-    """The trial with the loosest of `count` tolerances that meets the yardstick; where none does,
-    the last trial."""
-    found = trial(first)
-    if found.meets:
-        for index in range(first - 1, -1, -1):
-            looser = trial(index)
-            if not looser.meets:
-                break
-            found = looser
-        return found
-    for index in range(first + 1, count):
-        before, found = found, trial(index)
-        if found.meets or found.seconds >= 0.999 * before.seconds > 1.0:
+def _loosest(code: LineCode, case: LineCase, most: int, limit: float) -> LineResult:
+    """With the loosest tolerance that meets the yardstick, or the last one where none does."""
+    before = 0.0
+    for tolerance in code.tolerances:
+        answer, seconds = _timed(code, case, tolerance, most)
+        residuals = measure(case, answer.pressure, code.element)
+        over = residuals.worst > TOLERANCE and seconds > 0.8 * limit
+        found = LineResult(code.name, seconds, over, tolerance, answer.steps, residuals)
+        if found.meets or seconds >= 0.999 * before > 1.0:
             break  # or stopped by the limit, as with all tighter ones
+        before = seconds
     return found
 
 

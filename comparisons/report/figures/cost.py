@@ -4,29 +4,21 @@ import numpy as np
 
 from comparisons.common.numbers import with_unit
 from comparisons.common.quantities import LABELS
-from comparisons.report.figures.style import (
-    COLUMN,
-    LINES,
-    Picture,
-    data_uri,
-    figure,
-    horizontal_bars,
-    stacked,
-)
+from comparisons.report.figures import style
 from comparisons.results.outcome import Outcome
 
 HATCHES = {"half_plane": "", "finite_element": "////"}
 SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 
-def cost_picture(outcome: Outcome) -> Picture:
+def cost_picture(outcome: Outcome) -> style.Picture:
     """One bar a stage and model, all levels together; on top the sums."""
     rows: list[tuple[str, str, float]] = []
     for name, run in outcome.runs.items():
         rows.append((name, f"{LABELS[name]}, in all", sum(run.seconds.values())))
         rows += [(name, stage, seconds) for stage, seconds in run.seconds.items()]
-    drawn = figure(COLUMN, 0.24 * len(rows) + 0.7)
-    [axes] = stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
+    drawn = style.figure(style.COLUMN, 0.24 * len(rows) + 0.7)
+    [axes] = style.stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
     place = -np.arange(len(rows), dtype=float)
     shown = np.maximum([seconds for _, _, seconds in rows], SHORTEST)
     first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
@@ -37,8 +29,8 @@ def cost_picture(outcome: Outcome) -> Picture:
             width - first,
             left=first,
             height=0.72,
-            facecolor=LINES[name]["color"] if total else "white",
-            edgecolor=LINES[name]["color"],
+            facecolor=style.LINES[name]["color"] if total else "white",
+            edgecolor=style.LINES[name]["color"],
             hatch=HATCHES[name],
             linewidth=0.9,
         )
@@ -51,14 +43,14 @@ def cost_picture(outcome: Outcome) -> Picture:
     ticks = 10.0 ** np.arange(np.log10(first).round(), np.log10(last).round() + 1.0)
     axes.set_xticks(ticks, [with_unit(tick, "s", 1) for tick in ticks])
     axes.minorticks_off()
-    horizontal_bars(axes, place, [label for _, label, _ in rows])
+    style.horizontal_bars(axes, place, [label for _, label, _ in rows])
     axes.set_xlabel("time, logarithmic")
     totals = "; ".join(
         f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
         for name, run in outcome.runs.items()
     )
-    return Picture(
-        source=data_uri(drawn),
+    return style.Picture(
+        source=style.data_uri(drawn),
         alternative=f"Run time by stage. In all: {totals}.",
         caption="Run time by stage, all levels together; the scale is logarithmic. "
         f"In all: {totals}.",

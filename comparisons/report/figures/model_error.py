@@ -8,14 +8,7 @@ import numpy as np
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.common.numbers import given_percent
 from comparisons.common.quantities import QUANTITIES, label
-from comparisons.report.figures.style import (
-    WIDE,
-    Picture,
-    data_uri,
-    figure,
-    horizontal_bars,
-    stacked,
-)
+from comparisons.report.figures import style
 from comparisons.report.tables.text import error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
@@ -70,7 +63,7 @@ class ErrorBar:
         return QUANTITIES[self.quantity].of_pair
 
 
-def model_error_picture(outcome: Outcome) -> Picture | None:
+def model_error_picture(outcome: Outcome) -> style.Picture | None:
     """Judged quantities, other figures and norms, each on its own scale; None with one model."""
     if outcome.budget is None:
         return None
@@ -80,8 +73,8 @@ def model_error_picture(outcome: Outcome) -> Picture | None:
     norms = [bar for bar in bars if not bar.tolerance and bar.is_norm]
     panels = [panel for panel in (judged, figures, norms) if panel]
     heights = [(FOOT if place else HEAD, BAR * len(panel)) for place, panel in enumerate(panels)]
-    drawn = figure(WIDE, sum(map(sum, heights)) + FOOT)
-    for axes, panel in zip(stacked(drawn, heights, LEFT, RIGHT), panels, strict=True):
+    drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
+    for axes, panel in zip(style.stacked(drawn, heights, LEFT, RIGHT), panels, strict=True):
         _draw(axes, panel)
     present = [name for name in PART_LOOKS if any(bar.parts.get(name) for bar in bars)]
     _legend(drawn, present, bool(judged))
@@ -90,8 +83,8 @@ def model_error_picture(outcome: Outcome) -> Picture | None:
         f"tolerance {given_percent(bar.tolerance)}"
         for bar in judged
     )
-    return Picture(
-        source=data_uri(drawn),
+    return style.Picture(
+        source=style.data_uri(drawn),
         alternative=f"Stacked bars of the half-plane's errors. Model error of {said}.",
         caption="Errors of the half-plane by their source, in per cent of the finite elements' "
         "figure: sizes without their signs, side by side. Grey: numerical, or from the sampling of "
@@ -184,7 +177,7 @@ def _draw(axes: "Axes", bars: list[ErrorBar]) -> None:
             axes.plot([100.0 * bar.tolerance] * 2, [y - 0.46, y + 0.46], color=INK, lw=2.0)
             ends.append(100.0 * bar.tolerance)
     axes.set_xlim(0.0, EMPTY * max(ends))
-    horizontal_bars(axes, place, [bar.name for bar in bars])
+    style.horizontal_bars(axes, place, [bar.name for bar in bars])
     axes.set_xlabel(f"per cent of the finite elements' {'norm' if bars[0].is_norm else 'figure'}")
 
 

@@ -12,19 +12,7 @@ import numpy as np
 from comparisons.common.numbers import Scale, percent, scale_of, significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level
-from comparisons.report.figures.style import (
-    COLUMN,
-    DIFFERENCE,
-    LINES,
-    REFERENCE,
-    WIDE,
-    Picture,
-    data_uri,
-    figure,
-    near,
-    stacked,
-    symmetric,
-)
+from comparisons.report.figures import style
 from comparisons.report.figures.surfaces import draw_surfaces
 from comparisons.report.tables.problem import hertz_text
 from comparisons.results.outcome import Outcome
@@ -51,7 +39,7 @@ def peak_position(level: Level) -> float:
     return float(level.grid.x[level.solution.pressure.argmax()])
 
 
-def pressure_picture(outcome: Outcome) -> Picture:
+def pressure_picture(outcome: Outcome) -> style.Picture:
     """The whole contact."""
     x, hertz = reference_level(outcome).grid.x, outcome.problem.hertz
     beyond = 1.05 * hertz.half_width
@@ -62,9 +50,9 @@ def pressure_picture(outcome: Outcome) -> Picture:
         f"{with_unit(peak_position(run.finest), 'm')}"
         for name, run in outcome.runs.items()
     )
-    return Picture(
-        source=data_uri(_drawn(outcome, across, WIDE, 5.2)),
-        narrow=data_uri(_drawn(outcome, across, COLUMN, 5.2)),
+    return style.Picture(
+        source=style.data_uri(_drawn(outcome, across, style.WIDE, 5.2)),
+        narrow=style.data_uri(_drawn(outcome, across, style.COLUMN, 5.2)),
         wide=True,
         alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         caption=(
@@ -75,7 +63,7 @@ def pressure_picture(outcome: Outcome) -> Picture:
     )
 
 
-def close_up_picture(outcome: Outcome) -> Picture:
+def close_up_picture(outcome: Outcome) -> style.Picture:
     """Around the highest pressure; of a smooth body, around the contact's edge."""
     level = reference_level(outcome)
     pitch = level.grid.pitch
@@ -88,8 +76,8 @@ def close_up_picture(outcome: Outcome) -> Picture:
         reach = np.clip(0.75 * np.ptp(level.patches[holding]), CLOSE_HATS * pitch, most)
     at = f"x = {with_unit(float(centre), 'm')}"
     across = (centre - reach, centre + reach)
-    return Picture(
-        source=data_uri(_drawn(outcome, across, COLUMN, 5.6, nodes=True)),
+    return style.Picture(
+        source=style.data_uri(_drawn(outcome, across, style.COLUMN, 5.6, nodes=True)),
         alternative=f"Pressures of the models around {place}, {at}.",
         caption=(
             f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
@@ -113,9 +101,9 @@ def _drawn(
     comparing = len(outcome.runs) > 1
     shares = (0.50, 0.13, 0.37) if comparing else (0.58, 0.42)
     room = height - FOOT - TOP - BETWEEN * (len(shares) - 1)
-    drawn = figure(width, height)
+    drawn = style.figure(width, height)
     above = (TOP, *[BETWEEN] * (len(shares) - 1))
-    panels = stacked(
+    panels = style.stacked(
         drawn, [(a, share * room) for a, share in zip(above, shares, strict=True)], LEFT, RIGHT
     )
     unit = scale_of(np.abs(across), "m")
@@ -150,11 +138,7 @@ def _second_axis(axes: "Axes", half_width: float) -> None:
 
 
 def draw_pressures(
-    axes: "Axes",
-    outcome: Outcome,
-    across: tuple[float, float],
-    unit: Scale,
-    nodes: bool = False,
+    axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale, nodes: bool = False
 ) -> None:
     """Every model's pressures and Hertz's over `across` [m], x in `unit`, with the load in words.
 
@@ -163,7 +147,7 @@ def draw_pressures(
     hertz = outcome.problem.hertz
     for name, run in outcome.runs.items():
         x, pressure = _closed(run.finest)
-        shown = near(x, across, run.finest.grid.pitch)
+        shown = style.near(x, across, run.finest.grid.pitch)
         axes.plot(
             x[shown] / unit.factor,
             pressure[shown] / hertz.peak_pressure,
@@ -171,12 +155,12 @@ def draw_pressures(
             marker={"half_plane": "o", "finite_element": "x"}[name] if nodes else None,
             markersize=3.2,
             markerfacecolor="none",
-            **LINES[name],
+            **style.LINES[name],
         )
     ends = np.clip([-hertz.half_width, hertz.half_width], *across)
     x = np.union1d(np.linspace(*across, 600), ends)
     smooth = hertz.pressure(x) / hertz.peak_pressure
-    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **REFERENCE)
+    axes.plot(x / unit.factor, smooth, label="Hertz, smooth", **style.REFERENCE)
     axes.set_ylabel("p/p₀")
     axes.text(0.008, 0.97, hertz_text(outcome.problem), transform=axes.transAxes, va="top")
 
@@ -188,7 +172,7 @@ def _cap_and_legend(axes: "Axes", outcome: Outcome) -> None:
     if hardness is not None and hardness < FARTHEST_CAP * peak:
         look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
         axes.axhline(hardness / p0, label="hardness", **look)
-    narrow = axes.figure.get_figwidth() < 0.75 * WIDE
+    narrow = axes.figure.get_figwidth() < 0.75 * style.WIDE
     axes.set_ylim(0.0, (1.34 if narrow else 1.17) * axes.dataLim.y1)
     axes.legend(
         loc="upper left" if narrow else "upper right",
@@ -218,7 +202,7 @@ def draw_difference(
     x, reference = _closed(other)
     difference = np.interp(x, *_closed(one)) - reference
     difference /= outcome.problem.hertz.peak_pressure
-    shown = near(x, across, other.grid.pitch)
-    axes.plot(x[shown] / unit.factor, difference[shown], **DIFFERENCE)
-    symmetric(axes, difference[shown])
+    shown = style.near(x, across, other.grid.pitch)
+    axes.plot(x[shown] / unit.factor, difference[shown], **style.DIFFERENCE)
+    style.symmetric(axes, difference[shown])
     axes.set_ylabel("Δp/p₀")

@@ -5,17 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import given, plain, scale_of, with_unit
-from comparisons.report.figures.style import (
-    BODY,
-    COLUMN,
-    OUTLINE,
-    ROLLER,
-    Picture,
-    data_uri,
-    figure,
-    fill_bodies,
-    stacked,
-)
+from comparisons.report.figures import style
 from comparisons.report.tables.problem import coating_text, elastic_text, load_text, yielding_text
 from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
@@ -32,20 +22,20 @@ ARROW = {"arrowstyle": "-|>,head_width=0.28,head_length=0.55", "shrinkA": 0.0, "
 FORCE = "#B3001B"
 LINE = 0.11  # of the view: height of a line of words
 POINTS = 800
-EDGE = {"edgecolor": OUTLINE["color"], "linewidth": OUTLINE["linewidth"]}
+EDGE = {"edgecolor": style.OUTLINE["color"], "linewidth": style.OUTLINE["linewidth"]}
 
 
-def problem_picture(outcome: Outcome) -> Picture:
+def problem_picture(outcome: Outcome) -> style.Picture:
     """Roller, body, load and sliding; above to scale, below with the heights stretched."""
     scene = outcome.problem.scene
-    drawn = figure(COLUMN, 5.9)
-    to_scale, close_up = stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
+    drawn = style.figure(style.COLUMN, 5.9)
+    to_scale, close_up = style.stacked(drawn, [(0.18, 2.92), (0.73, 1.57)], 0.7, 0.14)
     _to_scale(to_scale, outcome)
     stretch = _close_up(close_up, outcome)
     body = "the rough body" if scene.profile is not None else "the smooth body"
     sliding = f", sliding with friction {listed(scene.friction)}" if any(scene.friction) else ""
-    return Picture(
-        source=data_uri(drawn),
+    return style.Picture(
+        source=style.data_uri(drawn),
         alternative=(
             f"A roller of radius {given(scene.roller_radius, 'm')} pressed on {body} by "
             f"{load_text(outcome.problem)}"
@@ -73,16 +63,16 @@ def _to_scale(axes: "Axes", outcome: Outcome) -> None:
     depth = np.inf if scene.thickness is None else scene.thickness / unit.factor
     below = min(depth, 0.42 * view)
     height = 0.73 * view  # the picture's, above the body
-    for look in (ROLLER, {"fill": False, **EDGE}):
+    for look in (style.ROLLER, {"fill": False, **EDGE}):
         axes.add_patch(Circle((0.0, radius / unit.factor), radius / unit.factor, **look))
     across = np.linspace(-half, half, 200)
     torn = depth > below  # the drawing ends before the body does
     bottom = 0.02 * view * np.sin(24.0 * across / view) if torn else 0.0
-    axes.fill_between(across, bottom - below, 0.0, **BODY)
-    axes.plot([-half, half], [0.0, 0.0], **OUTLINE)
+    axes.fill_between(across, bottom - below, 0.0, **style.BODY)
+    axes.plot([-half, half], [0.0, 0.0], **style.OUTLINE)
     for side in (-half, half):
         if scene.width is not None and half < view:
-            axes.plot([side, side], [-below, 0.0], **OUTLINE)
+            axes.plot([side, side], [-below, 0.0], **style.OUTLINE)
     if not torn:
         _base(axes, half, below, scene.base == "frictionless")
     _arrow(axes, (0.0, 0.62 * view), (0.0, 0.06 * view))
@@ -121,7 +111,7 @@ def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
     gap = 0.06 * below if frictionless else 0.0
     if frictionless:
         places = np.linspace(-half, half, 25)[1:-1]
-        look = {"linestyle": "", "marker": "o", "markersize": 2.2, "color": OUTLINE["color"]}
+        look = {"linestyle": "", "marker": "o", "markersize": 2.2, "color": style.OUTLINE["color"]}
         axes.plot(places, np.full(len(places), -below - 0.5 * gap), **look)
     hatched = {"facecolor": "none", "hatch": "/////", **EDGE}
     axes.fill_between([-half, half], -below - gap - thick, -below - gap, **hatched)
@@ -147,19 +137,17 @@ def _close_up(axes: "Axes", outcome: Outcome) -> float:
     bottom, top = body.min() - 0.35 * (roller.max() - body.min()), roller.max()
     position = x / along.factor
     ends = bottom / up.factor, top / up.factor
-    fill_bodies(axes, position, body / up.factor, roller / up.factor, *ends)
-    axes.plot(position, roller / up.factor, **OUTLINE)
-    axes.plot(position, body / up.factor, **{**OUTLINE, "linewidth": 0.7})
+    style.fill_bodies(axes, position, body / up.factor, roller / up.factor, *ends)
+    axes.plot(position, roller / up.factor, **style.OUTLINE)
+    axes.plot(position, body / up.factor, **{**style.OUTLINE, "linewidth": 0.7})
     at = 0.5 * (bottom + body.min()) / up.factor
     reach = half_width / along.factor
     axes.plot([-reach, reach], [at, at], color="black", marker="|", markersize=8, linewidth=1.2)
-    clear = {"facecolor": BODY["facecolor"], "edgecolor": "none", "pad": 1.5}
+    clear = {"facecolor": style.BODY["facecolor"], "edgecolor": "none", "pad": 1.5}
     words = f"2a = {with_unit(2.0 * half_width, 'm')}"
     axes.text(0.0, at, words, ha="center", va="center", bbox=clear)
     axes.set(
-        xlim=(position[0], position[-1]),
-        xlabel=f"x [{along.name}]",
-        ylabel=f"height [{up.name}]",
+        xlim=(position[0], position[-1]), xlabel=f"x [{along.name}]", ylabel=f"height [{up.name}]"
     )
     box = axes.get_position()
     wide, tall = axes.figure.get_size_inches() * (box.width, box.height)

@@ -6,16 +6,7 @@ import numpy as np
 
 from comparisons.common.numbers import given, scale_of, significant, with_unit
 from comparisons.models.running_in import ended
-from comparisons.report.figures.style import (
-    COLUMN,
-    LINES,
-    OUTLINE,
-    WIDE,
-    Picture,
-    data_uri,
-    figure,
-    stacked,
-)
+from comparisons.report.figures import style
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
 
@@ -23,19 +14,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 POINTS = 4000  # along x; the picture is not finer
-BEFORE = {**LINES["finite_element"], "linewidth": 0.9}
-AFTER = {**OUTLINE, "color": LINES["half_plane"]["color"]}
+BEFORE = {**style.LINES["finite_element"], "linewidth": 0.9}
+AFTER = {**style.OUTLINE, "color": style.LINES["half_plane"]["color"]}
 
 
-def running_in_picture(outcome: Outcome) -> Picture | None:
+def running_in_picture(outcome: Outcome) -> style.Picture | None:
     """Both surfaces over the stretch that the contact may reach; None without running-in."""
     scene = outcome.problem.scene
     if scene.run_in is None:
         return None
     said = running_in_in_words(scene)
-    return Picture(
-        source=data_uri(_drawn(outcome, WIDE)),
-        narrow=data_uri(_drawn(outcome, COLUMN)),
+    return style.Picture(
+        source=style.data_uri(_drawn(outcome, style.WIDE)),
+        narrow=style.data_uri(_drawn(outcome, style.COLUMN)),
         wide=True,
         alternative=f"The surface before and after running-in. {said}",
         caption=f"The surface before and after running-in, heights stretched. {said}",
@@ -71,8 +62,8 @@ def _drawn(outcome: Outcome, width: float) -> "Figure":
     x = np.linspace(*problem.extent, POINTS)
     before, after = run_in.before.spline()(x), run_in.profile.spline()(x)
     along, up = scale_of(x, "m"), scale_of([np.ptp(before)], "m")
-    drawn = figure(width, 3.2)
-    [axes] = stacked(drawn, [(0.35, 2.34)], 0.8, 0.02 * width)
+    drawn = style.figure(width, 3.2)
+    [axes] = style.stacked(drawn, [(0.35, 2.34)], 0.8, 0.02 * width)
     axes.plot(x / along.factor, before / up.factor, label="before running-in", **BEFORE)
     axes.plot(x / along.factor, after / up.factor, label="after", **AFTER)
     axes.set(

@@ -7,16 +7,8 @@ import numpy as np
 from analytic.exact.hertz import hertz_stress
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.common.quantities import LABELS
+from comparisons.report.figures import style
 from comparisons.report.figures.pressures import peak_position, reference_level
-from comparisons.report.figures.style import (
-    COLUMN,
-    LINES,
-    REFERENCE,
-    Picture,
-    data_uri,
-    figure,
-    stacked,
-)
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -27,7 +19,7 @@ TOP, TITLE, TALL, FOOT = 0.06, 0.3, 1.85, 0.46  # inches
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
-def section_pictures(outcome: Outcome) -> list[Picture]:
+def section_pictures(outcome: Outcome) -> list[style.Picture]:
     """Through the highest pressure and through the edge of the smooth contact; none without field.
 
     The verticals are the columns of the common window that lie nearest.
@@ -47,9 +39,9 @@ def section_pictures(outcome: Outcome) -> list[Picture]:
     ]
 
 
-def _picture(outcome: Outcome, column: int, words: str) -> Picture:
+def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
     frictions, hertz = outcome.problem.scene.friction, outcome.problem.hertz
-    drawn = figure(COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
+    drawn = style.figure(style.COLUMN, TOP + FOOT + (TITLE + TALL) * len(frictions))
     depths = [outcome.window.z[-1] / hertz.half_width]
     if outcome.problem.scene.profile is not None and depths[0] > 2.0 * NEAR:
         depths.append(NEAR)
@@ -58,7 +50,7 @@ def _picture(outcome: Outcome, column: int, words: str) -> Picture:
     columns = []
     for side in range(len(depths)):
         left = LEFT + side * share
-        columns.append(stacked(drawn, rows, left, COLUMN - left - share + BETWEEN))
+        columns.append(style.stacked(drawn, rows, left, style.COLUMN - left - share + BETWEEN))
     for friction, panels in zip(frictions, zip(*columns, strict=True), strict=True):
         for panel, depth in zip(panels, depths, strict=True):
             _section(panel, outcome, column, friction, depth)
@@ -87,8 +79,8 @@ def _picture(outcome: Outcome, column: int, words: str) -> Picture:
         for mu in frictions
     )
     near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
-    return Picture(
-        source=data_uri(drawn),
+    return style.Picture(
+        source=style.data_uri(drawn),
         alternative=f"Principal shear over depth through {words}. Largest: {largest}.",
         caption=(
             f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "
@@ -108,8 +100,8 @@ def _section(axes: "Axes", outcome: Outcome, column: int, friction: float, depth
     shown = z <= 1.000001 * depth * hertz.half_width
     for name in outcome.runs:
         values = _tau1(outcome, name, friction, column)[shown]
-        axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **LINES[name])
+        axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **style.LINES[name])
     exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
-    axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **REFERENCE)
+    axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **style.REFERENCE)
     axes.set_xlim(0.0, depth)
     axes.locator_params(axis="x", nbins=6)

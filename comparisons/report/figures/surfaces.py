@@ -9,18 +9,7 @@ from comparisons.common.numbers import Scale, scale_of, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level, deformed_height
 from comparisons.models.problem import Problem, mean_height
-from comparisons.report.figures.style import (
-    COLUMN,
-    LINES,
-    OUTLINE,
-    REFERENCE,
-    Picture,
-    data_uri,
-    figure,
-    fill_bodies,
-    near,
-    stacked,
-)
+from comparisons.report.figures import style
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -60,25 +49,25 @@ def surfaces_of(problem: Problem, level: Level) -> Surfaces:
     )
 
 
-def surface_picture(outcome: Outcome) -> Picture:
+def surface_picture(outcome: Outcome) -> style.Picture:
     """Surfaces of the last model before and under load; below, the gaps of all."""
     name, run = list(outcome.runs.items())[-1]
     found = surfaces_of(outcome.problem, run.finest)
-    drawn = figure(COLUMN, 5.6)
-    axes, below = stacked(drawn, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14)
+    drawn = style.figure(style.COLUMN, 5.6)
+    axes, below = style.stacked(drawn, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14)
     along, up = scale_of(found.x, "m"), scale_of([np.ptp(found.roller), np.ptp(found.body)], "m")
     low = min(found.body.min(), found.body_before.min())
     high = max(found.roller.max(), found.roller_before.max())
     low -= 0.2 * (high - low)
     few = slice(None, None, 1 + len(found.x) // MOST_POINTS)
     x, body, roller = found.x / along.factor, found.body / up.factor, found.roller / up.factor
-    fill_bodies(axes, x[few], body[few], roller[few], low / up.factor, high / up.factor)
+    style.fill_bodies(axes, x[few], body[few], roller[few], low / up.factor, high / up.factor)
     for under, before, label in (
         (body, found.body_before, None),
         (roller, found.roller_before, "before loading, at first touch"),
     ):
-        axes.plot(x, before / up.factor, label=label, **{**REFERENCE, "linewidth": 0.8})
-        axes.plot(x, under, label=label and "under load", **OUTLINE)
+        axes.plot(x, before / up.factor, label=label, **{**style.REFERENCE, "linewidth": 0.8})
+        axes.plot(x, under, label=label and "under load", **style.OUTLINE)
     axes.set(xlim=(x[0], x[-1]), ylabel=f"height [{up.name}]")
     axes.text(0.02, 0.04, "body", transform=axes.transAxes)
     axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
@@ -88,13 +77,13 @@ def surface_picture(outcome: Outcome) -> Picture:
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
     for key, gap in gaps.items():
         place = outcome.runs[key].finest.grid.x / along.factor
-        below.plot(place, gap / unit.factor, label=LABELS[key], **LINES[key])
+        below.plot(place, gap / unit.factor, label=LABELS[key], **style.LINES[key])
     below.set(xlim=axes.get_xlim(), xlabel=f"x [{along.name}]", ylabel=f"gap [{unit.name}]")
     below.set_ylim(bottom=0.0)
     below.legend(loc="upper center")
     approach = with_unit(float(np.max(found.body_before - found.body)), "m", 3)
-    return Picture(
-        source=data_uri(drawn),
+    return style.Picture(
+        source=style.data_uri(drawn),
         alternative=(
             "Surfaces of roller and body before and under load, and the gap between them; the "
             f"body's surface gives way by {approach}."
@@ -113,7 +102,7 @@ def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], u
     drawn: dict[str, tuple[np.ndarray, ...]] = {}
     for name, run in reversed(outcome.runs.items()):
         found = surfaces_of(outcome.problem, run.finest)
-        shown = near(found.x, across, run.finest.grid.pitch)
+        shown = style.near(found.x, across, run.finest.grid.pitch)
         x, body, roller = found.x[shown], found.body[shown], found.roller[shown]
         if drawn:
             # displacements are known but for a constant: laid on each other at their mean
@@ -132,11 +121,11 @@ def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], u
 
     few = slice(None, None, 1 + len(x) // int(POINTS_PER_INCH * axes.figure.get_figwidth()))
     x = x[few] / unit.factor
-    fill_bodies(axes, x, scaled(body[few]), scaled(roller[few]), scaled(low), scaled(high))
+    style.fill_bodies(axes, x, scaled(body[few]), scaled(roller[few]), scaled(low), scaled(high))
     for name, (place, *heights) in reversed(drawn.items()):
-        style = LINES[name] if len(drawn) > 1 else OUTLINE
+        look = style.LINES[name] if len(drawn) > 1 else style.OUTLINE
         for height in reversed(heights):
-            line = {**style, "linewidth": 0.7 * style["linewidth"]}
+            line = {**look, "linewidth": 0.7 * look["linewidth"]}
             axes.plot(place / unit.factor, scaled(height), **line)
     # names where something is drawn: a light load may touch a rough body beside the middle only
     first, last = np.clip(x[[0, -1]], *(end / unit.factor for end in across))
