@@ -49,9 +49,6 @@ def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:
             pass
 
 
-_TERMS = np.arange(1.0, 21.0)
-
-
 def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
     """y - sin y for 0 <= y <= pi."""
     y = np.asarray(angle, dtype=float)
@@ -62,25 +59,11 @@ def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
     return np.where(y < 1.0, y**3 / 6.0 * series, y - np.sin(y))
 
 
-def sinh_minus_argument(argument: ArrayLike) -> np.ndarray:
-    """sinh y - y for y >= 0."""
-    y = np.asarray(argument, dtype=float)
-    ratios = 1.0 / ((2.0 * _TERMS[1:] + 1.0) * 2.0 * _TERMS[1:])
-    series = _odd_series(np.minimum(y, 1.0), np.cumprod([1.0 / 6.0, *ratios]))
-    return np.where(y < 1.0, series, np.sinh(y) - y)
-
-
 def artanh_minus_argument(argument: ArrayLike, artanh: ArrayLike) -> np.ndarray:
     """artanh y - y for 0 <= y <= 1, given y and artanh y: next to 1 only the caller knows it."""
     y = np.asarray(argument, dtype=float)
-    series = _odd_series(np.minimum(y, 0.4), 1.0 / (2.0 * _TERMS + 1.0))
-    return np.where(y < 0.4, series, artanh - y)
-
-
-def _odd_series(y: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
-    """c_0 y^3 + c_1 y^5 + …, the tail first."""
-    square = y**2
-    total = np.zeros_like(y)
-    for coefficient in coefficients[::-1]:
-        total = total * square + coefficient
-    return total * y * square
+    small = np.minimum(y, 0.4)
+    series, square = np.zeros_like(small), small**2
+    for n in range(20, 0, -1):
+        series = series * square + 1.0 / (2.0 * n + 1.0)
+    return np.where(y < 0.4, series * small * square, artanh - y)

@@ -4,7 +4,7 @@ Both models report their stresses in this type. Stresses [Pa] are positive in te
 into the body, and the body is in plane strain.
 
 Nomenclature: sx, sz normal stresses, txz orthogonal shear, sy the stress across the plane,
-s1 >= s2 principal stresses in the plane, tau1 = (s1 - s2)/2 the principal shear, nu Poisson's
+tau1 the principal shear, half the difference of the principal stresses in the plane, nu Poisson's
 ratio.
 """
 
@@ -45,12 +45,6 @@ class StressState:
         all directions can then exceed tau1.
         """
         return np.hypot(0.5 * (self.sx - self.sz), self.txz)
-
-    @property
-    def principal(self) -> tuple[np.ndarray, np.ndarray]:
-        """Principal stresses in the plane [Pa], the larger first."""
-        mean, tau1 = 0.5 * (self.sx + self.sz), self.tau1
-        return mean + tau1, mean - tau1
 
     def von_mises(self, poissons_ratio: float) -> np.ndarray:
         """Equivalent stress of von Mises [Pa], sy included.

@@ -36,12 +36,6 @@ class FlattenedCylinder:
     combined_modulus: float
     hardness: float
 
-    @property
-    def _level(self) -> float:
-        """L [m^2], where the pressure would have no slope."""
-        m = (self.flowed / self.contact) ** 2
-        return self.contact**2 * (1.0 - ellipe(m) / ellipk(m))
-
     def pressure(self, x: ArrayLike) -> np.ndarray:
         """H on the flowed stretch, from there E*/(2R) {b E(t|m) - L/b F(t|m)}, zero from b on [Pa].
 
@@ -49,26 +43,12 @@ class FlattenedCylinder:
         """
         b, c = self.contact, self.flowed
         x = np.abs(np.asarray(x, dtype=float))
-        m = 1.0 - (c / b) ** 2
+        m, share = 1.0 - (c / b) ** 2, (c / b) ** 2
+        level = b**2 * (1.0 - ellipe(share) / ellipk(share))  # L
         angle = np.arcsin(np.sqrt(np.clip((b**2 - x**2) / (b**2 - c**2), 0.0, 1.0)))
-        outer = b * ellipeinc(angle, m) - self._level / b * ellipkinc(angle, m)
+        outer = b * ellipeinc(angle, m) - level / b * ellipkinc(angle, m)
         outer *= self.combined_modulus / (2.0 * self.radius)
         return np.where(x < c, self.hardness, np.where(x < b, outer, 0.0))
-
-    @property
-    def largest_overlap(self) -> float:
-        """d in the middle [m]."""
-        b, c = self.contact, self.flowed
-        arc = np.arctanh(c / b)
-        return float((self._level * arc - 0.5 * ((b**2 + c**2) * arc - b * c)) / -self.radius)
-
-    @property
-    def volume(self) -> float:
-        """int d dx over the flowed stretch [m^2]."""
-        b, m = self.contact, (self.flowed / self.contact) ** 2
-        first, second = ellipk(m), ellipe(m)
-        fourth_moment = b**3 * ((2.0 + m) * first - 2.0 * (1.0 + m) * second) / 3.0
-        return float((fourth_moment - self._level * b * (first - second)) / self.radius)
 
 
 def flattened_cylinder(

@@ -22,24 +22,14 @@ is solved, with p bounded at both edges, by
 
 The contact moves against the traction for beta mu > 0; it mirrors when the sliding reverses or
 when the stiffer body is the half-plane. beta mu = 0 is Hertz's contact.
-
-The potential of the pressure, from which the stresses follow as in `exact.hertz`, is
-
-    I(w) = (1/pi) int p(t)/(w - t) dt = (E*/2R) (w - (w - c)^f (w + b)^r).
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import roots_jacobi
 
-from analytic.numerics import check_positive, points_below
-from analytic.stress_state import StressState
-
-# Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
-# points the remainder is below (2 - sqrt 3)^64.
-_FAR, _POINTS = 2.0, 32
+from analytic.numerics import check_positive
 
 
 @dataclass(frozen=True)
@@ -119,64 +109,3 @@ def sliding_from_load(
     return SlidingContact(
         radius, combined_modulus, load_per_length, friction, dundurs_beta, float(half_width)
     )
-
-
-def sliding_stress(contact: SlidingContact, x: ArrayLike, z: ArrayLike) -> StressState:
-    """Stresses [Pa] in the half-plane at x, z [m] (broadcast together), z >= 0.
-
-    Right to rounding of the pressure's potential near the contact, of each component far away.
-    At the very edges all but the sx of the traction vanish. Raises ValueError for z < 0.
-    """
-    x, z = points_below(x, z)
-    h, (left, right) = contact.half_width, contact.edges
-    parts = np.empty((4, *x.shape))
-    far = np.hypot(x - 0.5 * (left + right), z) > _FAR * h
-    parts[:, far] = _summed(contact, x[far], z[far])
-    near = ~far
-    parts[:, near] = _closed(contact, (x[near] - left) / h, (x[near] - right) / h, z[near] / h)
-    sx, sz, txz, sx_traction = parts
-    mu = contact.friction
-    return StressState(sx=sx + mu * sx_traction, sz=sz + mu * txz, txz=txz + mu * sx)
-
-
-def _closed(
-    contact: SlidingContact, rear: np.ndarray, front: np.ndarray, z: np.ndarray
-) -> np.ndarray:
-    """sx, sz, txz under p and sx under q = p (4, n) [Pa]; x + b, x - c and z in h."""
-    n = contact.exponent_shift
-    product = _power(front, z, 0.5 + n) * _power(rear, z, 0.5 - n)
-    # The pressure's own scale brings its cosine, which the potential has not.
-    scale = contact.combined_modulus * contact.half_width / (2.0 * contact.radius)
-    apex = 0.5 * (rear + front) - 2.0 * n
-    potential = apex + 1j * z - product
-    square = (rear + 1j * z) * (front + 1j * z)
-    edge = square == 0.0
-    slope = 1.0 - product * (apex + 4.0 * n + 1j * z) / np.where(edge, 1.0, square)
-    stretch = np.where(edge, 0.0, z * slope)
-    return scale * np.stack(
-        [
-            potential.imag + stretch.real,
-            potential.imag - stretch.real,
-            -stretch.imag,
-            stretch.imag - 2.0 * potential.real,
-        ]
-    )
-
-
-def _summed(contact: SlidingContact, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """The same (4, n) [Pa] by x and z [m]: line loads at the points of Gauss and Jacobi."""
-    n, h = contact.exponent_shift, contact.half_width
-    point, weight = roots_jacobi(_POINTS, 0.5 + n, 0.5 - n)
-    along = x[:, None] - 0.5 * sum(contact.edges) - h * point
-    depth = z[:, None]
-    square = along**2 + depth**2
-    kernel = -2.0 / np.pi * contact._scale * h * weight / square**2
-    return np.stack(
-        [np.sum(kernel * along**power * depth ** (3 - power), axis=1) for power in (2, 0, 1, 3)]
-    )
-
-
-def _power(real: np.ndarray, imaginary: np.ndarray, exponent: float) -> np.ndarray:
-    """(real + i imaginary)^exponent in the upper half-plane, its edge included."""
-    angle = exponent * np.arctan2(imaginary, real)
-    return np.hypot(real, imaginary) ** exponent * (np.cos(angle) + 1j * np.sin(angle))

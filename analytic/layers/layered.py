@@ -261,35 +261,12 @@ def normal_compliance(body: LayeredBody, wavenumber: ArrayLike) -> np.ndarray:
     return body.thickness / (2.0 * body.material.shear_modulus) * normal(body.contrast, w)
 
 
-def wave_stress(
-    body: LayeredBody, wavenumber: ArrayLike, z: ArrayLike
-) -> tuple[WaveStress, WaveStress]:
-    """Stresses under p cos kx alone and under q sin kx alone, at depths 0 <= z <= t [m].
-
-    k [1/m], k > 0, and z are broadcast together. Raises ValueError for a depth outside the layer.
-    """
-    k, z = np.broadcast_arrays(np.asarray(wavenumber, dtype=float), np.asarray(z, dtype=float))
-    normal, traction = added_stress(body, k, z)
-    depth, decay = k * z, np.exp(-k * z)
-    return (
-        WaveStress(
-            normal.sx - (1.0 - depth) * decay,
-            normal.sz - (1.0 + depth) * decay,
-            normal.txz - depth * decay,
-        ),
-        WaveStress(
-            traction.sx + (2.0 - depth) * decay,
-            traction.sz + depth * decay,
-            traction.txz - (1.0 - depth) * decay,
-        ),
-    )
-
-
 def added_stress(
     body: LayeredBody, wavenumber: np.ndarray, z: np.ndarray
 ) -> tuple[WaveStress, WaveStress]:
-    """`wave_stress` less that of a half-plane of the layer's material: what the base adds.
+    """Stresses under p cos kx and under q sin kx less those of a half-plane: what the base adds.
 
+    At depths 0 <= z <= t [m], shaped as k [1/m]; ValueError for a depth outside the layer.
     With r = (m - that of the half-plane)/(1 + e), its two columns a = (r11, r12), (r12, r22)
     under p and under q, and Z = k z:
 

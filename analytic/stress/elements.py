@@ -59,22 +59,15 @@ class FrictionStress:
         return stress if besides is None else stress.plus(1.0, besides.traction)
 
 
-def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:
-    """Under unit p and unit q on |x| < half_width, at x, z [m] (broadcast together), z >= 0.
-
-    Bailey and Sayles 1991, eq. (1) and (2), with t1 = atan2(z, x - a), t2 = atan2(z, x + a).
-    On the surface the ends x = -a, a belong half to the strip, and sx under q is infinite there.
-    """
-    x, z = points_below(x, z)
-    return strip_between(x + half_width, x, x - half_width, z)
-
-
 def strip_between(
     left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray
 ) -> FrictionStress:
-    """`strip_stress` by `left` = x + a, x and `right` = x - a, each known to rounding [m].
+    """Under unit p and unit q on |x| < a, from `left` = x + a, x, `right` = x - a and z >= 0 [m].
 
-    With D = t1 - t2 and S = t1 + t2 the equations read
+    Each of them is known to rounding. On the surface the ends belong half to the strip, and sx
+    under q is infinite there. Of Bailey and Sayles 1991, eq. (1) and (2), with t1, t2 =
+    atan2(z, x - a), atan2(z, x + a), D = t1 - t2 and S = t1 + t2:
+
         sz, sx = -(1/pi) {(D - sin D) + 2 sin D (sin^2, cos^2)(S/2)}, txz = -(1/pi) sin S sin D,
     and with v = sinh ln(r2/r1) = 2 a x/(r1 r2), sx under q = -(2/pi) (asinh v - v z^2/(r1 r2)).
     """

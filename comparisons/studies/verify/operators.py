@@ -10,8 +10,7 @@ import numpy as np
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
-from analytic.exact.cases import ExactContact
-from analytic.exact.gallery import exact_contacts
+from analytic.exact.cases import ExactContact, exact_contacts
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody

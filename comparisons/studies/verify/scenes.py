@@ -17,8 +17,15 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.exact.cases import Curve, ExactContact, capped_case, hertz_case, sliding_case
-from analytic.exact.gallery import STEEL, exact_contacts
+from analytic.exact.cases import (
+    STEEL,
+    Curve,
+    ExactContact,
+    capped_case,
+    exact_contacts,
+    hertz_case,
+    sliding_case,
+)
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
 from comparisons.assessment.comparison import figures, relative_l2, uncertainties

@@ -4,13 +4,14 @@ import json
 
 import numpy as np
 import pytest
+from exact_stresses import sliding_stress
 from scenes import DATA
 from scipy.integrate import quad
 from scipy.linalg import toeplitz
 from scipy.special import roots_jacobi
 
 from analytic.exact.hertz import hertz_from_load, hertz_stress
-from analytic.exact.sliding import SlidingContact, sliding_from_load, sliding_stress
+from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress.points import stress_at

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from exact_stresses import wave_stress
 
-from analytic.layers.layered import LayeredBody, wave_stress
+from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import PeriodicLayeredSurface
 from analytic.layers.stress import layer_field
 from analytic.material import Material

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from exact_stresses import westergaard_stress
 
-from analytic.exact.westergaard import westergaard_from_half_width, westergaard_stress
+from analytic.exact.westergaard import westergaard_from_half_width
 from analytic.stress.field import friction_field, stress_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.periodic import DEEP

@@ -4,17 +4,24 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from exact_stresses import sliding_stress, westergaard_stress
 from scipy.integrate import quad
 
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
-from analytic.exact.cases import ExactContact, hertz_case
-from analytic.exact.gallery import ALUMINIUM, CERAMIC, STEEL, exact_contacts
+from analytic.exact.cases import (
+    ALUMINIUM,
+    CERAMIC,
+    STEEL,
+    ExactContact,
+    exact_contacts,
+    hertz_case,
+)
 from analytic.exact.hertz import hertz_from_load, hertz_stress
-from analytic.exact.sliding import sliding_from_load, sliding_stress
-from analytic.exact.westergaard import westergaard_from_mean_pressure, westergaard_stress
+from analytic.exact.sliding import sliding_from_load
+from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane
