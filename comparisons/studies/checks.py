@@ -6,7 +6,7 @@ nothing and fails, too.
 
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from time import process_time
@@ -60,13 +60,11 @@ class BoundedFigure:
 
     @property
     def bounds(self) -> str:
-        """As text."""
         if math.isinf(self.high):
             return f"at least {self.low:.4g}"
         return f"{self.low:.4g} to {self.high:.4g}" if self.low else f"at most {self.high:.4g}"
 
     def as_dict(self) -> dict:
-        """For JSON."""
         fields = asdict(self) | {"holds": self.holds}
         del fields["note"]
         return fields
@@ -110,10 +108,10 @@ class CheckedCase:
     solve: Callable[[], Findings]
 
 
-def named_cases(
-    model: str, groups: Mapping[str, Mapping[str, Callable[[], Findings]]]
-) -> list[CheckedCase]:
-    """The cases of a model by their groups and names."""
+Groups = dict[str, dict[str, Callable[[], Findings]]]
+
+
+def named_cases(model: str, groups: Groups) -> list[CheckedCase]:
     return [
         CheckedCase(group, name, model, solve)
         for group, named in groups.items()
@@ -152,7 +150,6 @@ class CheckedRow:
         return [f"{label}, {f.name}: {f.value:.4g}, expected {f.bounds}" for f in failed]
 
     def as_dict(self) -> dict:
-        """For JSON."""
         return {
             "group": self.case.group,
             "case": self.case.name,
@@ -203,7 +200,6 @@ class CheckedStudy:
 
     @property
     def faults(self) -> list[str]:
-        """What does not hold, a line each."""
         return [line for row in self.rows for line in row.faults] or ["no rows"] * (not self.rows)
 
     @property
@@ -215,7 +211,6 @@ class CheckedStudy:
         return ExitStatus.DONE if self.holds else ExitStatus.OUTSIDE_TOLERANCE
 
     def as_dict(self) -> dict:
-        """For JSON."""
         passed = sum(row.holds for row in self.rows)
         return {
             "schema": SCHEMA,

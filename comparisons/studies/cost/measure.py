@@ -98,7 +98,6 @@ def processor_seconds() -> float:
 
 
 def measure(task: CostTask) -> MeasuredRun | RefusedRun:
-    """Carry out a task in this process."""
     method = next(m for m in METHODS if m.name == task.method)
     first = processor_seconds()
     try:

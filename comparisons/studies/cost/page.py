@@ -44,7 +44,6 @@ def cost_table(cost: Cost) -> "RenderableType":
 
 
 def cost_page(cost: Cost) -> str:
-    """cost.html: one page that needs no network."""
     names = shown(cost)
     with drawing():
         pictures = [cost_picture(cost, name) for name in cost.references if name not in REDUNDANT]
@@ -88,7 +87,6 @@ def shown(cost: Cost) -> list[str]:
 
 
 def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
-    """Text of a row."""
     row, measured = each.row, each.row.measured
     setting = percent(row.setting, digits=1) if row.method.adapted and row.setting else row.label
     if measured is None:

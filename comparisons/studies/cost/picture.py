@@ -27,7 +27,6 @@ LEAST = 1e-7  # smaller errors are drawn there
 
 
 def cost_picture(cost: Cost, quantity: str) -> Picture:
-    """The diagram of one quantity."""
     stresses = needs_stress([quantity])
     reference = cost.references[quantity]
     drawn = figure(COLUMN, HEIGHT)

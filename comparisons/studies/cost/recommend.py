@@ -48,7 +48,6 @@ class Recommendation:
 
 
 def needs_stress(quantities: Iterable[str]) -> bool:
-    """Whether any of them needs the stresses."""
     return any(QUANTITIES[name].needs_stress for name in quantities)
 
 

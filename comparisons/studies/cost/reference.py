@@ -62,7 +62,6 @@ def references(problem: Problem, study: Study, window: Window | None) -> dict[st
 
 
 def is_exact(problem: Problem) -> bool:
-    """Whether Hertz's contact solves the scene."""
     scene = problem.scene
     capped = scene.hardness is not None and scene.hardness <= problem.hertz.peak_pressure
     smooth = scene.profile is None and not problem.coupling and not capped

@@ -48,7 +48,6 @@ def scene_text(title: str, values: Values, notes: Values) -> str:
 
 
 def toml(text: str) -> str:
-    """A text as TOML writes it."""
     return json.dumps(text, ensure_ascii=False)
 
 

@@ -46,7 +46,6 @@ def map_content(request: MapRequest, cache: Cache) -> dict:
 
 
 def read_map(path: Path) -> dict:
-    """The content of a map.json."""
     return json.loads(path.read_text(encoding="utf-8"))
 
 

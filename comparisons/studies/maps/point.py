@@ -97,7 +97,6 @@ def solve_point(point: PointRequest) -> dict:
 
 
 def failed(why: str) -> dict:
-    """What is found at a point without a solution."""
     return {"status": FAILED, "why": one_line(why)}
 
 

@@ -76,7 +76,6 @@ class MapRequest:
 
     @property
     def command(self) -> str:
-        """The command that makes this map."""
         return (
             f"crosscheck map {self.scene} --points {self.x.count}x{self.y.count} "
             f"--x {self.x} --y {self.y} --quantity {self.quantity}"

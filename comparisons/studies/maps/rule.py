@@ -48,7 +48,6 @@ class Rule:
 
 
 def rules_of(content: dict) -> list[dict]:
-    """A rule for every tolerance of the map's content."""
     return [asdict(rule_of(content, tolerance)) for tolerance in content["tolerances"]]
 
 

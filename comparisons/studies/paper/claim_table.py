@@ -47,7 +47,6 @@ class ClaimRow:
 
 
 def claim_row(judged: JudgedClaim) -> ClaimRow:
-    """The words of a judged claim."""
     claim = judged.claim
     by_model = {model: number_text(n, claim.unit) for model, n in judged.numbers.items()}
     return ClaimRow(
@@ -83,7 +82,6 @@ def number_text(number: MeasuredNumber, unit: str) -> str:
 
 
 def summary(judged: tuple[JudgedClaim, ...]) -> str:
-    """How many claims ended how."""
     counts = {kind: sum(j.outcome == kind for j in judged) for kind in KINDS}
     return (
         f"Of {len(judged)} claims that numbers can judge, {counts[CONFIRMED]} are confirmed and "

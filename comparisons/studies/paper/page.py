@@ -25,7 +25,6 @@ SHOWN = {
 
 
 def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
-    """The page."""
     return rendered(
         Path(__file__).parent / "paper.html.j2",
         policy=STYLES,

@@ -32,8 +32,6 @@ class Block:
 
 @dataclass(frozen=True)
 class Section:
-    """One figure of the paper."""
-
     number: str
     title: str
     blocks: tuple[Block, ...]

@@ -28,7 +28,6 @@ def backward_ratio(
 
 
 def one_norm(matrix: np.ndarray | csr_matrix) -> float:
-    """Largest column sum of absolute values."""
     return float(
         np.linalg.norm(matrix, 1) if isinstance(matrix, np.ndarray) else sparse_norm(matrix, 1)
     )

@@ -118,16 +118,13 @@ def cylinder_gap(
 
 def mirrored(contact: LoadedContact) -> LoadedContact:
     """The same problem seen from the other side, solved anew."""
-    operator = contact.operator
-    if isinstance(operator, CoupledHalfPlane):
-        operator = CoupledHalfPlane(
-            operator.count, operator.pitch, operator.modulus, -operator.friction_dundurs
-        )
+    own = operator = contact.operator
+    if isinstance(own, CoupledHalfPlane):
+        operator = CoupledHalfPlane(own.count, own.pitch, own.modulus, -own.friction_dundurs)
     return load_contact(operator, contact.x, contact.weighted_gap[::-1], contact.constraints)
 
 
 def residual_figures(solution: ContactSolution) -> tuple[BoundedFigure, ...]:
-    """Residuals of the contact conditions."""
     return tuple(
         BoundedFigure(name, value, KKT_TOLERANCE, "the contact conditions")
         for name, value in vars(solution.residuals).items()
@@ -135,7 +132,6 @@ def residual_figures(solution: ContactSolution) -> tuple[BoundedFigure, ...]:
 
 
 def iterations(solution: ContactSolution, times_the_ordinary: float) -> dict[str, float]:
-    """Cost of a contact, for `Findings`."""
     counts = {name: float(number) for name, number in solution.iterations.items()}
     return counts | {"times_the_ordinary": times_the_ordinary}
 
@@ -174,33 +170,22 @@ def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.
     gap = opening - approach
     wrong = np.where(free, np.abs(gap), np.where(pressure > 0.0, gap, -gap))
     scale = max(np.ptp(displacement), 1e-2 * np.abs(displacement).max())
-    return BoundedFigure(
-        "gap against pressure",
-        float(max(0.0, wrong.max()) / scale),
-        KKT_TOLERANCE,
-        "the contact conditions by a dense matrix",
-    )
+    violation = float(max(0.0, wrong.max()) / scale)
+    reference = "the contact conditions by a dense matrix"
+    return BoundedFigure("gap against pressure", violation, KKT_TOLERANCE, reference)
 
 
 def least_squares_deviation(contact: LoadedContact, modulus: float) -> BoundedFigure:
     """Deviation from bounded least squares at the same approach."""
-    matrix = dense_matrix(len(contact.pressure), contact.pitch, modulus)
-    expected = least_squares(
-        matrix,
-        contact.weighted_gap,
-        contact.pitch,
-        contact.solution.approach,
-        contact.constraints.hardness,
-    )
+    pitch, approach = contact.pitch, contact.solution.approach
+    matrix = dense_matrix(len(contact.pressure), pitch, modulus)
+    hardness = contact.constraints.hardness
+    expected = least_squares(matrix, contact.weighted_gap, pitch, approach, hardness)
     return deviation(contact.pressure, expected, "pressure", LEAST_SQUARES, "least squares")
 
 
 def least_squares(
-    matrix: np.ndarray,
-    weighted_gap: np.ndarray,
-    pitch: float,
-    approach: float,
-    hardness: float = np.inf,
+    matrix: np.ndarray, weighted_gap: np.ndarray, pitch: float, approach: float, hardness: float
 ) -> np.ndarray:
     """Pressures (n,) [Pa] of a dense compliance (n, n) at an approach [m], by scipy's BVLS."""
     lowest = np.min(weighted_gap) / pitch
@@ -222,15 +207,13 @@ def deviation(
     return BoundedFigure(name, value, high, reference)
 
 
+Two = tuple[float, float]
+
+
 def peak_and_length(
-    contact: LoadedContact | Level,
-    exact: tuple[float, float],
-    highs: tuple[float, float],
-    reference: str,
-) -> tuple[BoundedFigure, BoundedFigure]:
+    contact: LoadedContact | Level, exact: Two, highs: Two, reference: str
+) -> tuple[BoundedFigure, ...]:
     """Relative errors of peak pressure and contact length; `exact` peak [Pa] and half-width [m]."""
-    peak, half_length = contact.solution.pressure.max(), 0.5 * contact.contact_length
-    return (
-        relative_error("peak pressure", peak, exact[0], highs[0], reference),
-        relative_error("contact length", half_length, exact[1], highs[1], reference),
-    )
+    found = contact.solution.pressure.max(), 0.5 * contact.contact_length
+    named = zip(("peak pressure", "contact length"), found, exact, highs, strict=True)
+    return tuple(relative_error(*each, reference) for each in named)

@@ -9,26 +9,24 @@ from comparisons.studies.checks import (
     CheckedCase,
     CheckedStudy,
     check_places,
+    named_cases,
     run_cases,
     write_study,
 )
-from comparisons.studies.robustness.cases import (
-    algebra,
-    friction,
-    layers,
-    rough,
-    rounding,
-    smooth,
-    stresses,
-)
+from comparisons.studies.robustness.cases import algebra, friction, layers, rough, smooth, stresses
+from comparisons.studies.robustness.cases.rounding import cases as rounding_cases
+from comparisons.studies.robustness.cases.rounding import finite_element_cases
 from comparisons.studies.robustness.finite_element import extremes, scenes, stiffness
 
 
 def all_cases() -> list[CheckedCase]:
     """Every case; cheap ones first."""
-    modules = (smooth, rough, friction, layers, stresses, algebra)
-    modules += (stiffness, scenes, extremes, rounding)
-    return [case for module in modules for case in module.cases()]
+    analytic = (smooth, rough, friction, layers, stresses, algebra)
+    finite_elements = (stiffness, scenes, extremes)
+    groups = [("half_plane", module.cases()) for module in analytic]
+    groups += [("finite_element", module.cases()) for module in finite_elements]
+    groups += [("half_plane", rounding_cases()), ("finite_element", finite_element_cases())]
+    return [case for model, given in groups for case in named_cases(model, given)]
 
 
 def run_robustness(

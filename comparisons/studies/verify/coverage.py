@@ -125,7 +125,6 @@ class Pair:
         return BoundedFigure(self.quantity, error, ceiling, self.source, note=note)
 
     def as_dict(self) -> dict:
-        """For verify.json."""
         stated = self.uncertainty
         return asdict(self) | {
             "error": self.error,
@@ -181,7 +180,6 @@ class Coverage:
 
 
 def coverage(pairs: Iterable[Pair]) -> Coverage:
-    """Of pairs together."""
     pairs = list(pairs)
     informative = [pair for pair in pairs if pair.informative]
     if not informative:
@@ -254,7 +252,6 @@ class Verification(CheckedStudy):
 
     @cached_property
     def coverage(self) -> Coverage:
-        """Of all pairs together."""
         return coverage(self.pairs)
 
     @cached_property
@@ -266,7 +263,6 @@ class Verification(CheckedStudy):
         return {name: coverage(pairs) for name, pairs in named.items()}
 
     def as_dict(self) -> dict:
-        """For verify.json."""
         return super().as_dict() | {
             "coverage": asdict(self.coverage),
             "groups": [

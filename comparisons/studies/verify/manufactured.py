@@ -169,7 +169,6 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
 
 
 def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
-    """Of kinds of bodies with elements of a degree."""
     named = {
         f"{kind}, P{degree}": partial(manufactured_findings, kind, degree)
         for kind, degree in bodies

@@ -89,7 +89,6 @@ def operator_cases(contacts: Sequence[OperatorContact] | None = None) -> list[Ch
 
 
 def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
-    """Every figure, on three grids."""
     levels = [_solved(case, elements / 2.0**k) for k in range(LEVELS - 1, -1, -1)]
     history = [_figures(case, *level) for level in levels]
     grid, solution = levels[-1]

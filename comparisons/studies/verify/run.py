@@ -37,7 +37,6 @@ class Scope:
 
 
 def everything() -> Scope:
-    """The scope of `crosscheck verify`."""
     from comparisons.studies.verify.independent_solver import independent_cases
     from comparisons.studies.verify.manufactured import BODIES, manufactured_cases
 

@@ -80,7 +80,6 @@ class ExactScene:
 
 
 def exact_scenes() -> tuple[ExactScene, ...]:
-    """All scenes of `verify`."""
     return (*gallery_scenes(), *half_plane_scenes(), *finite_element_scenes(), *layer_scenes())
 
 
@@ -211,7 +210,6 @@ def layer_scene(reference: LayerReference, nu: float) -> ExactScene:
 
 
 def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
-    """Each scene by each of its models."""
     return [
         CheckedCase(scene.kind, scene.name, model, partial(scene_findings, scene, model))
         for scene in scenes

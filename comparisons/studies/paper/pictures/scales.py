@@ -81,7 +81,6 @@ def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def scales_of(outcomes: dict[str, Outcome]) -> Scales:
-    """The scales that hold all surfaces."""
     stacked = {name: layered(outcome).stress for name, outcome in outcomes.items()}
     bands, ceilings, floors = {}, {}, {}
     for component in COMPONENTS:

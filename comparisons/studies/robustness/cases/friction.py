@@ -12,13 +12,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.material import Material, combined_modulus, dundurs_constants
 from analytic.operators.tangential import CoupledHalfPlane
-from comparisons.studies.checks import (
-    BoundedFigure,
-    CheckedCase,
-    Findings,
-    named_cases,
-    relative_error,
-)
+from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
 from comparisons.studies.robustness.cases.rough import COUNT, LOAD, rough
 from comparisons.studies.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
@@ -49,7 +43,6 @@ def sliding(
 
 
 def sliding_findings(body: Material, roller: Material | None, friction: float) -> Findings:
-    """Against the exact sliding cylinder."""
     contact, exact = sliding(body, roller, friction)
     (left, right), size = exact.edges, exact.half_width
     (start, stop), *_ = contact.patches
@@ -87,8 +80,7 @@ def rough_findings(friction_dundurs: float) -> Findings:
     )
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
     sliders = {
         "friction 1, rigid on nu = 0": (SOFT, None, 1.0),
         "friction -1, rigid on nu = 0": (SOFT, None, -1.0),
@@ -99,4 +91,4 @@ def cases() -> list[CheckedCase]:
     named = {name: partial(sliding_findings, *given) for name, given in sliders.items()}
     named["friction 1e-06"] = partial(slight_findings, 1e-6)
     named |= {f"rough, mu beta = {n:g}": partial(rough_findings, n) for n in (0.5, 3.0)}
-    return named_cases("half_plane", {"friction": named})
+    return {"friction": named}

@@ -21,7 +21,7 @@ from analytic.layers.layered import LayeredBody, normal_compliance
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.checks import BoundedFigure, Findings, Groups
 from comparisons.studies.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     LoadedContact,
@@ -88,7 +88,6 @@ def incompressible_findings(a_over_t: float) -> Findings:
 
 
 def between_findings(between: LayerReference) -> Findings:
-    """Against a solution of the integral equation."""
     nu = between.poissons_ratio
     body = LayeredBody(Material(1.0 - nu**2, nu), 1.0, between.base)
     contact = on_layer(body, between.half_width, between.load / RADIUS)
@@ -127,8 +126,7 @@ def wave_findings(body: LayeredBody) -> Findings:
     return Findings((BoundedFigure("compliance", error, 2e-14, "a hundred digits"),))
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
     layers = {
         f"a/t = {ratio:g}, {base}": partial(thick_findings, base, ratio)
         for base in ("bonded", "frictionless")
@@ -168,4 +166,4 @@ def cases() -> list[CheckedCase]:
     }
     coatings = {name: partial(coated_findings, *given) for name, given in equivalent.items()}
     coatings["soft coating on a body 1e6 times as stiff"] = partial(rigid_base_findings, 1e-6)
-    return named_cases("half_plane", {"layer": layers, "coating": coatings})
+    return {"layer": layers, "coating": coatings}

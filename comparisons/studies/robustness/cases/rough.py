@@ -16,13 +16,7 @@ from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 from analytic.surface.synthetic import self_affine
-from comparisons.studies.checks import (
-    BoundedFigure,
-    CheckedCase,
-    Findings,
-    named_cases,
-    relative_error,
-)
+from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
 from comparisons.studies.robustness.loaded_contact import (
     SAME,
     LoadedContact,
@@ -74,7 +68,6 @@ def vanishing_findings(load: float) -> Findings:
 
 
 def twin_findings(load: float) -> Findings:
-    """Two equal highest peaks carry the same."""
     half = rough(COUNT // 2)
     contact = pressed(np.concatenate([half, half[::-1]]), load)
     pressure = contact.pressure
@@ -162,7 +155,6 @@ def slope_findings(rms_slope: float) -> Findings:
 
 
 def mirrored_findings() -> Findings:
-    """The profile reversed gives the same pressures, reversed."""
     contact = pressed(rough(COUNT), LOAD)
     behind, reference = mirrored(contact), "its mirror image"
     length = behind.contact_length
@@ -200,9 +192,8 @@ def amplitude_findings(amplitude: float) -> Findings:
     )
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
-    groups = {
+def cases() -> Groups:
+    return {
         "one node": {
             f"load {load:g} of modulus times length": partial(vanishing_findings, load)
             for load in (1e-12, 1e-50, 1e-150)
@@ -244,4 +235,3 @@ def cases() -> list[CheckedCase]:
             )
         },
     }
-    return named_cases("half_plane", groups)

@@ -4,7 +4,6 @@ In half-widths and peak pressures every Hertz contact is the same. So each row s
 from the exact contact, and from the ordinary case, which is rounding.
 """
 
-from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
@@ -16,13 +15,7 @@ from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_
 from analytic.material import Material, combined_modulus
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile, surface
-from comparisons.studies.checks import (
-    BoundedFigure,
-    CheckedCase,
-    Findings,
-    named_cases,
-    relative_error,
-)
+from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
 from comparisons.studies.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
     SAME,
@@ -41,44 +34,32 @@ STEEL = Material(207e9, 0.3)
 HIGHS = 5e-5, 5e-4  # error of Hertz's peak and length by the grid, three times over
 
 
-@dataclass(frozen=True)
-class SmoothContact:
-    """Two materials (`roller` None: rigid), a radius [m] and a load [N/m]."""
-
-    body: Material
-    roller: Material | None
-    radius: float = 8.2e-3
-    load: float = 1e6
-
-    def solved(self) -> tuple[HertzContact, LoadedContact]:
-        """The exact contact and the computed one."""
-        modulus = combined_modulus(self.body, self.roller)
-        hertz = hertz_from_load(self.load, self.radius, modulus)
-        operator = HalfPlane(COUNT, hertz.half_width / HATS_PER_HALF_WIDTH, modulus)
-        return hertz, load_cylinder(operator, self.radius, Constraints(load=self.load))
-
-
-ORDINARY = SmoothContact(STEEL, STEEL)
+def smooth_contact(
+    body: Material, roller: Material | None, radius: float = 8.2e-3, load: float = 1e6
+) -> tuple[HertzContact, LoadedContact]:
+    """A cylinder of a radius [m] (`roller` None: rigid) under a load [N/m], exact and computed."""
+    hertz = hertz_from_load(load, radius, combined_modulus(body, roller))
+    operator = HalfPlane(COUNT, hertz.half_width / HATS_PER_HALF_WIDTH, hertz.combined_modulus)
+    return hertz, load_cylinder(operator, radius, Constraints(load=load))
 
 
 @cache
 def ordinary_shape() -> tuple[np.ndarray, float]:
     """Pressures over the peak pressure, and the length over the half-width."""
-    hertz, contact = ORDINARY.solved()
+    hertz, contact = smooth_contact(STEEL, STEEL)
     return contact.pressure / hertz.peak_pressure, contact.contact_length / hertz.half_width
 
 
-def hertz_findings(smooth: SmoothContact) -> Findings:
-    """Against Hertz, and against the ordinary case."""
-    hertz, contact = smooth.solved()
+def hertz_findings(body: Material, roller: Material | None, **given: float) -> Findings:
+    """Against Hertz, and against the ordinary case; `given` as for `smooth_contact`."""
+    hertz, contact = smooth_contact(body, roller, **given)
     peak, half_width = hertz.peak_pressure, hertz.half_width
-    shape, length = ordinary_shape()
+    (shape, length), reference = ordinary_shape(), "the ordinary case"
+    scaled = contact.contact_length / half_width
     return contact.findings(
         *peak_and_length(contact, (peak, half_width), HIGHS, "Hertz, exact"),
-        deviation(contact.pressure / peak, shape, "shape", SAME, "the ordinary case"),
-        relative_error(
-            "scaled length", contact.contact_length / half_width, length, 1e-7, "the ordinary case"
-        ),
+        deviation(contact.pressure / peak, shape, "shape", SAME, reference),
+        relative_error("scaled length", scaled, length, 1e-7, reference),
         dense_violation(contact, hertz.combined_modulus),
     )
 
@@ -108,8 +89,7 @@ def hardness_findings(over_peak: float) -> Findings:
     hardness = float(plain.pressure.max()) * (1.0 + over_peak)
     capped = load_cylinder(operator, 0.5, Constraints(load=load, hardness=hardness))
     if over_peak < -1e-3:
-        exact = flattened_cylinder(load, 0.5, 1.0, hardness)
-        length = 0.5 * capped.contact_length
+        exact, length = flattened_cylinder(load, 0.5, 1.0, hardness), 0.5 * capped.contact_length
         reference = "flattened cylinder, exact"
         return capped.findings(
             relative_error("contact length", length, exact.contact, HIGHS[1], reference),
@@ -117,9 +97,8 @@ def hardness_findings(over_peak: float) -> Findings:
         )
     # the cap takes off `over_peak` of the peak, over a share of the contact: no more may change
     high = SAME if over_peak > 0.0 else max(SAME, 3.0 * abs(over_peak))
-    return capped.findings(
-        deviation(capped.pressure, plain.pressure, "pressure", high, "the uncapped contact")
-    )
+    reference = "the uncapped contact"
+    return capped.findings(deviation(capped.pressure, plain.pressure, "pressure", high, reference))
 
 
 def flowed_figure(flowed: np.ndarray, pitch: float, half_width: float) -> BoundedFigure:
@@ -134,14 +113,11 @@ def soft_findings(share: float) -> Findings:
     load = Constraints(load=share * 1e-6 * count, hardness=hardness)
     contact = load_cylinder(HalfPlane(count, 1.0, 1.0), 100.0 * count, load)
     full = np.count_nonzero(contact.pressure >= hardness * (1.0 - 1e-9))
-    off = abs(full - load.load / hardness)
-    return contact.findings(
-        BoundedFigure("hats at the hardness", off, 3.0, "load over hardness, in hats")
-    )
+    off, reference = abs(full - load.load / hardness), "load over hardness, in hats"
+    return contact.findings(BoundedFigure("hats at the hardness", off, 3.0, reference))
 
 
 def refused_findings() -> Findings:
-    """A load beyond what the hardness carries is refused."""
     load = Constraints(load=64.0 * (1.0 + 1e-12), hardness=1.0)
     try:
         load_cylinder(HalfPlane(64, 1.0, 1.0), 1e3, load)
@@ -175,24 +151,23 @@ def sample_findings(samples: int) -> Findings:
     )
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
+    hertz = partial(hertz_findings, STEEL)
     materials = {
-        "ordinary: steel on steel": ORDINARY,
-        "roller 1e6 times as stiff": SmoothContact(STEEL, Material(1e6 * 207e9, 0.3)),
-        "roller 1e-6 times as stiff": SmoothContact(STEEL, Material(1e-6 * 207e9, 0.3)),
-        "Poisson's ratio 0": SmoothContact(Material(207e9, 0.0), None),
-        "Poisson's ratio 0.49": SmoothContact(Material(207e9, 0.49), None),
-        "Poisson's ratio 0.4999": SmoothContact(Material(207e9, 0.4999), None),
-        "Poisson's ratio 0.5 less rounding": SmoothContact(
-            Material(207e9, np.nextafter(0.5, 0.0)), None
-        ),
+        "ordinary: steel on steel": partial(hertz, STEEL),
+        "roller 1e6 times as stiff": partial(hertz, Material(1e6 * 207e9, 0.3)),
+        "roller 1e-6 times as stiff": partial(hertz, Material(1e-6 * 207e9, 0.3)),
+    }
+    ratios = {"0": 0.0, "0.49": 0.49, "0.4999": 0.4999, "0.5 less rounding": np.nextafter(0.5, 0.0)}
+    materials |= {
+        f"Poisson's ratio {words}": partial(hertz_findings, Material(207e9, ratio), None)
+        for words, ratio in ratios.items()
     }
     sizes = {
-        "radius 1e-9 m": SmoothContact(STEEL, STEEL, radius=1e-9),
-        "radius 1e9 m": SmoothContact(STEEL, STEEL, radius=1e9),
-        "load 1e-12 N/m": SmoothContact(STEEL, STEEL, load=1e-12),
-        "load 1e12 N/m": SmoothContact(STEEL, STEEL, load=1e12),
+        "radius 1e-9 m": partial(hertz, STEEL, radius=1e-9),
+        "radius 1e9 m": partial(hertz, STEEL, radius=1e9),
+        "load 1e-12 N/m": partial(hertz, STEEL, load=1e-12),
+        "load 1e12 N/m": partial(hertz, STEEL, load=1e12),
     }
     points = {
         f"{count} points": partial(sized_findings, count)
@@ -211,8 +186,5 @@ def cases() -> list[CheckedCase]:
         for share in (0.5, 1.0 - 1e-6)
     }
     hardnesses["load above what the hardness carries"] = refused_findings
-    hertz = {
-        group: {name: partial(hertz_findings, smooth) for name, smooth in table.items()}
-        for group, table in (("materials", materials), ("size and load", sizes))
-    }
-    return named_cases("half_plane", hertz | {"points": points, "hardness": hardnesses})
+    groups = {"materials": materials, "size and load": sizes}
+    return groups | {"points": points, "hardness": hardnesses}

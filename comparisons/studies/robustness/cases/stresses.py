@@ -13,7 +13,7 @@ from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.stress.elements import hat_stress
 from analytic.stress.field import stress_field
 from analytic.stress.points import stress_at
-from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.checks import BoundedFigure, Findings, Groups
 from comparisons.studies.robustness.many_digits import hat_parts, hertz_parts
 
 DIGITS = 2e-13  # of each component
@@ -122,12 +122,11 @@ def resultant_findings() -> Findings:
     return Findings((BoundedFigure("stress", error, 1e-5, "Flamant, of order 1/distance"),))
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
     named = {}
     for label, z in {"1e-12 a": NEAR, "1e-3 a": 1e-3, "a": 1.0, "1e6 a": FAR}.items():
         named[f"one hat, at {label} below"] = partial(points_findings, hat_at, hat_parts, z)
         named[f"Hertz, at {label} below"] = partial(points_findings, hertz_at, hertz_parts, z)
         named[f"a line of hats, at {label} below"] = partial(line_findings, z)
     named |= {"on the surface": surface_findings, "1e6 a away": resultant_findings}
-    return named_cases("half_plane", {"stress": named})
+    return {"stress": named}

@@ -51,7 +51,6 @@ def rough_mesh(slope: float) -> BlockMesh:
 
 
 def compliance_of(body: ElasticBody, grid: HatGrid = GRID) -> FiniteElementCompliance:
-    """Of the hats of a grid."""
     return FiniteElementCompliance(body, grid.pitch * np.arange(grid.first - 1, grid.last + 2))
 
 

@@ -25,13 +25,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.checks import (
-    BoundedFigure,
-    CheckedCase,
-    Findings,
-    named_cases,
-    relative_error,
-)
+from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
 from comparisons.studies.robustness.cases.smooth import flowed_figure
 from comparisons.studies.robustness.finite_element.loaded_body import (
     MOST_COUPLED_STEPS,
@@ -57,7 +51,6 @@ THICK, MEDIUM, THIN, LOCKING = 8e-3, 3e-3, 1e-4, 1.5e-2
 
 
 def problem_from(tables: Tables) -> Problem:
-    """The problem of a scene given as tables."""
     return problem_of(
         resolve_tables(tables, name="stability", folder=Path("."), source="stability")
     )
@@ -85,14 +78,12 @@ def findings(level: Level, *figures: BoundedFigure, most: int = MOST_STEPS) -> F
 
 
 def hertz_findings(tables: Tables, peak: float = PEAK) -> Findings:
-    """A smooth contact against Hertz's."""
     problem, level = finite_element_solution(tables)
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return findings(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
 def shear_findings(tables: Tables) -> Findings:
-    """The largest principal shear and its depth."""
     problem, level = finite_element_solution({**tables, "stress": {"points": [40, 20]}})
     hertz, found = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
@@ -195,8 +186,7 @@ def with_roller(times_as_stiff: float) -> Tables:
     return {**ORDINARY, "roller": roller}
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
     half_width = problem_from(ORDINARY).hertz.half_width
     nearly_incompressible = {**with_body(poissons_ratio=0.4999), **CUBIC}
     held_close_by = {**ORDINARY, "finite_element": {"far_field": "half-plane"}}
@@ -223,7 +213,7 @@ def cases() -> list[CheckedCase]:
         "Poisson's ratio 0.4999": with_body(poissons_ratio=0.4999),
         "held like a half-plane close by": held_close_by,
     }
-    groups = {
+    return {
         "materials": {name: partial(hertz_findings, given) for name, given in materials.items()}
         | {
             "Poisson's ratio 0.4999, cubic": partial(
@@ -267,4 +257,3 @@ def cases() -> list[CheckedCase]:
             "coating a/50 thick, 3 times as stiff": coated(3.0, 50.0),
         },
     }
-    return named_cases("finite_element", groups)

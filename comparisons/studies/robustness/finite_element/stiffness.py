@@ -11,7 +11,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from analytic.material import Material
-from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.checks import BoundedFigure, Findings, Groups
 from comparisons.studies.robustness.backward_error import (
     EPS,
     THRESHOLD,
@@ -19,11 +19,7 @@ from comparisons.studies.robustness.backward_error import (
     condition_estimate,
     one_norm,
 )
-from comparisons.studies.robustness.finite_element.loaded_body import (
-    BONDED,
-    flat_mesh,
-    rough_mesh,
-)
+from comparisons.studies.robustness.finite_element.loaded_body import BONDED, flat_mesh, rough_mesh
 from fem.body.coating import Coating
 from fem.body.elasticity import ElasticBody, elastic_body
 from fem.body.support import Support
@@ -104,8 +100,7 @@ def body_on(
     return elastic_body(mesh(), material, support, degree=degree, coating=coating)
 
 
-def cases() -> list[CheckedCase]:
-    """The cases of this module."""
+def cases() -> Groups:
     plain = partial(flat_mesh, 40.0, 40.0, 1.5, 0.1)
     graded = partial(flat_mesh, 1.0, 1.0, 1e-6, 1e-7, 0.5)
     thin = partial(flat_mesh, 40.0, 0.1, 1.5, 0.1)
@@ -136,4 +131,4 @@ def cases() -> list[CheckedCase]:
     }
     named = {name: partial(factor_findings, make) for name, make in (bodies | coatings).items()}
     named |= {f"even compression, {name}": partial(even_findings, m) for name, m in even.items()}
-    return named_cases("finite_element", {"stiffness": named})
+    return {"stiffness": named}

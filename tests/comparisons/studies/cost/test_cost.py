@@ -13,10 +13,7 @@ from comparisons.cli import main
 from comparisons.runs.run import run
 from comparisons.studies.cost import methods as cost_methods
 from comparisons.studies.cost.cost import cost
-from comparisons.studies.cost.methods import (
-    FINEST,
-    METHODS,
-)
+from comparisons.studies.cost.methods import FINEST, METHODS
 from comparisons.studies.cost.page import cost_table
 from comparisons.studies.cost.recommend import scene_sections
 from comparisons.studies.cost.result import content_of

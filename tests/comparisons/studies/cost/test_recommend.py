@@ -12,11 +12,7 @@ from comparisons.common.processes import ProcessEnded
 from comparisons.common.progress import no_progress
 from comparisons.report.figures.style import Picture
 from comparisons.studies.cost.measure import MeasuredRun, RefusedRun
-from comparisons.studies.cost.methods import (
-    ADAPTED,
-    FINEST,
-    METHODS,
-)
+from comparisons.studies.cost.methods import ADAPTED, FINEST, METHODS
 from comparisons.studies.cost.page import cells, cost_page, notes_of, refusals, shown
 from comparisons.studies.cost.recommend import AssessedRow, pareto, recommendations
 from comparisons.studies.cost.result import assess, content_of
@@ -114,10 +110,7 @@ class TestRows:
         names = shown(found)
         texts = [cells(found, each, names) for each in found.assessed]
         assert texts[1][-1].endswith("failed") and "skipped" in texts[2]
-        assert refusals(found) == [
-            "P2 5.00 µm failed: why",
-            "P1 skipped: does not apply",
-        ]
+        assert refusals(found) == ["P2 5.00 µm failed: why", "P1 skipped: does not apply"]
         monkeypatch.setattr(
             "comparisons.studies.cost.page.cost_picture", lambda *a: Picture("data:,", "", "")
         )

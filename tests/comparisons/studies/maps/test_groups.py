@@ -106,17 +106,9 @@ class TestGroups:
             (RIGID, "modulus_ratio", "roller.rigid:"),
             (RIGID, "peak_pressure_over_hardness", "body.yield_stress:"),
             (ELASTIC, "a_over_radius", "a_over_radius, which takes finite"),
+            (ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]}, "friction_dundurs", "body:"),
             (
-                ELASTIC | {"roller": {"radius": 0.01} | RIGID["body"]},
-                "friction_dundurs",
-                "body:",
-            ),
-            (
-                {
-                    **RIGID,
-                    "body": {**RIGID["body"], "thickness": 1e-3},
-                    "load": {"approach": 1e-6},
-                },
+                {**RIGID, "body": {**RIGID["body"], "thickness": 1e-3}, "load": {"approach": 1e-6}},
                 "a_over_thickness",
                 "load.approach:",
             ),

@@ -229,9 +229,7 @@ def test_failed_points_are_in_the_map_with_their_reason(scene, tmp_path, monkeyp
     assert [point.why is None for point in request.points] == [True, True, False, False]
     answer = {"found": {"status": "failed", "why": "no"}, "seconds": 0.0}
     monkeypatch.setattr(
-        sweeping,
-        "solve_point",
-        lambda point: answer if point.why is None else solve_point(point),
+        sweeping, "solve_point", lambda point: answer if point.why is None else solve_point(point)
     )
     content = make_map(request, tmp_path / "out", Workers(Fragile(1, set()), 1))
     whys = [point["why"] for point in content["points"]]

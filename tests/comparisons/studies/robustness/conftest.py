@@ -5,13 +5,13 @@ from types import ModuleType
 
 import pytest
 
-from comparisons.studies.checks import CheckedRow, run_case
+from comparisons.studies.checks import CheckedRow, named_cases, run_case
 
 
 @pytest.fixture
 def row_of() -> Callable[[ModuleType, str], CheckedRow]:
     def run(module: ModuleType, name: str) -> CheckedRow:
-        case = next(case for case in module.cases() if case.name == name)
+        case = next(c for c in named_cases("any", module.cases()) if c.name == name)
         return run_case(case)
 
     return run
