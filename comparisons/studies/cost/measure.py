@@ -10,7 +10,7 @@ import statistics
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from comparisons.common.errors import InputError
 from comparisons.common.progress import Stages, peak_memory
@@ -76,11 +76,8 @@ class RefusedRun:
     skipped: bool
 
 
-@dataclass
 class ProcessorStages(Stages):
     """Processor seconds by stage, those of ended child processes included."""
-
-    begun: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
     def stage(self, name: str, announce: str | None = None) -> Iterator[None]:

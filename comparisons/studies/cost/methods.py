@@ -44,17 +44,13 @@ class SolutionMethod:
         return tuple(factor * problem.pitches[0] for factor in factors)
 
 
-FINEST = SolutionMethod(
-    "hats, FFT", "half_plane", "hat"
-)  # reference of the others, where it may be
+FINEST = SolutionMethod("hats, FFT", "half_plane", "hat")  # the others' reference, where it may be
 METHODS = (
     SolutionMethod("strips, FFT", "half_plane", "strip"),
     SolutionMethod("strips, dense", "half_plane", "strip", dense=True),
     FINEST,
     SolutionMethod("hats, dense", "half_plane", "hat", dense=True),
-    SolutionMethod("P1", "finite_element", "P1"),
-    SolutionMethod("P2", "finite_element", "P2"),
-    SolutionMethod("P3", "finite_element", "P3"),
+    *(SolutionMethod(degree, "finite_element", degree) for degree in ("P1", "P2", "P3")),
     SolutionMethod(ADAPTED, "finite_element", "P2"),
 )
 
@@ -95,12 +91,7 @@ def is_half_plane_problem(problem: Problem) -> bool:
     flat = settings.geometry == "flat" or scene.profile is None
     linear = settings.deformation == "linear" and not settings.plastic
     moves = bool(any(scene.friction) and problem.dundurs_beta)
-    return (
-        unbounded
-        and flat
-        and linear
-        and settings.gap == "reference"
-        and settings.roller_shape == "parabola"
-        and settings.roller_body == "half-plane"
-        and (settings.coupled == scene.coupled or not moves)
-    )
+    same_traction = settings.coupled == scene.coupled or not moves
+    shapes = (settings.gap, settings.roller_shape, settings.roller_body)
+    same_shapes = shapes == ("reference", "parabola", "half-plane")
+    return unbounded and flat and linear and same_shapes and same_traction

@@ -36,15 +36,15 @@ def cost_table(cost: Cost) -> "RenderableType":
         style = styles.get(each.row.status, STYLES["inconclusive"])
         table.add_row(*(Text(c.translate(PLAIN), style=style) for c in cells(cost, each, names)))
     lines = [Text(each.sentence.translate(PLAIN)) for each in cost.recommendations]
-    notes = [
-        Text(line.translate(PLAIN), style="dim") for line in [*refusals(cost), *notes_of(cost)]
-    ]
+    small = [*refusals(cost), *notes_of(cost)]
+    notes = [Text(line.translate(PLAIN), style="dim") for line in small]
     title = Text(cost.problem.scene.title, style="bold")
     return Group(title, "", table, "", *lines, "", *notes)
 
 
 def cost_page(cost: Cost) -> str:
     names = shown(cost)
+    head = ("method", "setting", "unknowns", "contact", "with stresses", "memory")
     with drawing():
         pictures = [cost_picture(cost, name) for name in cost.references if name not in REDUNDANT]
     return rendered(
@@ -53,10 +53,7 @@ def cost_page(cost: Cost) -> str:
         title=f"Cost: {cost.problem.scene.title}",
         recommendations=[(each.sentence, _settings(cost, each)) for each in cost.recommendations],
         pictures=pictures,
-        head=(
-            *("method", "setting", "unknowns", "contact", "with stresses", "memory"),
-            *map(label, names),
-        ),
+        head=(*head, *map(label, names)),
         rows=[(each.row.status, cells(cost, each, names)) for each in cost.assessed],
         refusals=refusals(cost),
         notes=notes_of(cost),

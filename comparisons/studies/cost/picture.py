@@ -22,6 +22,7 @@ LOOKS = {
     "P3": ("#009E73", DASHED, "s"),
     "P2 adapted": ("#E69F00", DASHED, "P"),
 }
+SMALL = {"textcoords": "offset points", "fontsize": 8.0}
 HEIGHT = 3.9
 LEAST = 1e-7  # smaller errors are drawn there
 
@@ -42,62 +43,30 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
         ]
         if points:
             colour, line, mark = LOOKS[method.name]
-            axes.plot(
-                *zip(*points, strict=True),
-                color=colour,
-                linestyle=line,
-                marker=mark,
-                markersize=4.5,
-                linewidth=1.1,
-                label=method.name,
-            )
+            look = {"color": colour, "linestyle": line, "marker": mark, "markersize": 4.5}
+            axes.plot(*zip(*points, strict=True), linewidth=1.1, label=method.name, **look)
     front = [
         (each.row.seconds(stresses), max(each.errors[quantity], floor))
         for each in cost.fronts[quantity]
     ]
     if front:
-        axes.plot(
-            *zip(*front, strict=True),
-            linestyle="none",
-            marker="o",
-            markersize=10.0,
-            markerfacecolor="none",
-            markeredgecolor="#222222",
-            markeredgewidth=0.9,
-            label="Pareto front",
-        )
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+        look = {"linestyle": "none", "marker": "o", "markersize": 10.0, "markerfacecolor": "none"}
+        look |= {"markeredgecolor": "#222222", "markeredgewidth": 0.9}
+        axes.plot(*zip(*front, strict=True), label="Pareto front", **look)
+    axes.set(xscale="log", yscale="log")
     first, last = axes.get_xlim()
     if reference.row is not None and math.isfinite(floor):
         low = min(axes.get_ylim()[0], 0.5 * floor)
         axes.axhspan(low, floor, facecolor="#eceff1", zorder=0)
         axes.set_ylim(bottom=low)
-        axes.annotate(
-            f"reference uncertain to {percent(floor)}",
-            (last, floor),
-            (-3, -3),
-            textcoords="offset points",
-            ha="right",
-            va="top",
-            fontsize=8.0,
-            color="#555555",
-        )
+        look = {"ha": "right", "va": "top", "color": "#555555", **SMALL}
+        axes.annotate(f"reference uncertain to {percent(floor)}", (last, floor), (-3, -3), **look)
     tolerance = cost.problem.scene.tolerance.get(quantity)
     if tolerance is not None:
         axes.axhline(tolerance, **REFERENCE)
-        axes.annotate(
-            f"tolerance {given_percent(tolerance)}",
-            (first, tolerance),
-            (3, 3),
-            textcoords="offset points",
-            fontsize=8.0,
-        )
-    axes.set_xlim(first, last)
-    axes.set_xlabel(
-        "processor time [s]" + (", stresses included" if stresses else ", contact alone")
-    )
-    axes.set_ylabel("relative error")
+        axes.annotate(f"tolerance {given_percent(tolerance)}", (first, tolerance), (3, 3), **SMALL)
+    part = "stresses included" if stresses else "contact alone"
+    axes.set(xlim=(first, last), xlabel=f"processor time [s], {part}", ylabel="relative error")
     drawn.legend(loc="upper left", ncol=4, bbox_to_anchor=(0.1, 1.0), columnspacing=1.2)
     return Picture(
         source=data_uri(drawn),

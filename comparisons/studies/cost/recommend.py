@@ -115,32 +115,21 @@ def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
     The mesh grows at that level as it did when it was measured; in a stress window its elements are
     as small as on the scene's own third level. `run` refines on only while a tolerance is open.
     """
-    levels = 3
     low, high = problem.extent
-    while high - low < FEWEST_ELEMENTS * row.setting * 2.0 ** (levels - 1) and levels > 2:
-        levels -= 1
-    sections: dict[str, dict] = {
-        "resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}
-    }
+    levels = 2 if high - low < FEWEST_ELEMENTS * row.setting * 4.0 else 3
+    sections = {"resolution": {"pitch": row.setting * 2.0 ** (levels - 1), "levels": levels}}
     if row.method.model == "finite_element":
-        growth = problem.scene.finite_element.growth * COARSER_GROWTH ** problem.coarser(
-            row.setting
-        )
+        coarser = problem.coarser(row.setting)
+        growth = problem.scene.finite_element.growth * COARSER_GROWTH**coarser
         growth = min(growth, STEEPEST_GROWTH) / COARSER_GROWTH ** (3 - levels)
-        sections["finite_element"] = {
-            "element": row.method.element,
-            "growth": float(f"{growth:.4g}"),
-        }
+        finite_element = {"element": row.method.element, "growth": float(f"{growth:.4g}")}
+        sections["finite_element"] = finite_element
     return sections
 
 
-def _sentence(
-    tolerances: Tolerances,
-    floors: dict[str, float],
-    half_plane: AssessedRow | None,
-    finite_element: AssessedRow | None,
-    best: AssessedRow | None,
-) -> str:
+def _sentence(tolerances: Tolerances, floors: dict[str, float], *rows: AssessedRow | None) -> str:
+    """`rows`: the cheapest half-plane, the cheapest finite elements, the cheapest of all."""
+    half_plane, finite_element, best = rows
     aim = "all tolerances of the scene"
     if len(tolerances) == 1:
         [(name, tolerance)] = tolerances.items()

@@ -101,12 +101,10 @@ def _norms(
 def _exact(problem: Problem, window: Window | None) -> dict[str, Reference]:
     hertz, frictions = problem.hertz, problem.scene.friction
     x = np.linspace(*problem.extent, EXACT_POINTS)
-    values: dict[str, tuple[float, ...]] = {
-        "peak_pressure": (hertz.peak_pressure,) * len(frictions),
-        "contact_length": (2.0 * hertz.half_width,) * len(frictions),
-        "contact_ratio": (1.0,) * len(frictions),
-        "pressure_l2": (),
-    }
+    figures = {"peak_pressure": hertz.peak_pressure, "contact_length": 2.0 * hertz.half_width}
+    figures["contact_ratio"] = 1.0
+    values = {name: (value,) * len(frictions) for name, value in figures.items()}
+    values["pressure_l2"] = ()
     tau1: tuple[np.ndarray, ...] = ()
     if window is not None:
         known = [hertz_extremes(hertz, friction) for friction in frictions]

@@ -82,12 +82,8 @@ def content_of(cost: Cost) -> dict:
         "schema": SCHEMA,
         "scene": cost.problem.scene.as_dict(),
         "reference": {
-            name: {
-                "source": cost.references[name].source,
-                "values": list(cost.references[name].values),
-                "uncertainty": cost.references[name].floor,
-            }
-            for name in names
+            name: {"source": r.source, "values": list(r.values), "uncertainty": r.floor}
+            for name, r in ((name, cost.references[name]) for name in names)
         },
         "rows": [_row(cost, each) for each in cost.assessed],
         "recommendations": [

@@ -92,24 +92,17 @@ def _plain_half_plane(
         operator = HalfPlane(grid.count, pitch, problem.modulus, element=method.element)
         if method.dense:
             operator = DenseCompliance(operator.block(np.arange(grid.count)))
-        weighted_gap = (
-            pitch * problem.gap(grid.x)
-            if strips
-            else grid.hat_integrals(problem.gap, problem.knots)
-        )
+        if strips:
+            weighted_gap = pitch * problem.gap(grid.x)
+        else:
+            weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
         solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
         if strips:
             patches = touching_strips(grid, solution)
         else:
             patches = contact_patches(grid.x, solution.pressure, solution.gap)
-        level = Level(
-            grid=grid,
-            solution=solution,
-            displacement=np.zeros(grid.count),
-            patches=patches,
-            seconds=stages.seconds,
-            unknowns=grid.count,
-        )
+        zero = np.zeros(grid.count)
+        level = Level(grid, solution, zero, patches, stages.seconds, unknowns=grid.count)
     if window is None:
         return level
     with stages.stage("stresses"):

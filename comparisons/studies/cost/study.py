@@ -129,7 +129,7 @@ def measured_study(
             part = within(callback, number / len(methods), (number + 1) / len(methods))
             found = _series(method, problem, repeats, left, run, part)
             if _wants_far_boundary_check(method, problem) and found[0].status == OK:
-                task = _task(problem, method, found[0].setting, 1, 0.0, half_block=True)
+                task = _task(problem, method, found[0].setting, half_block=True)
                 again = run(task)
                 if isinstance(again, MeasuredRun):
                     check[method.name] = again
@@ -147,16 +147,15 @@ def _series(
     callback: ProgressCallback,
 ) -> list[CostRow]:
     """The rows of a method, in the processor seconds that are `left` for it."""
-    rows, settings, ended = [], method.settings(problem), None
+    rows, settings, ended, expected = [], method.settings(problem), None, 0.0
     growth = DENSE_GROWTH if method.dense else GROWTH[method.model]
-    expected = 0.0
     for number, setting in enumerate(settings, start=1):
         label = CostRow(method, setting, OK).label
         name = f"{method.name}: {label} ({number} of {len(settings)})"
         callback(Step(name, (number - 1) / len(settings)))
         because = ended
-        if because is None and method.dense and problem.grid(setting).count > MOST_DENSE:
-            count = problem.grid(setting).count
+        count = problem.grid(setting).count if method.dense else 0
+        if because is None and count > MOST_DENSE:
             because = f"{count} elements; a dense matrix is made of at most {MOST_DENSE}"
         if because is None and expected > left:
             because = (
@@ -167,7 +166,7 @@ def _series(
             rows.append(CostRow(method, setting, SKIPPED, because))
             continue
         limit = MOST_OF_REST * max(left, 0.0)
-        found = run(_task(problem, method, setting, repeats, limit))
+        found = run(_task(problem, method, setting, repeats=repeats, limit=limit))
         rows.append(_row(method, setting, found))
         if found is None:
             ended = "the process that measured had ended"
@@ -193,7 +192,10 @@ def _cached(cache: Cache, call: Call) -> Measure:
     def measured(task: CostTask) -> MeasuredRun | RefusedRun | None:
         found = cache.load(task.name)
         if found is None:
-            found = _carried_out(call, task)
+            try:
+                found = call(measure, task)
+            except ProcessEnded:
+                return None
             if isinstance(found, MeasuredRun):
                 cache.save(task.name, found)
         return found
@@ -201,24 +203,11 @@ def _cached(cache: Cache, call: Call) -> Measure:
     return measured
 
 
-def _carried_out(call: Call, task: CostTask) -> MeasuredRun | RefusedRun | None:
-    try:
-        return call(measure, task)
-    except ProcessEnded:
-        return None
-
-
-def _task(
-    problem: Problem,
-    method: SolutionMethod,
-    setting: float,
-    repeats: int,
-    limit: float,
-    half_block: bool = False,
-) -> CostTask:
+def _task(problem: Problem, method: SolutionMethod, setting: float, **given: float) -> CostTask:
+    """`given`: repeats, limit, half_block."""
     prescribed = problem.scene.load.kind == "approach"
     load = problem.hertz.load_per_length if prescribed else None
-    return CostTask(problem.scene, load, method.name, setting, repeats, limit, half_block)
+    return CostTask(problem.scene, load, method.name, setting, **given)
 
 
 def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:

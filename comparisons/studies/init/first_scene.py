@@ -113,9 +113,8 @@ def _fitting(profile: Path, out: Path, found: ProfileFields) -> tuple[str, Resol
     for radius in RADII:
         text = _text(profile, out, found, radius)
         try:
-            scene = resolve_tables(
-                tomllib.loads(text), name=out.stem, folder=out.parent, source=str(out)
-            )
+            tables = tomllib.loads(text)
+            scene = resolve_tables(tables, name=out.stem, folder=out.parent, source=str(out))
             problem_of(scene)
             return text, scene
         except SceneError as error:

@@ -95,11 +95,8 @@ def units_by_size(x: np.ndarray, height: np.ndarray) -> dict[str, Guess]:
         ("x_unit", np.median(np.diff(x)), TYPICAL_SPACING),
         ("z_unit", np.std(rough), TYPICAL_HEIGHT),
     ):
-        far = [
-            abs(np.log10(max(size, 1e-300) * unit_in_si(unit, LENGTH) / typical))
-            for unit in BY_SIZE[name]
-        ]
-        unit = BY_SIZE[name][int(np.argmin(far))]
+        sizes = [max(size, 1e-300) * unit_in_si(unit, LENGTH) for unit in BY_SIZE[name]]
+        unit = BY_SIZE[name][int(np.argmin([abs(np.log10(size / typical)) for size in sizes]))]
         found[name] = Guess(f'"{unit}"', "guessed by size alone, the file names none: check it")
     return found
 

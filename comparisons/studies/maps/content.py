@@ -27,9 +27,8 @@ def map_content(request: MapRequest, cache: Cache) -> dict:
     points = []
     for point in request.points:
         found = cache.load(point.key)["found"]
-        points.append(
-            {"x": point.x, "y": point.y, **found, **significance(found, request.quantity)}
-        )
+        known = significance(found, request.quantity)
+        points.append({"x": point.x, "y": point.y, **found, **known})
     content = {
         "schema": SCHEMA,
         "command": request.command,

@@ -15,6 +15,7 @@ import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -102,12 +103,8 @@ def _half_width(tables: dict, origin: Origin) -> float:
     return smooth_problem(tables, origin).hertz.half_width
 
 
-def _set_thickness(tables: dict, value: float, origin: Origin) -> None:
-    tables["body"]["thickness"] = _half_width(tables, origin) / value
-
-
-def _set_width(tables: dict, value: float, origin: Origin) -> None:
-    tables["body"]["width"] = _half_width(tables, origin) / value
+def _set_size(name: str, tables: dict, value: float, origin: Origin) -> None:
+    tables["body"][name] = _half_width(tables, origin) / value
 
 
 def _set_radius(tables: dict, value: float, origin: Origin) -> None:
@@ -195,13 +192,14 @@ def _set_slope(tables: dict, value: float, origin: Origin) -> None:
 
 
 ROUGH_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
-HELD_BOUNDARY = {"far_field": "held"}
 
 GROUPS: dict[str, Group] = {
-    "a_over_thickness": Group(
-        "a/t", "half-width over thickness", (0.05, 5.0), _set_thickness, HELD_BOUNDARY
-    ),
-    "a_over_width": Group("a/w", "half-width over width", (0.02, 0.4), _set_width, HELD_BOUNDARY),
+    **{
+        f"a_over_{size}": Group(
+            symbol, f"half-width over {size}", span, partial(_set_size, size), {"far_field": "held"}
+        )
+        for size, symbol, span in (("thickness", "a/t", (0.05, 5.0)), ("width", "a/w", (0.02, 0.4)))
+    },
     "a_over_radius": Group(
         "a/R",
         "half-width over radius",

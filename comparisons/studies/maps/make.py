@@ -81,6 +81,5 @@ def make_map_by(
 def exit_status(content: dict) -> ExitStatus:
     """3 where a solver did not converge at a point."""
     whys = [point["why"] for point in content["points"] if point["status"] == FAILED]
-    return (
-        ExitStatus.NOT_CONVERGED if any(NOT_CONVERGED in why for why in whys) else ExitStatus.DONE
-    )
+    failed = any(NOT_CONVERGED in why for why in whys)
+    return ExitStatus.NOT_CONVERGED if failed else ExitStatus.DONE

@@ -42,8 +42,7 @@ def map_figure(content: dict) -> "Figure":
     axes = drawn.add_axes(BOX)
     x, y = (_places(content[name]) for name in ("x", "y"))
     edges = _edges(x), _edges(y)
-    axes.set_xlim(edges[0][[0, -1]])
-    axes.set_ylim(edges[1][[0, -1]])
+    axes.set(xlim=edges[0][[0, -1]], ylim=edges[1][[0, -1]])
     axes.grid(False)
     kinds = _cells(axes, content, edges)
     lines = _lines(axes, content, x, y)
@@ -92,17 +91,10 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             if columns <= LETTERED:
                 ink = "white" if share > LIGHT else "black"
                 text = f"{100.0 * error:+#.2g}".rstrip(".").replace("-", "−")
-                axes.text(
-                    *middle,
-                    text,
-                    color=ink,
-                    fontsize=7.0,
-                    ha="center",
-                    va="center",
-                    zorder=4,
-                    # lines stop short of letters
-                    bbox={"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8},
-                )
+                # lines stop short of letters
+                box = {"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8}
+                letters = {"color": ink, "fontsize": 7.0, "ha": "center", "va": "center"}
+                axes.text(*middle, text, zorder=4, bbox=box, **letters)
         else:
             kinds.add(point["error"])
             look |= {"hatch": HATCHES[point["error"]], "edgecolor": "#777777"}
@@ -120,6 +112,8 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
 
     Returns the style of the line of every tolerance that the map reaches.
     """
+    from matplotlib.patheffects import Normal, Stroke
+
     error = np.full((len(y), len(x)), np.nan)
     for number, point in enumerate(content["points"]):
         found = point.get("quantities", {}).get(content["quantity"])
@@ -131,28 +125,16 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
             if np.nanmax(side * error, initial=-np.inf) <= tolerance:
                 continue
             drawn[tolerance] = style
-            found = axes.contour(
-                x,
-                y,
-                np.ma.masked_invalid(_scaled(side * error)),
-                levels=[_scaled(tolerance)],
-                colors="#D55E00",
-                linewidths=1.3,
-                linestyles=[style],
-            )
-            found.set(path_effects=_halo())
+            scaled = np.ma.masked_invalid(_scaled(side * error))
+            look = {"colors": "#D55E00", "linewidths": 1.3, "linestyles": [style]}
+            found = axes.contour(x, y, scaled, levels=[_scaled(tolerance)], **look)
+            found.set(path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()])
     return drawn
 
 
 def _scaled(error: np.ndarray | float) -> np.ndarray | float:
     """Nearly logarithmic for either sign."""
     return np.arcsinh(np.asarray(error) / SMALLEST)
-
-
-def _halo() -> list:
-    from matplotlib.patheffects import Normal, Stroke
-
-    return [Stroke(linewidth=2.6, foreground="white"), Normal()]
 
 
 def _ticks(side: object, axis: dict, places: np.ndarray) -> None:
@@ -191,10 +173,9 @@ def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, obj
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
+    look = {"color": "#D55E00", "linewidth": 1.3}
     entries = [
-        Line2D(
-            [], [], color="#D55E00", linewidth=1.3, linestyle=style, label=f"error of {100 * t:g} %"
-        )
+        Line2D([], [], linestyle=style, label=f"error of {100 * t:g} %", **look)
         for t, style in lines.items()
     ]
     first = f"{100.0 * content['tolerances'][0]:g} %"
@@ -209,13 +190,6 @@ def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, obj
     if FAILED in kinds:
         cross = {"marker": "x", "color": "#222222", "linestyle": "none"}
         entries.append(Line2D([], [], label="failed", **cross))
-    if not entries:
-        return
-    axes.legend(
-        handles=entries,
-        loc="upper left",
-        bbox_to_anchor=(-0.1, -0.115),
-        ncols=4,
-        borderaxespad=0.0,
-        columnspacing=1.4,
-    )
+    if entries:
+        place = {"loc": "upper left", "bbox_to_anchor": (-0.1, -0.115), "borderaxespad": 0.0}
+        axes.legend(handles=entries, ncols=4, columnspacing=1.4, **place)

@@ -185,19 +185,13 @@ def model_errors(
     one, other = (figures(level, problem, friction) for level in finest)
     found = {}
     for name in (name for name in QUANTITIES if name in history[-1]):
-        convergence = grid_convergence(
-            [level[name] for level in history],
-            QUANTITIES[name].formal_order,
-            relative_resolution(*finest) if name in LENGTHS else 0.0,
-        )
+        values = [level[name] for level in history]
+        resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
+        convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         domain = far_boundary(moved[name], history[0][name])
         uncertainty = convergence.uncertainty + domain + summed_iteration(*finest)
-        found[name] = PointError(
-            one.get(name),
-            other.get(name),
-            history[-1][name],
-            float(uncertainty) if np.isfinite(uncertainty) else None,
-        )
+        known = float(uncertainty) if np.isfinite(uncertainty) else None
+        found[name] = PointError(one.get(name), other.get(name), values[-1], known)
     return found
 
 

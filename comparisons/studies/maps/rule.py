@@ -17,6 +17,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+Range = tuple[float, float]
 STEP = 0.05  # of exponents
 FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
 
@@ -39,7 +40,7 @@ class Rule:
     side: str
     coefficient: float | None
     exponent: float
-    other_range: tuple[float, float]
+    other_range: Range
     points_inside: int
     points_within: int
     largest_error: float | None
@@ -103,20 +104,9 @@ def _rule(
             f" ({count} of {worst.size} points, largest {100.0 * largest:.2g} %; "
             f"{within} points are within it)"
         )
-    return Rule(
-        tolerance=tolerance,
-        group=axis["group"],
-        other_group=other["group"],
-        side=side,
-        coefficient=coefficient,
-        exponent=exponent,
-        other_range=span,
-        points_inside=count,
-        points_within=within,
-        largest_error=largest,
-        law=law,
-        text=text,
-    )
+    groups = axis["group"], other["group"]
+    points = count, within, largest
+    return Rule(tolerance, *groups, side, coefficient, exponent, span, *points, law, text)
 
 
 def _runs(count: int) -> list[slice]:
@@ -182,12 +172,7 @@ def _round_in(limit: float, logarithmic: bool, side: str) -> float:
 
 
 def _law(
-    axis: dict,
-    other: dict,
-    side: str,
-    coefficient: float | None,
-    exponent: float,
-    span: tuple[float, float],
+    axis: dict, other: dict, side: str, coefficient: float | None, exponent: float, span: Range
 ) -> str:
     parts = []
     if coefficient is not None:

@@ -62,10 +62,9 @@ def _models(paper: "Paper") -> TextTable:
     rows = []
     for name, outcome in paper.outcomes.items():
         for friction in outcome.problem.scene.friction:
-            found = {c.quantity: c for c in outcome.comparisons if c.friction == friction}
-            cells = [
-                _difference(found[quantity]) if quantity in found else UNKNOWN for quantity in SHOWN
-            ]
+            compared = [c for c in outcome.comparisons if c.friction == friction]
+            found = {c.quantity: _difference(c) for c in compared}
+            cells = [found.get(quantity, UNKNOWN) for quantity in SHOWN]
             rows.append((_short(name), f"{friction:g}", *cells))
     head = ("surface", "friction", *SHOWN.values())
     return TextTable("How far the two models are apart", head, tuple(rows))
@@ -88,25 +87,14 @@ def _surfaces(paper: "Paper") -> TextTable:
         half_plane, finite_element = (run.finest for run in outcome.runs.values())
         profile = (UNKNOWN,) * 4
         if info is not None:
-            profile = (
-                with_unit(info.roughness.ra, "m", 3),
-                with_unit(info.roughness.rq, "m", 3),
-                significant(info.roughness.rms_slope, 2),
-                with_unit(info.spacing, "m", 3),
-            )
+            lengths = info.roughness.ra, info.roughness.rq, info.spacing
+            ra, rq, spacing = (with_unit(length, "m", 3) for length in lengths)
+            profile = (ra, rq, significant(info.roughness.rms_slope, 2), spacing)
         unknowns = (integer(level.unknowns) for level in (half_plane, finite_element))
         pitch = with_unit(half_plane.grid.pitch, "m", 3)
         rows.append((_short(name), *profile, pitch, *unknowns))
-    head = (
-        "surface",
-        "Ra",
-        "Rq",
-        "rms slope",
-        "sampling interval",
-        "pressure element, finest",
-        "unknowns, half-plane",
-        "unknowns, finite elements",
-    )
+    head = ("surface", "Ra", "Rq", "rms slope", "sampling interval", "pressure element, finest")
+    head += ("unknowns, half-plane", "unknowns, finite elements")
     return TextTable("Surfaces, and how finely they were solved", head, tuple(rows))
 
 

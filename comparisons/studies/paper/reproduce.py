@@ -79,23 +79,14 @@ class Paper:
             "schema": SCHEMA,
             "source": SOURCE,
             "hertz": {
-                "half_width": hertz.half_width,
-                "peak_pressure": hertz.peak_pressure,
-                "tau1_max": hertz.tau1_max,
-                "tau1_max_depth": hertz.tau1_max_depth,
+                name: getattr(hertz, name)
+                for name in ("half_width", "peak_pressure", "tau1_max", "tau1_max_depth")
             },
             "claims": [each.as_dict() for each in self.judged],
-            "outcomes": {
-                outcome: sum(each.outcome == outcome for each in self.judged)
-                for outcome in OUTCOMES
-            },
+            "outcomes": {kind: sum(j.outcome == kind for j in self.judged) for kind in OUTCOMES},
             "surfaces": {
-                name: {
-                    "surface": SURFACES[name],
-                    "profile": outcome.result["profile"],
-                    "models": outcome.result["models"],
-                    "comparison": outcome.result["comparison"],
-                }
+                name: {"surface": SURFACES[name]}
+                | {part: outcome.result[part] for part in ("profile", "models", "comparison")}
                 for name, outcome in self.outcomes.items()
             },
             "seconds": self.seconds,
@@ -164,13 +155,6 @@ def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback) -> Outc
         cache = level_cache(Path(folder) / "run", scene, plan)
         runs, stop = refined(problem, plan, window, cache, callback)
     comparisons = compared(problem, runs, window)
-    return Outcome(
-        problem=problem,
-        plan=plan,
-        window=window,
-        runs=runs,
-        comparisons=comparisons,
-        result=result_of(problem, plan, runs, comparisons, stop),
-        record=record_of(scene, runs, {}),
-        directory=out,
-    )
+    result = result_of(problem, plan, runs, comparisons, stop)
+    record = record_of(scene, runs, {})
+    return Outcome(problem, plan, window, runs, comparisons, result, record, directory=out)

@@ -129,10 +129,8 @@ class Pair:
         return asdict(self) | {
             "error": self.error,
             "uncertainty": {
-                "iteration": stated.iteration,
-                "discretisation": stated.discretisation,
-                "domain": stated.domain,
-                "total": self.stated,
+                part: getattr(stated, part)
+                for part in ("iteration", "discretisation", "domain", "total")
             },
             "covered": self.covered,
             "overestimation_ratio": self.overestimation,
@@ -185,13 +183,9 @@ def coverage(pairs: Iterable[Pair]) -> Coverage:
     if not informative:
         return Coverage(len(pairs), 0, np.nan, np.nan, np.nan)
     ratios = [pair.overestimation for pair in informative]
-    return Coverage(
-        len(pairs),
-        len(informative),
-        float(np.mean([pair.covered for pair in informative])),
-        float(np.median(ratios)),
-        float(np.quantile(ratios, 0.9)),
-    )
+    share = float(np.mean([pair.covered for pair in informative]))
+    median, high = float(np.median(ratios)), float(np.quantile(ratios, 0.9))
+    return Coverage(len(pairs), len(informative), share, median, high)
 
 
 def coverage_case(pairs: Iterable[Pair], fewest: int = FEWEST) -> CheckedCase:
@@ -223,22 +217,14 @@ def order_cases(rows: Iterable[CheckedRow]) -> list[CheckedCase]:
         for pair in row.findings.pairs:
             if pair.kind == "Hertz" and (pair.model, pair.quantity) in ORDERS:
                 errors[pair.model, pair.quantity].append(pair.errors)
-    return [
-        CheckedCase(
-            "order",
-            f"{name}, {len(found)} contacts",
-            model,
-            partial(_order, found, *ORDERS[model, name]),
-        )
-        for (model, name), found in errors.items()
-        if len(found) >= FEWEST_CONTACTS
-    ]
-
-
-def _order(errors: Sequence[Sequence[float]], expected: float, margin: float) -> Findings:
-    reference = "the exact contacts"
-    figure = order_figure("observed order", observed_order(errors), expected, margin, reference)
-    return Findings((figure,))
+    cases = []
+    for (model, name), found in errors.items():
+        if len(found) >= FEWEST_CONTACTS:
+            order = observed_order(found), *ORDERS[model, name]
+            figures = (order_figure("observed order", *order, "the exact contacts"),)
+            words = f"{name}, {len(found)} contacts"
+            cases.append(CheckedCase("order", words, model, partial(Findings, figures)))
+    return cases
 
 
 @dataclass(frozen=True)

@@ -100,6 +100,7 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
         resolution = length_resolution(grid.pitch, 1) if quantity == "contact_length" else 0.0
         convergence = grid_convergence(values, order, resolution)
         scale = abs(values[-1])
+        error = convergence.uncertainty / scale
         found.append(
             Pair(
                 case=f"{case.name}, {elements:g} elements",
@@ -110,9 +111,7 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
                 levels=tuple(values),
                 exact=float(exact),
                 scale=scale,
-                uncertainty=Uncertainty(
-                    iteration, convergence.uncertainty / scale, 0.0, convergence
-                ),
+                uncertainty=Uncertainty(iteration, error, 0.0, convergence),
                 converged=all(s.converged for _, s in levels),
             )
         )
@@ -128,10 +127,8 @@ def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSol
     else:
         grid = HatGrid.within(*case.span, pitch)
     weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
-    solution = solve_contact(
-        case.make(grid), weighted_gap, grid.weights, Constraints(load=case.load)
-    )
-    return grid, solution
+    load = Constraints(load=case.load)
+    return grid, solve_contact(case.make(grid), weighted_gap, grid.weights, load)
 
 
 def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:

@@ -54,14 +54,11 @@ def verify_page(found: Verification) -> str:
         ]
         for pair in found.pairs
     ]
+    other = ("group", "measured", "value", "bound", "holds")
     exact = ("model", "case", "quantity", "exact", "error", "uncertainty", "ratio", "covered")
     tables = [
         ("Coverage", ("model", "quantity", *COLUMNS), _coverage_rows(found)),
-        (
-            "Orders, manufactured solutions, independent solver",
-            ("group", "measured", "value", "bound", "holds"),
-            figures,
-        ),
+        ("Orders, manufactured solutions, independent solver", other, figures),
         ("Figures", exact, pairs),
     ]
     title = f"{'Holds' if found.holds else 'Does not hold'}: {coverage_line(found)}"
@@ -77,13 +74,9 @@ def _coverage_rows(found: Verification) -> list[tuple[str, ...]]:
 def _cells(group: Coverage) -> tuple[str, ...]:
     if not group.informative:
         return (str(group.count), "0", "", "", "")
-    return (
-        str(group.count),
-        str(group.informative),
-        f"{100.0 * group.covered:.1f} %",
-        f"{group.median_overestimation:.1f}",
-        f"{group.overestimation_quantile:.1f}",
-    )
+    ratios = group.median_overestimation, group.overestimation_quantile
+    covered = f"{100.0 * group.covered:.1f} %"
+    return (str(group.count), str(group.informative), covered, *(f"{r:.1f}" for r in ratios))
 
 
 def _yes(true: bool) -> str:

@@ -19,6 +19,8 @@ CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
 OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
 ORDER = 1.0  # formal, of what is read: with it a regular sequence gets the widest margin
 
+PLAIN = ("key", "figure", "title", "text", "measure", "scene")  # fields of a claim in paper.json
+
 Bounds = tuple[float, float]
 
 
@@ -102,12 +104,7 @@ class JudgedClaim:
         """For paper.json: None stands for what is infinite."""
         claim = self.claim
         return {
-            "key": claim.key,
-            "figure": claim.figure,
-            "title": claim.title,
-            "text": claim.text,
-            "measure": claim.measure,
-            "scene": claim.scene,
+            **{name: getattr(claim, name) for name in PLAIN},
             "unit": {"p₀": "p0"}.get(claim.unit, claim.unit),
             "confirmed_within": [_finite(bound) for bound in claim.confirms],
             "denied_outside": [_finite(bound) for bound in claim.allows or claim.confirms],

@@ -43,34 +43,21 @@ def _axis_picture(smooth: Outcome, depth: float, low: float, high: float) -> Pic
             at = np.flatnonzero(view.z <= depth * (1.0 + 1e-9))
             at = at[:: max(1, len(at) // 16)]
             middle = int(np.argmin(np.abs(view.x)))
-            axes.plot(
-                getattr(view.stress(0.0), part)[at, middle],
-                view.z[at],
-                linestyle="none",
-                marker=markers[name],
-                markersize=4.5,
-                markerfacecolor="none",
-                color=colour,
-                label=f"{symbol}, {LABELS[name]}",
-            )
+            found = getattr(view.stress(0.0), part)[at, middle]
+            look = {"marker": markers[name], "markersize": 4.5, "markerfacecolor": "none"}
+            look |= {"linestyle": "none", "color": colour, "label": f"{symbol}, {LABELS[name]}"}
+            axes.plot(found, view.z[at], **look)
         place = 0.82 * depth
         value = float(np.interp(place, fine, values))
         axes.annotate(symbol, (value, place), (7, 4), textcoords="offset points", color=colour)
     if depth <= SHALLOW:
         pitch = smooth.runs["half_plane"].finest.grid.pitch / hertz.half_width
         axes.axhline(pitch, color="#555555", linestyle="-.", linewidth=0.9)
-        axes.annotate(
-            "one pressure element",
-            (high, pitch),
-            (-4, 3),
-            textcoords="offset points",
-            ha="right",
-            size=8,
-        )
+        look = {"textcoords": "offset points", "ha": "right", "size": 8}
+        axes.annotate("one pressure element", (high, pitch), (-4, 3), **look)
     axes.set(xlim=(low, high), ylim=(depth, 0.0), xlabel="stress/p₀", ylabel="z/a")
-    axes.legend(
-        loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, borderaxespad=0.1, handlelength=1.0
-    )
+    place = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "borderaxespad": 0.1}
+    axes.legend(ncols=2, handlelength=1.0, **place)
     near = " near the surface" if depth <= SHALLOW else ""
     return Picture(
         source=data_uri(drawn),
@@ -125,13 +112,8 @@ def edge_section_picture(outcomes: dict[str, Outcome]) -> Picture:
         for axes in (whole, near):
             _section(axes, outcomes[scene], 1.0, friction, colour, words)
         hertz, level = outcomes[scene].problem.hertz, outcomes[scene].runs["half_plane"].finest
-        stress = stress_at(
-            level.grid.x,
-            level.solution.pressure,
-            friction,
-            hertz.half_width,
-            [NEAR * hertz.half_width],
-        )
+        a, pressure = hertz.half_width, level.solution.pressure
+        stress = stress_at(level.grid.x, pressure, friction, a, [NEAR * a])
         value = significant(float(stress.tau1[0] / hertz.peak_pressure), 3)
         found.append(f"{words}: {value} p₀")
     _finish(whole, near)
@@ -176,11 +158,9 @@ def _section(
 
 
 def _smooth_section(axes: "Axes", outcome: Outcome, x: float, colour: str, words: str) -> None:
-    hertz = outcome.problem.hertz
-    z = np.linspace(0.0, DEEPEST, 200)
+    hertz, z = outcome.problem.hertz, np.linspace(0.0, DEEPEST, 200)
     exact = hertz_stress(hertz, x * hertz.half_width, z * hertz.half_width).tau1
-    style = {**REFERENCE, "color": colour}
-    axes.plot(z, exact / hertz.peak_pressure, label=words, **style)
+    axes.plot(z, exact / hertz.peak_pressure, label=words, **REFERENCE | {"color": colour})
 
 
 def _rows(z: np.ndarray, depth: float, count: int) -> np.ndarray:
@@ -195,11 +175,6 @@ def _finish(whole: "Axes", near: "Axes") -> None:
     near.locator_params(axis="x", nbins=3)
     near.tick_params(labelleft=False)
     whole.set_ylim(0.0, 1.06 * max(axes.dataLim.y1 for axes in (whole, near)))
-    whole.figure.legend(
-        *whole.get_legend_handles_labels(),
-        loc="upper left",
-        bbox_to_anchor=(0.09, 1.0),
-        ncols=2,
-        borderaxespad=0.1,
-        columnspacing=1.2,
-    )
+    place = {"loc": "upper left", "bbox_to_anchor": (0.09, 1.0), "borderaxespad": 0.1}
+    entries = whole.get_legend_handles_labels()
+    whole.figure.legend(*entries, ncols=2, columnspacing=1.2, **place)

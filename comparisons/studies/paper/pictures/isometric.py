@@ -55,15 +55,8 @@ def draw_isometric(
         middle = 0.25 * (
             values[row, :-1] + values[row, 1:] + values[row + 1, :-1] + values[row + 1, 1:]
         )
-        axes.add_collection(
-            PolyCollection(
-                quads,
-                facecolors=colours(norm(middle)),
-                edgecolors="face",
-                linewidths=0.2,
-                zorder=PAINTED,
-            )
-        )
+        look = {"edgecolors": "face", "linewidths": 0.2, "zorder": PAINTED}
+        axes.add_collection(PolyCollection(quads, facecolors=colours(norm(middle)), **look))
         if row == 0:
             axes.add_collection(LineCollection([far], zorder=PAINTED, **LINE))
         axes.add_collection(LineCollection([near], zorder=PAINTED, **LINE))
@@ -72,9 +65,8 @@ def draw_isometric(
         (places[:, -1], projected(x[-1], z, floor)),
     ):
         outline = np.concatenate([top, foot[::-1]])
-        wall = PolyCollection([outline], facecolors=CUT, edgecolors=LINE["color"], linewidths=0.4)
-        wall.set_zorder(PAINTED)
-        axes.add_collection(wall)
+        look = {"edgecolors": LINE["color"], "linewidths": 0.4, "zorder": PAINTED}
+        axes.add_collection(PolyCollection([outline], facecolors=CUT, **look))
 
 
 def draw_scales(
@@ -125,11 +117,5 @@ def _tick(
     end = at + np.array(way)
     axes.plot(*zip(at, end, strict=True), **FRAME)
     side = "center" if way[0] == 0.0 else "left" if way[0] > 0.0 else "right"
-    axes.text(
-        *(end + 0.5 * np.array(way)),
-        words.replace("-", "−"),
-        ha=side,
-        va=vertical,
-        zorder=LETTERED,
-        size=7.5,
-    )
+    look = {"ha": side, "va": vertical, "zorder": LETTERED, "size": 7.5}
+    axes.text(*(end + 0.5 * np.array(way)), words.replace("-", "−"), **look)

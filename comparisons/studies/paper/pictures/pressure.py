@@ -46,19 +46,13 @@ def trace_picture(outcome: Outcome, scales: Scales) -> Picture:
     bar_at = start + 0.93 * (stop - start)
     low = below.get_ylim()[0] + 0.1 * BAR / MICRO
     below.plot([bar_at, bar_at], [low, low + BAR / MICRO], color="black", linewidth=2.2)
-    below.text(
-        bar_at - 0.008 * (stop - start),
-        low + 0.5 * BAR / MICRO,
-        f"{BAR / MICRO:g} µm",
-        ha="right",
-        va="center",
-    )
+    at = bar_at - 0.008 * (stop - start), low + 0.5 * BAR / MICRO
+    below.text(*at, f"{BAR / MICRO:g} µm", ha="right", va="center")
     below.set(yticks=[], xlabel="place on the trace [µm]")
     for axes in (above, below):
         axes.set(xlim=(start, stop), xticks=np.linspace(start, stop, QUARTERS + 1))
-    peak = significant(
-        outcome.runs["half_plane"].finest.solution.pressure.max() / hertz.peak_pressure
-    )
+    pressure = outcome.runs["half_plane"].finest.solution.pressure
+    peak = significant(pressure.max() / hertz.peak_pressure)
     return Picture(
         source=data_uri(drawn),
         wide=True,

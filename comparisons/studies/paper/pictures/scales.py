@@ -38,8 +38,8 @@ class Scales:
     relief: float
 
 
-def layered(outcome: Outcome, friction: float = 0.0) -> StressField:
-    """The half-plane's stresses on the stacked lines: x and z [a], stresses [p0]."""
+def layered(outcome: Outcome) -> StressField:
+    """The half-plane's stresses on the stacked lines, no friction: x and z [a], stresses [p0]."""
     level, hertz = outcome.runs["half_plane"].finest, outcome.problem.hertz
     a, pitch = hertz.half_width, level.grid.pitch
     found = friction_field(
@@ -49,7 +49,7 @@ def layered(outcome: Outcome, friction: float = 0.0) -> StressField:
         DEPTHS * a,
         subdivisions=max(1, round(pitch / (COLUMN * a))),
         stride=max(1, round(COLUMN * a / pitch)),
-    ).at(friction)
+    ).at(0.0)
     return StressField(found.x / a, DEPTHS, found.stress)
 
 
@@ -96,13 +96,8 @@ def scales_of(outcomes: dict[str, Outcome]) -> Scales:
         # of the block's two visible sides
         low = min(min(line[-1].min(), line[:, -1].min()) for line in lines)
         floors[component.name] = STEP * float(np.floor(low / STEP)) if component.signed else 0.0
-    return Scales(
-        bands=bands,
-        ceilings=ceilings,
-        floors=floors,
-        pressure=1.12 * max(map(_highest, outcomes.values())),
-        relief=max(map(_relief, outcomes.values())),
-    )
+    pressure = 1.12 * max(map(_highest, outcomes.values()))
+    return Scales(bands, ceilings, floors, pressure, max(map(_relief, outcomes.values())))
 
 
 def _highest(outcome: Outcome) -> float:

@@ -1,7 +1,5 @@
 """Shear stresses below a surface, as the paper shows them: isometric views and contours."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from comparisons.common.numbers import decimal, plain, significant
@@ -10,9 +8,6 @@ from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.pictures.isometric import bounds, draw_isometric, draw_scales, frame
 from comparisons.studies.paper.pictures.scales import RANGE, STEP, Scales, layered, values_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
 TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
@@ -58,6 +53,8 @@ def isometric_picture(outcome: Outcome, component: Component, scales: Scales, of
 def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:
     """A component at every friction coefficient: half-plane in bands, finite elements in lines."""
     hertz, window = outcome.problem.hertz, outcome.window
+    x, z = window.x / hertz.half_width, window.z / hertz.half_width
+    near = np.abs(window.x) <= 1.01 * RANGE * hertz.half_width
     frictions = outcome.problem.scene.friction
     bands = scales.bands[component.name]
     total = FOOT + len(frictions) * (TALL + TITLE)
@@ -66,16 +63,10 @@ def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: 
     for place, friction in enumerate(frictions, start=1):
         low = total - place * (TALL + TITLE)
         axes = drawn.add_axes((0.62 / COLUMN, low / total, 2 * RANGE * TALL / COLUMN, TALL / total))
-        shown = fill(
-            axes,
-            window.x / hertz.half_width,
-            window.z / hertz.half_width,
-            values_of(outcome, component, "half_plane", friction),
-            bands,
-            component.colours,
-            component.signed,
-        )
-        _lines(axes, outcome, component, friction, bands)
+        values = values_of(outcome, component, "half_plane", friction)
+        shown = fill(axes, x, z, values, bands, component.colours, component.signed)
+        lines = values_of(outcome, component, "finite_element", friction)
+        axes.contour(x[near], z, lines[:, near], levels=bands, **LINES)
         axes.set(xlim=(-RANGE, RANGE), xticks=np.arange(-1.0, 1.01, 0.5))
         extreme = outcome.runs["half_plane"].finest.stress(friction).extremes[component.name]
         at = extreme.x / hertz.half_width, extreme.z / hertz.half_width
@@ -100,19 +91,4 @@ def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: 
             f"{', stripes what is negative' if component.signed else ''}. Sliding acts on the body "
             "towards +x."
         ),
-    )
-
-
-def _lines(
-    axes: "Axes", outcome: Outcome, component: Component, friction: float, bands: np.ndarray
-) -> None:
-    """The finite elements' contours."""
-    hertz, window = outcome.problem.hertz, outcome.window
-    near = np.abs(window.x) <= 1.01 * RANGE * hertz.half_width
-    axes.contour(
-        window.x[near] / hertz.half_width,
-        window.z / hertz.half_width,
-        values_of(outcome, component, "finite_element", friction)[:, near],
-        levels=bands,
-        **LINES,
     )

@@ -103,9 +103,8 @@ def coated_findings(body: LayeredBody, equivalent: Material, high: float) -> Fin
     contact = on_layer(body, 1.0, load)
     half_plane = HalfPlane(contact.operator.count, contact.pitch, modulus)
     plain = load_cylinder(half_plane, RADIUS, Constraints(load=load)).pressure
-    return contact.findings(
-        deviation(contact.pressure, plain, "pressure", high, "the equivalent half-plane")
-    )
+    reference = "the equivalent half-plane"
+    return contact.findings(deviation(contact.pressure, plain, "pressure", high, reference))
 
 
 def rigid_base_findings(softness: float) -> Findings:
@@ -150,18 +149,11 @@ def cases() -> Groups:
         "waves: coating 1e-6 times as stiff": LayeredBody(soft, 1.0, hard),
     }
     layers |= {name: partial(wave_findings, body) for name, body in waves.items()}
+    thin_hard, thin_soft = LayeredBody(hard, 1e-12, soft), LayeredBody(soft, 1e-12, hard)
     equivalent = {
         "coating of the body's own material": (LayeredBody(soft, 0.3, soft), soft, 1e-9),
-        "stiff coating 1e-12 a thin, 1e6 times as stiff": (
-            LayeredBody(hard, 1e-12, soft),
-            soft,
-            5e-5,
-        ),
-        "soft coating 1e-12 a thin, 1e-6 times as stiff": (
-            LayeredBody(soft, 1e-12, hard),
-            hard,
-            5e-5,
-        ),
+        "stiff coating 1e-12 a thin, 1e6 times as stiff": (thin_hard, soft, 5e-5),
+        "soft coating 1e-12 a thin, 1e-6 times as stiff": (thin_soft, hard, 5e-5),
         "stiff coating 1e6 a thick": (LayeredBody(hard, 1e6, soft), hard, 1e-6),
     }
     coatings = {name: partial(coated_findings, *given) for name, given in equivalent.items()}

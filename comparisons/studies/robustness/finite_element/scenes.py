@@ -188,7 +188,7 @@ def with_roller(times_as_stiff: float) -> Tables:
 
 def cases() -> Groups:
     half_width = problem_from(ORDINARY).hertz.half_width
-    nearly_incompressible = {**with_body(poissons_ratio=0.4999), **CUBIC}
+    cubic = {**with_body(poissons_ratio=0.4999), **CUBIC}
     held_close_by = {**ORDINARY, "finite_element": {"far_field": "half-plane"}}
 
     def layer(a_over_t: float, high: float, **fields: object) -> Callable[[], Findings]:
@@ -196,11 +196,8 @@ def cases() -> Groups:
 
     def coated(times_as_stiff: float, part: float, refinement: int = 0) -> Callable[[], Findings]:
         modulus = times_as_stiff * STEEL["youngs_modulus"]
-        coating = {
-            "thickness": half_width / part,
-            "youngs_modulus": modulus,
-            "poissons_ratio": 0.25,
-        }
+        coating = {"youngs_modulus": modulus, "poissons_ratio": 0.25}
+        coating["thickness"] = half_width / part
         return partial(layer_findings, {**ORDINARY, "coating": coating}, refinement=refinement)
 
     thin_cubic = {**with_body(thickness=half_width / 10.0, poissons_ratio=0.4999), **CUBIC}
@@ -216,13 +213,9 @@ def cases() -> Groups:
     return {
         "materials": {name: partial(hertz_findings, given) for name, given in materials.items()}
         | {
-            "Poisson's ratio 0.4999, cubic": partial(
-                hertz_findings, nearly_incompressible, CUBIC_PEAK
-            ),
+            "Poisson's ratio 0.4999, cubic": partial(hertz_findings, cubic, CUBIC_PEAK),
             "stresses": partial(shear_findings, ORDINARY),
-            "stresses, Poisson's ratio 0.4999, cubic": partial(
-                shear_findings, nearly_incompressible
-            ),
+            "stresses, Poisson's ratio 0.4999, cubic": partial(shear_findings, cubic),
         },
         "friction": {
             f"friction {mu:g}, nu = {nu:g}": partial(sliding_findings, mu, nu)
@@ -233,10 +226,8 @@ def cases() -> Groups:
             for share in (1.0 + 1e-6, 1.0 - 1e-2)
         },
         "units": {
-            f"lengths in {metre:g} m, stresses in {pascal:g} Pa": partial(
-                unit_findings, metre, pascal
-            )
-            for metre, pascal in ((1e-9, 1.0), (1e3, 1.0), (1.0, 1e-6), (2.0**-20, 2.0**10))
+            f"lengths in {m:g} m, stresses in {p:g} Pa": partial(unit_findings, m, p)
+            for m, p in ((1e-9, 1.0), (1e3, 1.0), (1.0, 1e-6), (2.0**-20, 2.0**10))
         },
         "layer": {
             "a/t = 0.001, bonded": layer(1e-3, THICK),

@@ -4,6 +4,7 @@ import json
 import os
 import signal
 import sys
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -49,7 +50,8 @@ class Here:
     def __init__(self) -> None:
         self.asked, self.stop_at = [], 0
 
-    def carried_out(self, call, task: CostTask) -> MeasuredRun:
+    def call(self, function, task: CostTask) -> MeasuredRun:
+        assert function is measure
         self.asked.append((task.method, task.setting))
         if self.stop_at == len(self.asked):
             raise KeyboardInterrupt
@@ -61,7 +63,7 @@ def here(monkeypatch) -> Here:
     found = Here()
     monkeypatch.setattr(cost_methods, "HALF_PLANE_PITCHES", (2.0, 1.0, 0.5))
     monkeypatch.setattr(cost_methods, "FINITE_ELEMENT_PITCHES", (2.0,))
-    monkeypatch.setattr(cost_study, "_carried_out", found.carried_out)
+    monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(found.call))
     monkeypatch.setattr("comparisons.studies.cost.cost.cost_page", lambda found: "")
     return found
 
@@ -160,14 +162,14 @@ class TestGoesOn:
     def test_what_failed_is_tried_again(self, here, tmp_path, monkeypatch):
         tried = []
 
-        def failing(call, task):
+        def failing(function, task):
             tried.append(task.method)
             return cost_study.RefusedRun("MeshError: no mesh", skipped=False)
 
         cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
         for path in (tmp_path / FOLDER).glob("P2*"):
             path.unlink()
-        monkeypatch.setattr(cost_study, "_carried_out", failing)
+        monkeypatch.setattr(cost_study, "fresh_process", lambda: nullcontext(failing))
         for _ in range(2):
             found = cost(resolved(SMOOTH), tmp_path, 1, methods=SMALL)
             assert found.study.rows[-1].because == "MeshError: no mesh"
