@@ -62,12 +62,8 @@ def dundurs_constants(body: Material, roller: Material | None) -> tuple[float, f
         nu, shear = material.poissons_ratio, material.shear_modulus
         return (1.0 - nu) / shear, (1.0 - 2.0 * nu) / shear
 
-    (normal_body, coupling_body), (normal_roller, coupling_roller) = (
-        compliances(body),
-        compliances(roller),
-    )
+    normal_body, coupling_body = compliances(body)
+    normal_roller, coupling_roller = compliances(roller)
     total = normal_body + normal_roller
-    return (
-        (normal_body - normal_roller) / total,
-        (coupling_body - coupling_roller) / (2.0 * total),
-    )
+    alpha = (normal_body - normal_roller) / total
+    return alpha, (coupling_body - coupling_roller) / (2.0 * total)

@@ -2,27 +2,21 @@
 
 At each position the contact is solved with the pressure capped at the hardness. Where the cap
 holds, the surfaces would still overlap; plastic flow takes the overlap off the profile, so that
-the same load at the same place is carried elastically from then on. Moving on loads other
-asperities, and asperities that were relieved before. Sweeps over all positions follow each other
-until one moves next to nothing: the profile has settled.
-
-What flows is lost: the model has no pile-up beside a flattened asperity, no hardening, and no
-residual stress. Samples are only ever lowered.
+the same load at the same place is carried elastically from then on. Sweeps over all positions
+follow each other until one moves next to nothing: the profile has settled. What flows is lost:
+there is no pile-up beside a flattened asperity, no hardening, and no residual stress.
 
     z   height [m]               x_c  position of the roller's centre [m]
-    g   gap, averaged over a     d    overlap -g where p = H, else 0 [m]
-        hat [m]
+    g   mean gap over a hat [m]  d    overlap -g where p = H, else 0 [m]
     p   pressure [Pa]            H    hardness [Pa]
 
-The profile is lowered by d_i in the middle of hat i, and between by the C2 cubic spline through
-these, whose kinks attract no pressure, but where no hat flowed its samples stay. It is lowered at
-its samples and, where hats are narrower, at their middles as well, which become samples. The
-lowering meets the overlap to second order in the pitch.
+The profile is lowered at its samples and, where hats are narrower, at their middles, which become
+samples: by d_i in the middle of hat i and between by the C2 cubic spline through these, whose kinks
+attract no pressure, but not where no hat flowed: right to second order in the pitch.
 
-Between samples the profile is a spline, which swings by a little beside a flattened crest, and
-there rises above what it was: by 0.3 % of the largest lowering with hats a 20th of the shortest
-wave apart and 0.1 % at a 40th; where a wave has no more than 3.4 samples by 3 to 4 % with hats at
-the samples, 1 to 2 % at half the spacing, which is the pitch unless the caller gives another.
+Between samples the profile is a spline, which rises a little beside a flattened crest: by 0.3 % of
+the largest lowering with hats a 20th of the shortest wave apart and 0.1 % at a 40th; where a wave
+has no more than 3.4 samples by 3 to 4 % with hats at the samples, 1 to 2 % at half the spacing.
 """
 
 from dataclasses import dataclass
@@ -130,16 +124,26 @@ def run_in(
     """
     positions = np.asarray(positions, dtype=float)
     _check(profile, constraints, positions, sweeps)
-    surface = _Surface(
-        profile, radius, modulus, constraints, pitch or profile.spacing / HATS, positions
-    )
+    pitch = pitch or profile.spacing / HATS
+    surface = _Surface(profile, radius, modulus, constraints, pitch, positions)
     passes: list[Pass] = []
-    for sweep in range(1, sweeps + 1):
+    status: Status = "passes spent"
+    for _ in range(sweeps):
         passes.extend(surface.press(position) for position in positions)
         moved = [one.volume for one in passes]
         if sum(moved[-len(positions) :]) <= SETTLED * sum(moved):
-            return surface.result(passes, sweep, "settled")
-    return surface.result(passes, sweeps, "passes spent")
+            status = "settled"
+            break
+    return RunIn(
+        before=profile,
+        profile=Profile(surface.x + surface.origin, surface.height - surface.lowering),
+        lowering=surface.lowering,
+        constraints=constraints,
+        passes=tuple(passes),
+        sweeps=len(passes) // len(positions),
+        pitch=surface.whole.pitch,
+        status=status,
+    )
 
 
 def _check(profile: Profile, constraints: Constraints, positions: np.ndarray, sweeps: int) -> None:
@@ -174,7 +178,6 @@ class _Surface:
         pitch: float,
         positions: np.ndarray,
     ) -> None:
-        self.profile = profile
         self.radius, self.modulus, self.constraints = radius, modulus, constraints
         self.origin = float(profile.x[0])
         self.whole = HatGrid.within(0.0, profile.length, pitch)
@@ -222,8 +225,11 @@ class _Surface:
 
     def _contact(self, place: float) -> tuple[HatGrid, ContactSolution]:
         """The contact at one place, on as many hats as it needs."""
+        whole = self.whole
         while True:
-            grid = self._grid(place)
+            first = round(place / whole.pitch) - self.operator.count // 2
+            first = int(np.clip(first, whole.first, whole.last - self.operator.count + 1))
+            grid = HatGrid(whole.pitch, first, first + self.operator.count - 1)
             solution = solve_contact(
                 self.operator,
                 self._gap(place, grid),
@@ -232,19 +238,12 @@ class _Surface:
                 self.starts.get((place, grid.count)),
             )
             touching = np.flatnonzero(solution.pressure > 0.0)
-            cut_left = touching[0] == 0 and grid.first > self.whole.first
-            cut_right = touching[-1] == grid.count - 1 and grid.last < self.whole.last
+            cut_left = touching[0] == 0 and grid.first > whole.first
+            cut_right = touching[-1] == grid.count - 1 and grid.last < whole.last
             if not (cut_left or cut_right):
                 self.starts[place, grid.count] = solution.pressure
                 return grid, solution
             self._span(2.0 * self.reach)
-
-    def _grid(self, place: float) -> HatGrid:
-        """The hats around a place that a pass solves on."""
-        whole, count = self.whole, self.operator.count
-        first = round(place / whole.pitch) - count // 2
-        first = int(np.clip(first, whole.first, whole.last - count + 1))
-        return HatGrid(whole.pitch, first, first + count - 1)
 
     def _gap(self, place: float, grid: HatGrid) -> np.ndarray:
         """Weighted gap (n,) [m^2] under the roller at a place, over the profile as it is now."""
@@ -260,18 +259,6 @@ class _Surface:
         low = np.searchsorted(self.x, start - slack) - beyond
         high = np.searchsorted(self.x, stop + slack) + beyond
         return slice(max(low, 0), high)
-
-    def result(self, passes: list[Pass], sweeps: int, status: Status) -> RunIn:
-        return RunIn(
-            before=self.profile,
-            constraints=self.constraints,
-            profile=Profile(self.x + self.origin, self.height - self.lowering),
-            lowering=self.lowering,
-            passes=tuple(passes),
-            sweeps=sweeps,
-            pitch=self.whole.pitch,
-            status=status,
-        )
 
 
 def _joined(samples: np.ndarray, middles: np.ndarray, near: float) -> np.ndarray:

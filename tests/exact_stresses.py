@@ -21,6 +21,7 @@ from analytic.exact.sliding import SlidingContact
 from analytic.exact.westergaard import WestergaardContact
 from analytic.layers.layered import LayeredBody, WaveStress, added_stress
 from analytic.numerics import points_below
+from analytic.operators.elements import _EVEN, _Far, _joined, _scaled_difference
 from analytic.stress.elements import FrictionStress, strip_between
 from analytic.stress_state import StressState
 
@@ -238,3 +239,16 @@ def wave_stress(
             traction.txz - (1.0 - depth) * decay,
         ),
     )
+
+
+def hat_displacement(offset: ArrayLike) -> np.ndarray:
+    """L_h of `analytic.operators.elements` at `offset` [pitches], any shape.
+
+    int_{-1}^{1} (1-|s|) ln|x-s| ds, the displacement under a hat at one place.
+    """
+    far = _Far(2.0 / ((_EVEN + 1.0) * (_EVEN + 2.0)), join=1.5)
+
+    def closed(x: np.ndarray) -> np.ndarray:
+        return _scaled_difference(x, (1.0, -2.0, 1.0)) - 1.5
+
+    return _joined(offset, closed, far)

@@ -1,20 +1,18 @@
 """The active set: which nodes are held at zero pressure or at the hardness, and their exchange.
 
 Primal-dual active set (block principal pivoting): every node that violates its sign condition
-changes its state at once. Where too few nodes are free to carry the load, the set is balanced
+changes its state at once; where too few nodes are free to carry the load, the set is balanced
 instead. Block exchanges may cycle: when the number of violations has not fallen for PATIENCE
-exchanges, the primal active-set method takes over from a feasible point. Its energy falls strictly
-from one equilibrium to the next, so that no set returns and it ends after finitely many.
+exchanges, the primal method takes over from a feasible point. Its energy falls strictly from one
+equilibrium to the next, so that it ends. Symbols as in `analytic.contact.problem`.
 
-Edge extrapolation. Beside an edge that stands s too far out, pressures and gaps go as
+Edge extrapolation. At x from an edge that stands s too far out,
 
-    p ~ (x - s/2) / sqrt(x),    g ~ -sqrt(x) (x - 3 s/2),
+    p ~ (x - s/2) / sqrt(x),    g ~ -sqrt(x) (x - 3 s/2)
 
-x counted from it (the singularity of a fixed edge and the next term): tension shows over s/2 only,
-overlap beside an edge s too far in shows over 3 s/2. Exchanging only the nodes that violate would
-approach the edge by halves from the one side and step over it from the other; the runs of
-violating nodes at an edge are therefore lengthened or shortened. Symbols as in
-`analytic.contact.problem`.
+(the singularity of a fixed edge and the next term): tension shows over s/2 only, overlap beside an
+edge s too far in over 3 s/2. Runs of violating nodes at an edge are therefore lengthened or
+shortened, instead of approaching it by halves from one side and stepping over it from the other.
 """
 
 from dataclasses import dataclass
@@ -28,7 +26,6 @@ from analytic.numerics import runs_of
 if TYPE_CHECKING:
     from analytic.contact.equilibrium import EquilibriumProblem
 
-PLASTIC = 10  # nodes at the hardness to each free one, from which block exchanges make no progress
 PATIENCE = 8  # block exchanges without progress before the primal method
 REDUCTION = 3e-3  # of the residual by each exchange while the set moves; 0.1 may go on for long
 SHARPER = 0.1  # times that, after each exchange without progress
@@ -68,10 +65,6 @@ class ActiveSet:
     def edges(self) -> int:
         """Places where the free nodes begin or end."""
         return int(np.count_nonzero(self.free[1:] != self.free[:-1]))
-
-    def mostly_upper(self) -> bool:
-        """Whether PLASTIC times as many nodes are at the hardness as are free."""
-        return bool(np.count_nonzero(self.upper) > PLASTIC * np.count_nonzero(self.free))
 
     def exchanged(self, violated: Violations) -> "ActiveSet":
         return ActiveSet(

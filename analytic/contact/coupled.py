@@ -5,20 +5,17 @@
 with a compliance C that is positive definite but not symmetric (`analytic.operators.tangential`);
 symbols as in `analytic.contact.problem`.
 
-Method: block exchanges of the active set on nested grids. On a fixed set GMRES (Saad 2003,
-algorithm 9.4, left preconditioning) takes the place of conjugate gradients, which need symmetry.
-Its residual is the gap turned into pressures by the approximate inverse, and so measures the error
-of the pressures themselves. Under a prescribed load every direction keeps w'p = P.
-
-Block exchanges have no proof of convergence. Where a set comes back, or too many have been tried, a
-contraction takes over:
+Method: block exchanges of the active set on nested grids; on a fixed set GMRES (Saad 2003,
+algorithm 9.4, left preconditioning), whose residual, turned into pressures by the approximate
+inverse, measures the error of the pressures themselves. Where a set comes back, or too many have
+been tried, a contraction takes over, which unlike block exchanges is proved to converge:
 
     p_k+1 = argmin 1/2 q'Nq + (t (G + C p_k) - N p_k)'q   over the constraints,   N = (C + C')/2,
 
-the projection, in the norm of N, of p_k - t N^-1 (G + C p_k). Projections do not stretch, so two
-iterates approach each other by sqrt((1-t)^2 + t^2 k^2), k the size of the skew part in that norm
-(mu beta for two half-planes under a given load): below one for t < 2/(1+k^2), whatever k is. t is
-halved whenever a step has hardly shortened. Each step is a contact problem of N, `solve_contact`.
+the projection, in the norm of N, of p_k - t N^-1 (G + C p_k). Two iterates approach each other by
+sqrt((1-t)^2 + t^2 k^2), k the size of the skew part in that norm (mu beta for two half-planes under
+a given load): below one for t < 2/(1+k^2). t is halved whenever a step has hardly shortened. Each
+step is a contact problem of N, `solve_contact`.
 """
 
 from collections.abc import Callable
@@ -171,16 +168,10 @@ def solve_coupled(
 
 
 def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:
-    pressure = np.clip(pressure, 0.0, problem.constraints.hardness)
-    return assessed(
-        problem.apply(pressure),
-        pressure,
-        problem.weighted_gap,
-        problem.weights,
-        problem.approach,
-        problem.constraints,
-        problem.spent,
-    )
+    limits = problem.constraints
+    pressure = np.clip(pressure, 0.0, limits.hardness)
+    moved, given = problem.apply(pressure), (problem.weighted_gap, problem.weights)
+    return assessed(moved, pressure, *given, problem.approach, limits, problem.spent)
 
 
 def _exchange(

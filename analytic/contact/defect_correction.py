@@ -2,26 +2,22 @@
 
 The operator C (finite elements: one back-substitution an application) is close to a model D (the
 Galerkin half-plane of the same hats, the surfaces moved by friction included). Each step solves
-the contact problem of the model with what it leaves out carried to the linear term,
 
     p = solution of the model's problem with G + r for G,     r wanted such that r = (C - D) p.
 
-The misfit f(r) = (C - D) p - r is exactly the gap by which p misses the contact conditions on C.
-Repeating r <- r + f shrinks it by what the model leaves out of C. Secants through the last steps
-do better (Anderson 1965; Walker and Ni 2011): with F and R the differences of misfits and of r,
+The misfit f(r) = (C - D) p - r is the gap by which p misses the contact conditions on C. Secants
+through the last steps (Anderson 1965; Walker and Ni 2011), F and R the differences of f and of r,
 
     y = argmin |f - F y| over the nodes in contact,    r <- r - R y + s (f - F y),    s = 1,
 
-which makes a model of the wrong stiffness, or a layer thinner than the contact, harmless. Mixing
-r instead of p keeps every p within the constraints. There is no energy to descend on where
-friction makes C unsymmetric. Instead, when PATIENCE steps in a row have not improved on the best
-one, the iteration goes back to it, forgets the secants and halves s.
+make a model of the wrong stiffness, or a layer thinner than the contact, harmless. Mixing r instead
+of p keeps every p within the constraints. There is no energy to descend on where friction makes C
+unsymmetric: when PATIENCE steps have not improved on the best one, the iteration goes back to it,
+forgets the secants and halves s.
 
-A half-plane's displacements are defined up to a constant, a body's are not. Under a prescribed
-load the approach takes that up. Under a prescribed approach a half-plane of another datum carries
-another load, and half of the steps would go on that: one application to some pressure p comes
-first, and the model gets the datum with which (C - D) p does no work on p.
-Symbols as in `analytic.contact.problem`.
+A half-plane's displacements are defined up to a constant. Under a prescribed load the approach
+takes that up; under a prescribed approach the model first gets the datum with which (C - D) p does
+no work on some p. Symbols as in `analytic.contact.problem`.
 """
 
 from collections.abc import Callable
@@ -81,23 +77,12 @@ def solve_with_model(
         model_applications += 1 + trial.iterations["applications"]
         pressure = trial.pressure
         weighted_displacement = operator.apply(pressure)
-        counts = {
-            "steps": step,
-            "applications": step + probes,
-            "model_applications": model_applications,
-        }
+        counts = {"steps": step, "applications": step + probes}
+        counts["model_applications"] = model_applications
         free = _free(pressure, constraints)
-        approach = _approach(weighted_displacement, pressure, weighted_gap, weights, constraints)
-        solution = assessed(
-            weighted_displacement,
-            pressure,
-            weighted_gap,
-            weights,
-            approach,
-            constraints,
-            counts,
-            tolerance,
-        )
+        given = weighted_displacement, pressure, weighted_gap, weights
+        approach = _approach(*given, constraints)
+        solution = assessed(*given, approach, constraints, counts, tolerance)
         misfit = weighted_displacement - model.apply(pressure) - carried
         if constraints.approach is None:  # the approach takes up what is common to all nodes
             misfit -= (weights @ misfit) / (weights @ weights) * weights

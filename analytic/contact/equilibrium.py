@@ -4,15 +4,13 @@ With the active set fixed the contact conditions are linear, g = 0 on the free n
 few free nodes are solved for directly; more take conjugate gradients, projected on the load
 constraint (Gould, Hribar and Nocedal 2001, algorithm 2). Symbols as in `analytic.contact.problem`.
 
-The preconditioner is E' B E. B, the approximate inverse of the whole grid's compliance, needs
-displacements on the whole grid; E extends those of the free nodes. Zeros beyond the set would jump
-at every edge, and the number of iterations would grow with that of the patches. The extension of
-least energy would give the exact inverse of the set's own compliance; between two half-lines held
-at u0 and u1 it is, over a gap -1 < s < 1,
+The preconditioner is E' B E: B, the approximate inverse, needs displacements on the whole grid, and
+E extends those of the free nodes. Over a gap -1 < s < 1 between half-lines held at u0 and u1
 
-    u = u0 + (u1 - u0) (1/2 + asin(s)/pi)          (Johnson 1985, section 2.7).
+    u = u0 + (u1 - u0) (1/2 + asin(s)/pi)          (Johnson 1985, section 2.7)
 
-E bridges every gap in this way, and the number of iterations hardly depends on that of the patches.
+has the least energy. With E bridging every gap in this way the number of iterations hardly depends
+on that of the patches, as it would with zeros, which jump at every edge.
 """
 
 from dataclasses import dataclass
@@ -152,6 +150,7 @@ TIGHT = 1e-12  # leaves pressures right to 1e-10 of their peak
 # steps of conjugate gradients without PROGRESS in the residual, after which rounding is reached:
 PATIENT, PROGRESS = 15, 0.7
 IMPATIENT, ROUNDED = 2, 1e3  # once that residual is within 1000 of `tight`
+PLASTIC = 10  # nodes at the hardness to each free one, from which block exchanges do not get on
 BISECTIONS = 100  # to a shift of pressures right to rounding
 
 
@@ -232,7 +231,8 @@ class EquilibriumProblem:
 
     def short_of_free_nodes(self, active: ActiveSet) -> bool:
         """Whether too few nodes are free to balance a prescribed load."""
-        return self.by_load and (active.mostly_upper() or not self.can_carry(active))
+        upper, free = np.count_nonzero(active.upper), np.count_nonzero(active.free)
+        return self.by_load and bool(upper > PLASTIC * free or not self.can_carry(active))
 
     def _load_of(self, nodes: np.ndarray) -> float:
         """What these nodes carry at the hardness [N/m]."""

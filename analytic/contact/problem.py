@@ -149,15 +149,8 @@ def solve_contact(
         start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
-    solution = assessed(
-        problem.applied(pressure),
-        pressure,
-        weighted_gap,
-        weights,
-        problem.approach,
-        constraints,
-        spent,
-    )
+    moved, approach = problem.applied(pressure), problem.approach
+    solution = assessed(moved, pressure, weighted_gap, weights, approach, constraints, spent)
     return replace(solution, approach=solution.approach + common)
 
 

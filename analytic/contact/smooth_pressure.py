@@ -1,8 +1,7 @@
 """The pressure behind hat pressures: smooth inside a patch of contact, a square root at its ends.
 
-A contact on hats finds p_h, whose weighted means over the hats are those of the pressure p up to
-higher order, though neither its nodal values nor its course are: at a node it overshoots a curved
-pressure by h^2 |p''| / 12, and towards an end of contact no hats follow
+The hat pressures p_h have the weighted means of the pressure p, up to higher order, but overshoot a
+curved p by h^2 |p''| / 12 at the nodes, and towards an end e of contact no hats follow
 
     p(x) ~ sqrt(x - e),    g(x) ~ (x - e)^(3/2)    (Johnson 1985, section 4.2).
 
@@ -12,7 +11,6 @@ each end. The distance of both curves is a measure of the error of p_h.
 
     hats     (n + 2,) nodes [m], ascending, any spacing, with the feet of the outer two
     p, g     nodal pressures (n,) [Pa], gaps (n,) [m]: means weighted with the hats
-    d        distance from an end of contact [m]
 """
 
 from collections.abc import Callable

@@ -108,30 +108,23 @@ def rounded_punch_from_half_width(
 
     Raises ValueError unless a, R and E* are positive and 0 <= b < a.
     """
-    check_positive(half_width=half_width)
-    _check(half_flat, corner_radius, combined_modulus)
-    if not half_flat < half_width:
+    check_positive(
+        half_width=half_width, corner_radius=corner_radius, combined_modulus=combined_modulus
+    )
+    if not 0.0 <= half_flat < half_width:
         raise ValueError(
-            f"half_flat must be below the half-width {half_width:g}, not {half_flat:g}"
+            f"half_flat must be at least 0 and below {half_width:g}, the half-width, "
+            f"not {half_flat:g}"
         )
     e = float(np.sqrt((half_width - half_flat) * (half_width + half_flat)))
-    load = 0.5 * combined_modulus / corner_radius * float(_load_shape(e, half_flat))
+    # a^2 chi - e b as a^2 (chi - sin chi) + e (a - b), both positive
+    a = np.hypot(e, half_flat)
+    shape = a**2 * angle_minus_sine(np.arctan2(e, half_flat)) + e**3 / (a + half_flat)
+    load = 0.5 * combined_modulus / corner_radius * float(shape)
     return RoundedPunch(half_flat, corner_radius, combined_modulus, load, half_width, e)
-
-
-def _load_shape(e: float, b: float) -> float:
-    """a^2 chi - e b as a^2 (chi - sin chi) + e (a - b), both positive."""
-    a = np.hypot(e, b)
-    return a**2 * angle_minus_sine(np.arctan2(e, b)) + e**3 / (a + b)
 
 
 def _ratio(numerator: np.ndarray, divisor: np.ndarray) -> np.ndarray:
     """The quotient, and 0 where the divisor is."""
     divides = divisor > 0.0
     return np.where(divides, numerator / np.where(divides, divisor, 1.0), 0.0)
-
-
-def _check(half_flat: float, corner_radius: float, combined_modulus: float) -> None:
-    check_positive(corner_radius=corner_radius, combined_modulus=combined_modulus)
-    if not (np.isfinite(half_flat) and half_flat >= 0.0):
-        raise ValueError(f"half_flat must be at least 0, not {half_flat:g}")

@@ -96,12 +96,8 @@ def westergaard_from_mean_pressure(
 
     Raises ValueError unless all four are positive.
     """
-    check_positive(
-        mean_pressure=mean_pressure,
-        wavelength=wavelength,
-        amplitude=amplitude,
-        combined_modulus=combined_modulus,
-    )
+    check_positive(mean_pressure=mean_pressure, wavelength=wavelength)
+    check_positive(amplitude=amplitude, combined_modulus=combined_modulus)
     closing = np.pi * combined_modulus * amplitude / wavelength
     if mean_pressure >= closing:
         half_width, peak = 0.5 * wavelength, mean_pressure + closing
@@ -121,12 +117,8 @@ def westergaard_from_half_width(
 
     Raises ValueError unless all four are positive and the contact is partial.
     """
-    check_positive(
-        half_width=half_width,
-        wavelength=wavelength,
-        amplitude=amplitude,
-        combined_modulus=combined_modulus,
-    )
+    check_positive(half_width=half_width, wavelength=wavelength)
+    check_positive(amplitude=amplitude, combined_modulus=combined_modulus)
     if not half_width < 0.5 * wavelength:
         raise ValueError(
             f"half_width must be below half the wavelength, {0.5 * wavelength:g}, "
@@ -134,11 +126,5 @@ def westergaard_from_half_width(
         )
     closing = np.pi * combined_modulus * amplitude / wavelength
     sine = np.sin(np.pi * half_width / wavelength)
-    return WestergaardContact(
-        wavelength,
-        amplitude,
-        combined_modulus,
-        float(closing * sine**2),
-        half_width,
-        float(2.0 * closing * sine),
-    )
+    pressure, peak = float(closing * sine**2), float(2.0 * closing * sine)
+    return WestergaardContact(wavelength, amplitude, combined_modulus, pressure, half_width, peak)

@@ -37,8 +37,7 @@ class LayeredSurface(Convolution):
     def __init__(
         self, count: int, pitch: float, body: LayeredBody, datum: float | None = None
     ) -> None:
-        self.pitch = pitch
-        self.body = body
+        self.pitch, self.body = pitch, body
         self.datum = (count + 1) * pitch + 4.0 * _spread(body) if datum is None else datum
         column = free_coefficients(count, pitch, body, self.datum)
         super().__init__(column, self._symbol)
@@ -64,8 +63,7 @@ class PeriodicLayeredSurface(Convolution):
     """
 
     def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
-        self.pitch = pitch
-        self.body = body
+        self.pitch, self.body = pitch, body
         longest = 2.0 * np.pi / (count * pitch)
         self._mean = pitch * float(normal_compliance(body, 0.0 if body.rigid else longest))
         column = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)

@@ -160,17 +160,8 @@ def _by_panels(
 
 def _rows(body: LayeredBody, k: np.ndarray, depth: float) -> np.ndarray:
     """What the base adds to sx, sz, txz under p e^ikx and under q e^ikx, k > 0 (6, len(k))."""
-    normal, traction = added_stress(body, k, np.full(len(k), depth))
-    return np.array(
-        [
-            normal.sx + 0j,
-            normal.sz + 0j,
-            -1j * normal.txz,
-            1j * traction.sx,
-            1j * traction.sz,
-            traction.txz + 0j,
-        ]
-    )
+    p, q = added_stress(body, k, np.full(len(k), depth))
+    return np.array([p.sx + 0j, p.sz + 0j, -1j * p.txz, 1j * q.sx, 1j * q.sz, q.txz + 0j])
 
 
 def _mean(body: LayeredBody, depth: float) -> np.ndarray:

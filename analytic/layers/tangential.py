@@ -32,8 +32,7 @@ class TangentialLayer(Convolution):
     """
 
     def __init__(self, count: int, pitch: float, body: LayeredBody, periodic: bool = False) -> None:
-        self.pitch = pitch
-        self.body = body
+        self.pitch, self.body = pitch, body
         if periodic:
             symbol = coupling_symbol(np.arange(count // 2 + 1) / count, pitch, body)
             column = irfft(1j * symbol, count)

@@ -55,15 +55,20 @@ class Convolution:
         row: np.ndarray | None = None,
         periodic: bool = False,
     ) -> None:
-        _keep_large_buffers()
+        # Freed arrays up to 32 MiB then stay with the process, and a pair of FFTs costs half: glibc
+        # raises the threshold of what it gives back to the size of the largest block ever freed.
+        np.empty(_BUFFER, dtype=np.uint8)
         self.column, self.row = column, column if row is None else row
         self.symmetric = row is None
         self._symbol_at, self._shorter = symbol, {}
         self.count = len(column)
         self.periodic = periodic
-        self.applications = 0
         self._length = self.count if periodic else next_fast_len(2 * self.count, real=True)
-        circulant = column if periodic else _embedded(column, self.row, self._length)
+        circulant = column
+        if not periodic:
+            circulant = np.zeros(self._length)
+            circulant[: self.count] = column
+            circulant[self._length - self.count + 1 :] = self.row[:0:-1]
         self._transfer = rfft(circulant)
         if row is None:
             self._transfer = np.ascontiguousarray(self._transfer.real)
@@ -81,7 +86,6 @@ class Convolution:
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
-        self.applications += 1
         spectrum = rfft(pressure, self._length)
         spectrum *= self._transfer
         return irfft(spectrum, self._length)[: self.count]
@@ -150,20 +154,3 @@ def cholesky_solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
     """
     _, solution, failed = dposv(matrix, right, overwrite_a=True)
     return None if failed else solution
-
-
-def _embedded(column: np.ndarray, row: np.ndarray, length: int) -> np.ndarray:
-    """Circulant of `length` >= 2n - 1 whose leading block is the Toeplitz matrix."""
-    circulant = np.zeros(length)
-    circulant[: len(column)] = column
-    circulant[length - len(column) + 1 :] = row[:0:-1]
-    return circulant
-
-
-def _keep_large_buffers() -> None:
-    """Let freed arrays up to 32 MiB stay with the process: a pair of FFTs then costs half.
-
-    glibc maps fresh pages for every array above a threshold and gives them back when it is
-    freed. The threshold rises to the size of the largest block ever freed.
-    """
-    np.empty(_BUFFER, dtype=np.uint8)

@@ -23,9 +23,6 @@ integrals are summed from the element's even moments mu instead,
 
 so every value is accurate to a few units of the last place of the largest term near the
 element (relative 3e-15 at whole offsets) and to rounding from there out to any offset.
-
-The operators take strips at their middles and hats weighed with hats; L_h is the published
-coefficient of a hat at a node.
 """
 
 from collections.abc import Callable
@@ -69,7 +66,6 @@ class _Far:
 
 
 _STRIP = _Far(0.5**_EVEN / (_EVEN + 1.0), join=1.0)
-_HAT = _Far(2.0 / ((_EVEN + 1.0) * (_EVEN + 2.0)), join=1.5)
 _SPLINE = _Far(
     (2.0 ** (_EVEN + 5.0) - 8.0) / ((_EVEN + 1.0) * (_EVEN + 2.0) * (_EVEN + 3.0) * (_EVEN + 4.0)),
     join=3.0,
@@ -87,19 +83,6 @@ def strip_displacement(offset: ArrayLike) -> np.ndarray:
         return xlogy(x + 0.5, x + 0.5) - xlogy(x - 0.5, abs(x - 0.5)) - 1.0
 
     return _joined(offset, closed, _STRIP)
-
-
-def hat_displacement(offset: ArrayLike) -> np.ndarray:
-    """L_h at `offset` [pitches], any shape: int_{-1}^{1} (1-|s|) ln|x-s| ds.
-
-    Displacement of a pressure that falls linearly from its peak to zero over one pitch on
-    either side; see the head of the module for the factor and the sign.
-    """
-
-    def closed(x: np.ndarray) -> np.ndarray:
-        return _scaled_difference(x, (1.0, -2.0, 1.0)) - 1.5
-
-    return _joined(offset, closed, _HAT)
 
 
 def hat_galerkin(offset: ArrayLike) -> np.ndarray:

@@ -86,9 +86,7 @@ class HalfPlane(Convolution):
         datum: float | None = None,
         element: Element = "hat",
     ) -> None:
-        self.element = element
-        self.pitch = pitch
-        self.modulus = modulus
+        self.pitch, self.modulus, self.element = pitch, modulus, element
         self.datum = (count + 1) * pitch if datum is None else datum
         self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
         kernel = hat_galerkin if element == "hat" else strip_displacement

@@ -39,9 +39,7 @@ class PeriodicHalfPlane(Convolution):
     """
 
     def __init__(self, count: int, pitch: float, modulus: float, element: Element = "hat") -> None:
-        self.element = element
-        self.pitch = pitch
-        self.modulus = modulus
+        self.pitch, self.modulus, self.element = pitch, modulus, element
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
         column = irfft(self._symbol(cycles), count)

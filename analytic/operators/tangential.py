@@ -90,7 +90,8 @@ class TangentialHalfPlane(Convolution):
             average = average + images - 2.0 * offset / count
         column = dundurs * pitch**2 / modulus * average
         # in a circulant the entries above the diagonal follow from the column
-        super().__init__(column, _nothing, row=-column, periodic=periodic)
+        # a skew operator approximates no positive inverse
+        super().__init__(column, lambda c: np.full(len(c), np.inf), row=-column, periodic=periodic)
 
     @made_once
     def coarsened(self) -> "TangentialHalfPlane | None":
@@ -192,11 +193,6 @@ class CoupledPair:
 def eliminated(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
     """Solution (m, k) by Gauss' elimination: Cholesky's factor needs symmetry."""
     return scipy.linalg.solve(matrix, right, check_finite=False)
-
-
-def _nothing(cycles: np.ndarray) -> np.ndarray:
-    """A symbol with the inverse zero: a skew operator approximates no positive one."""
-    return np.full(len(cycles), np.inf)
 
 
 class DenseCoupledCompliance(DenseMatrix):

@@ -1,13 +1,11 @@
 """Convolution of loads on a line with one element's stresses, level by level.
 
 Of the potential I of one element (`analytic.stress.potential`) Im I and z Re I' are even along the
-surface, Re I and z Im I' odd. A real sequence that is even plus odd about 0 has the even part's
-transform as its real part and the odd one's as its imaginary part: two transforms a level give the
-spectra of all four stresses. On a window beside the load, where nothing is even or odd, each stress
-is transformed by itself, which keeps its own digits.
+surface, Re I and z Im I' odd. The transform of a real sequence that is even plus odd about 0 has
+those of the two as real and imaginary part: two transforms a level give the spectra of all four
+stresses. On a window beside the load each stress is transformed by itself and keeps its own digits.
 
     S  grid points that the load spans      N  length of the circular convolution
-    offset  of a point from a source [grid steps], `first - S + 1` to `last`
 """
 
 from collections.abc import Callable
@@ -45,31 +43,41 @@ class CircularConvolution:
     turns: tuple[complex, complex, complex, complex] = (1.0, 1.0, 1.0, 1.0)
 
 
-def free_convolution(
-    depths: np.ndarray,
-    sources: int,
-    first: int,
-    last: int,
-    stride: int,
-    subdivisions: int,
-    element: Element,
-) -> CircularConvolution:
-    """For `sources` = S and every `stride`-th point from `first` to `last`.
+@dataclass(frozen=True)
+class StressGrid:
+    """Where stresses are wanted, and under which element.
 
-    Points are counted in grid steps from the first source; `depths` of the levels in pitches.
+    x, z          columns (m,) and levels (k,) [m]
+    pitch         of the nodes [m], divided into `subdivisions` steps
+    first, last   columns, counted in steps from the first node; every `stride`-th counts
     """
+
+    x: np.ndarray
+    z: np.ndarray
+    pitch: float
+    subdivisions: int
+    first: int
+    last: int
+    stride: int
+    element: Element
+
+
+def free_convolution(grid: StressGrid, sources: int, start: int) -> CircularConvolution:
+    """For a line of `sources` = S grid points, the first of them `start` steps from the node 0."""
+    depths, subdivisions, stride = grid.z / grid.pitch, grid.subdivisions, grid.stride
+    first, last, element = grid.first - start, grid.last - start, grid.element
     low, high = first - sources + 1, last
     if low <= 0 <= high:
         reach = max(-low, high)
         size = next_fast_len(2 * reach + 1, real=True)
-        start = max(0, -first)
-        points = slice(first + start, last + start + 1, stride)
+        source = max(0, -first)
+        points = slice(first + source, last + source + 1, stride)
         halves = half_line(depths, reach, subdivisions, element)
 
         def around(block: slice) -> tuple[np.ndarray, ...]:
             return mirrored_spectra(halves(block), size)
 
-        return CircularConvolution(size, start, points, around, MIRRORED)
+        return CircularConvolution(size, source, points, around, MIRRORED)
     offsets = np.arange(low, high + 1) / subdivisions
     size = next_fast_len(len(offsets), real=True)
 

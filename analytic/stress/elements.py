@@ -139,14 +139,8 @@ def _hat_closed(x: np.ndarray, z: np.ndarray) -> np.ndarray:
     # taking z off the former leaves what is of third order in z away from the nodes.
     steady = _second_difference(_shortfall(np.abs(y), z)) - np.pi * np.maximum(1.0 - x, 0.0)
     sz = np.where(shallow, steady, _second_difference(y * angle)) / np.pi
-    return np.stack(
-        [
-            sz + 2.0 * z * logs / np.pi,
-            sz,
-            -side * z * turn / np.pi,
-            side * (3.0 * z * turn - 2.0 * stretch) / np.pi,
-        ]
-    )
+    sx, txz = sz + 2.0 * z * logs / np.pi, -side * z * turn / np.pi
+    return np.stack([sx, sz, txz, side * (3.0 * z * turn - 2.0 * stretch) / np.pi])
 
 
 def _second_difference(at: np.ndarray) -> np.ndarray:

@@ -1,9 +1,8 @@
 """Whole fields of stress under a line of pressure elements, layer by layer by convolution.
 
 On a level z the stress is the convolution of the nodal pressures with one element's stress, so
-a zero-padded real FFT sums all elements at all points of the level at once. The field may be
-sampled finer than the nodes stand: the elements keep their pitch, the pressures are spaced out
-with zeros between. Four kernels a level serve every friction coefficient and every load.
+a zero-padded real FFT sums all elements at all points of the level at once. Where the field is
+finer than the nodes, the pressures are spaced out with zeros between.
 """
 
 from dataclasses import dataclass
@@ -14,6 +13,7 @@ from scipy.optimize import brentq
 from analytic.stress.convolution import (
     EACH,
     Products,
+    StressGrid,
     convolve,
     free_convolution,
     mixed,
@@ -114,23 +114,6 @@ def friction_field(
     return FrictionField(grid.x, grid.z, FrictionStress.of(parts))
 
 
-@dataclass(frozen=True)
-class _Grid:
-    """Columns `x` and levels `z` [m]; each pitch [m] of the nodes divided into `subdivisions`.
-
-    `first` and `last` column, counted in these steps from the first node; every `stride`-th counts.
-    """
-
-    x: np.ndarray
-    z: np.ndarray
-    pitch: float
-    subdivisions: int
-    first: int
-    last: int
-    stride: int
-    element: Element
-
-
 def _grid(
     x_nodes: np.ndarray,
     load: np.ndarray,
@@ -139,11 +122,14 @@ def _grid(
     subdivisions: int,
     element: Element,
     stride: int,
-) -> _Grid:
+) -> StressGrid:
     pitch = uniform_pitch(x_nodes, load)
     check_element(element)
     z = np.asarray(z, dtype=float)
-    _check_levels(z)
+    if z.ndim != 1 or len(z) == 0 or not np.all(np.isfinite(z)):
+        raise ValueError("z must be one-dimensional, finite and not empty")
+    if z[0] < 0.0 or np.any(np.diff(z) <= 0.0):
+        raise ValueError("z must ascend strictly from z >= 0, into the body")
     for name, number in (("subdivisions", subdivisions), ("stride", stride)):
         if number < 1 or number != int(number):
             raise ValueError(f"{name} must be a whole number from 1, not {number}")
@@ -154,11 +140,11 @@ def _grid(
         )
     first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
     x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
-    return _Grid(x, z, pitch, subdivisions, first, last, stride, element)
+    return StressGrid(x, z, pitch, subdivisions, first, last, stride, element)
 
 
 def _fields(
-    grid: _Grid, loads: np.ndarray, products: Products, periodic: bool
+    grid: StressGrid, loads: np.ndarray, products: Products, periodic: bool
 ) -> tuple[np.ndarray, np.ndarray | None]:
     """Stresses (products, levels, columns) [Pa] under loads (k, n) [Pa].
 
@@ -169,15 +155,7 @@ def _fields(
     places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
     if sources.size:
         make = periodic_convolution if periodic else free_convolution
-        circular = make(
-            grid.z / grid.pitch,
-            sources.shape[1],
-            grid.first - start,
-            grid.last - start,
-            grid.stride,
-            grid.subdivisions,
-            grid.element,
-        )
+        circular = make(grid, sources.shape[1], start)
         convolve(sources, circular, products, parts)
     if grid.z[0] > 0.0:
         return parts, None
@@ -221,10 +199,3 @@ def _window(x_range: tuple[float, float], origin: float, step: float) -> tuple[i
             f"no point of the grid of {step:g} m lies between {x_range[0]:g} and {x_range[1]:g} m"
         )
     return first, last
-
-
-def _check_levels(z: np.ndarray) -> None:
-    if z.ndim != 1 or len(z) == 0 or not np.all(np.isfinite(z)):
-        raise ValueError("z must be one-dimensional, finite and not empty")
-    if z[0] < 0.0 or np.any(np.diff(z) <= 0.0):
-        raise ValueError("z must ascend strictly from z >= 0, into the body")

@@ -1,6 +1,6 @@
 """Largest stresses of a field, and where they stand between the points of its grid."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +11,7 @@ from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
 
-Quantity = Callable[[StressState], np.ndarray]
-
+STARTS = 4  # local maxima of the grid that are followed
 # The search around a point of the grid: nine points, half a cell apart at first; the parabola
 # through them gives the next centre. The spacing shrinks when that lies among them or nothing
 # higher was met: a top far along a flat ridge is walked to first. A parabola's top errs by the
@@ -43,40 +42,21 @@ def stress_maxima(
     traction: np.ndarray | None = None,
     periodic: bool = False,
 ) -> StressMaxima:
-    """The three maxima of the field of these loads inside its window (`field_maxima`)."""
+    """The three maxima [Pa] inside the field's window, under its loads, given as to `stress_at`.
+
+    The field's highest local maxima, up to STARTS of them, are each followed off the grid by
+    `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
+    cell where the quantity is smooth, and the value never below the field's own largest. A field
+    coarser than the asperities can miss peaks that it does not show.
+    """
     quantities = (
         lambda stress: stress.tau1,
         lambda stress: np.abs(stress.txz),
         lambda stress: stress.von_mises(poissons_ratio),
     )
-    given = (quantities, x_nodes, pressure, friction, field, element)
-    return StressMaxima(*field_maxima(*given, traction=traction, periodic=periodic))
-
-
-def field_maxima(
-    quantities: Sequence[Quantity],
-    x_nodes: np.ndarray,
-    pressure: np.ndarray,
-    friction: float,
-    field: StressField,
-    element: Element = "hat",
-    starts: int = 4,
-    *,
-    traction: np.ndarray | None = None,
-    periodic: bool = False,
-) -> list[Extremum]:
-    """Largest value [Pa] of each quantity of the stresses inside the field's window.
-
-    The loads are given as to `stress_at`, and are those of the field.
-
-    The field's highest local maxima, up to `starts` of them, are each followed off the grid by
-    `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
-    cell where the quantity is smooth, and the value never below the field's own largest. A field
-    coarser than the asperities can miss peaks that it does not show.
-    """
     rows, columns, owner = [], [], []
     for index, quantity in enumerate(quantities):
-        row, column = _local_maxima(quantity(field.stress), starts)
+        row, column = _local_maxima(quantity(field.stress))
         rows.append(row)
         columns.append(column)
         owner.append(np.full(len(row), index))
@@ -99,10 +79,10 @@ def field_maxima(
         mine = np.flatnonzero(owner == index)
         best = mine[np.argmax(top[mine])]
         found.append(Extremum(float(top[best]), float(place[best, 0]), float(place[best, 1])))
-    return found
+    return StressMaxima(*found)
 
 
-def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rows and columns of the highest points that no neighbour exceeds, highest first.
 
     A point is passed over if its peak cannot reach the highest value: between the points it
@@ -112,7 +92,7 @@ def _local_maxima(values: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarra
     highest = values == maximum_filter(values, size=3, mode="nearest")
     fall = values - minimum_filter(values, size=3, mode="nearest")
     place = np.flatnonzero(highest & (values + 0.25 * fall >= values.max()))
-    place = place[np.argsort(-values.ravel()[place], kind="stable")[:count]]
+    place = place[np.argsort(-values.ravel()[place], kind="stable")[:STARTS]]
     return np.unravel_index(place, values.shape)
 
 

@@ -31,7 +31,13 @@ Nomenclature: L period [m], R = L/2, u = (w - middle)/R.
 import numpy as np
 from scipy.special import comb, zetac
 
-from analytic.stress.convolution import MIRRORED, CircularConvolution, half_line, mirrored_spectra
+from analytic.stress.convolution import (
+    MIRRORED,
+    CircularConvolution,
+    StressGrid,
+    half_line,
+    mirrored_spectra,
+)
 from analytic.stress.potential import (
     ORDER,
     Element,
@@ -55,7 +61,7 @@ def periodic_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarra
     parts = np.empty((4, len(x)))
     deep = z > DEEP * period
     if deep.any():
-        w = _complex(x[deep] - nodes[0], z[deep])
+        w = x[deep] - nodes[0] + 1j * z[deep]
         parts[:, deep] = _waves(load, 2.0 * np.pi / period, w, element)
     shallow = ~deep
     if shallow.any():
@@ -64,7 +70,7 @@ def periodic_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarra
         parts[:, shallow] = line_stress(LoadedLine(three, np.tile(load, 3), pitch, element), x, z)
         half = 0.5 * period
         outer = far_moments(nodes - middle, load, pitch, half, element)[:ORDER]
-        u = _complex((x - middle) / half, z / half)
+        u = (x - middle) / half + 1j * (z / half)
         parts[:, shallow] += stresses(*images(outer, u)) / np.pi
     return parts
 
@@ -111,26 +117,13 @@ def _waves(load: np.ndarray, number: float, w: np.ndarray, element: Element) -> 
     return stresses(value, w.imag * slope)
 
 
-def _complex(real: np.ndarray, imaginary: np.ndarray) -> np.ndarray:
-    number = np.empty(len(real), dtype=complex)
-    number.real, number.imag = real, imaginary
-    return number
-
-
 _FADED = 44.0  # e^-44 (1 + 44) is 4e-18
 _SHALLOW = 1.0  # grid steps: levels above are summed over images
 
 
-def periodic_convolution(
-    depths: np.ndarray,
-    sources: int,
-    first: int,
-    last: int,
-    stride: int,
-    subdivisions: int,
-    element: Element,
-) -> CircularConvolution:
+def periodic_convolution(grid: StressGrid, sources: int, start: int) -> CircularConvolution:
     """`free_convolution` for `sources` grid points that are one period."""
+    depths, subdivisions, element = grid.z / grid.pitch, grid.subdivisions, grid.element
     shallow = int(np.searchsorted(depths, _SHALLOW / subdivisions))
 
     def spectra(block: slice) -> tuple[np.ndarray, ...]:
@@ -145,7 +138,7 @@ def periodic_convolution(
         ]
         return tuple(np.concatenate(rows) for rows in zip(*parts, strict=True))
 
-    points = np.arange(first, last + 1, stride) % sources
+    points = np.arange(grid.first - start, grid.last - start + 1, grid.stride) % sources
     return CircularConvolution(sources, 0, points, spectra, MIRRORED)
 
 

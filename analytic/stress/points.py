@@ -2,17 +2,13 @@
 
 Nodal pressures p_i stand on a uniform grid x_i; as "hat" they are joined linearly and fall to
 zero one pitch beyond the ends, as "strip" each holds over its own pitch. Tractions have the same
-shape. A field on a grid of columns and levels is quicker by `stress_field`.
+shape. Few pairs of point and element are summed one by one, which keeps the relative accuracy of
+every component; more by a tree (`analytic.stress.tree`). Both agree to 1e-13 of the largest load.
 
-A few pairs of point and element are summed one by one, which keeps the relative accuracy of every
-component; more by a tree (`analytic.stress.tree`), in a time proportional to their numbers' sum.
-The two agree to 1e-13 of the largest load, wherever the nodes stand.
-
-Nodes count as whole pitches apart, and a place by its distance from the nearest one: at a node,
-given as in `x_nodes`, no rounding of the coordinates enters. Between nodes that of x and x_i moves
-the place by up to eps |x| (eps 1.1e-16), which changes a stress by about eps |x|/h times the
-difference between neighbouring pressures, h the pitch: 5e-12 of it at h = 1 um, 5 cm from the
-origin.
+Nodes count as whole pitches h apart, and a place by its distance from the nearest one: at a node no
+rounding of the coordinates enters. Between nodes it moves the place by up to eps |x|, which changes
+a stress by about eps |x|/h times the difference between neighbouring pressures: 5e-12 of it at
+h = 1 um, 5 cm from the origin.
 """
 
 import numpy as np
@@ -46,13 +42,11 @@ def stress_at(
 
     Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
     """
-    besides = (
-        []
-        if traction is None
-        else [friction_stress_at(x_nodes, traction, x, z, element, periodic=periodic)]
-    )
     stress = friction_stress_at(x_nodes, pressure, x, z, element, periodic=periodic)
-    return stress.at(friction, *besides)
+    if traction is None:
+        return stress.at(friction)
+    besides = friction_stress_at(x_nodes, traction, x, z, element, periodic=periodic)
+    return stress.at(friction, besides)
 
 
 def friction_stress_at(

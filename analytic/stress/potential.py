@@ -237,12 +237,11 @@ def far_moments(
         powers[order] = values.sum()
         values = values * ratio
     own = element_moments(element, count) * (pitch / half) ** np.arange(count)
-    return np.array(
-        [
-            sum(math.comb(k, j) * own[j] * powers[k - j] for j in range(0, k + 1, 2))
-            for k in range(count)
-        ]
-    )
+
+    def moment(k: int) -> float:
+        return sum(math.comb(k, j) * own[j] * powers[k - j] for j in range(0, k + 1, 2))
+
+    return np.array([moment(k) for k in range(count)])
 
 
 def _in_tiers(
@@ -272,12 +271,7 @@ def _sum_of_moments(x: np.ndarray, z: np.ndarray, given: np.ndarray, terms: int)
         ahead = 2.0 * (n + 2.0) * cosine * now - (n + 3.0) * inverse * before
         before, now = now, ahead / (n + 1.0)
     zeroth, first, second, third = moments
-    factor = -2.0 / np.pi * inverse**2
-    return factor * np.stack(
-        [
-            z * (x * (x * zeroth - 2.0 * first) + second),
-            z**3 * zeroth,
-            z**2 * (x * zeroth - first),
-            x * (x * (x * zeroth - 3.0 * first) + 3.0 * second) - third,
-        ]
-    )
+    sx, sz = z * (x * (x * zeroth - 2.0 * first) + second), z**3 * zeroth
+    txz = z**2 * (x * zeroth - first)
+    sx_traction = x * (x * (x * zeroth - 3.0 * first) + 3.0 * second) - third
+    return -2.0 / np.pi * inverse**2 * np.stack([sx, sz, txz, sx_traction])

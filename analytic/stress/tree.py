@@ -4,10 +4,9 @@ The line is cut into boxes of 8 nodes, and these are joined two by two. A point 
 smallest box on whose level its depth is at most 3.5 half-widths b. That box and its three
 neighbours on either side are near: on the finest level their nodes are summed, else the boxes'
 outer expansions, whose radius is then at most 0.6 of the distance. All the rest stands at least 7 b
-from the centre and reaches the point, at most 3.6 b away from it, in one inner expansion: its
-coefficients are the parent's, moved, and the outer ones of those halves of the parent's near boxes
-that are not near themselves. Only boxes over points, and their ancestors, have one. The work grows
-with n + m in place of n m.
+from the centre and reaches the point in one inner expansion: the parent's, moved, and the outer
+ones of those halves of the parent's near boxes that are not near themselves. Only boxes over
+points, and their ancestors, have one. The work grows with n + m in place of n m.
 
 Where all of the load is farther than twice its half-width, its moments are summed
 (`line_multipoles`), and every component keeps its own digits. Elsewhere all are right to 1e-14 of
@@ -21,11 +20,7 @@ from itertools import pairwise
 import numpy as np
 
 from analytic.numerics import for_each
-from analytic.stress.elements import (
-    FrictionStress,
-    from_nearest,
-    unit_stress,
-)
+from analytic.stress.elements import from_nearest, unit_stress
 from analytic.stress.potential import (
     FARTHER,
     ORDER,
@@ -118,12 +113,6 @@ def inside(box: np.ndarray, count: int) -> np.ndarray:
     return np.where((box >= 0) & (box < count), box, count)
 
 
-def inner_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """sum L_l u^l of each point's box (points,), and its derivative in u."""
-    column = np.searchsorted(tree.ids, box)
-    return polynomial((row[column] for row in tree.inner[::-1]), u)
-
-
 def outer_sum(tree: BoxLevel, box: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """sum M_k / u^(k+1) over the near boxes, and its derivative in u."""
     total, change = np.zeros_like(u), np.zeros_like(u)
@@ -152,20 +141,15 @@ class LoadedLine:
 
 
 def near_stress(
-    line: LoadedLine,
-    nearest: np.ndarray,
-    rest: np.ndarray,
-    z: np.ndarray,
-    start: np.ndarray,
-    count: int,
+    line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, z: np.ndarray, box: np.ndarray
 ) -> np.ndarray:
-    """The four stresses (4, points) of `count` elements from number `start` (points,) on.
+    """The four stresses (4, points) of the elements in each point's near boxes on the finest level.
 
     At places (points,) `rest` from the node of number `nearest`, and z below, in pitches. Elements
     beyond the line's ends carry nothing.
     """
-    unique, which = np.unique(start, return_inverse=True)
-    index = unique[:, None] + np.arange(-1, count + 1)
+    unique, which = np.unique((box - NEIGHBOURS) * LEAF, return_inverse=True)
+    index = unique[:, None] + np.arange(-1, (2 * NEIGHBOURS + 1) * LEAF + 1)
     loaded = (index >= 0) & (index < len(line.load))
     load = np.where(loaded, line.load[np.where(loaded, index, 0)], 0.0)
     load[:, [0, -1]] = 0.0
@@ -173,15 +157,11 @@ def near_stress(
     z = z[:, None]
     if line.element == "strip":
         unit = unit_stress(offset, np.broadcast_to(z, offset.shape), "strip")
-        return _weighted(unit, load[which])
+        return np.array([np.einsum("ij,ij->i", row, load[which]) for row in unit.parts])
     bend = np.zeros_like(load)
     bend[:, 1:-1] = load[:, 2:] - 2.0 * load[:, 1:-1] + load[:, :-2]
     bend[:, [0, -1]] = load[:, [1, -2]]
     return _bends(offset, z, load[which], bend[which])
-
-
-def _weighted(unit: FrictionStress, load: np.ndarray) -> np.ndarray:
-    return np.array([np.einsum("ij,ij->i", row, load) for row in unit.parts])
 
 
 def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> np.ndarray:
@@ -205,14 +185,8 @@ def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> 
     own = np.einsum("ij,ij->i", load, np.maximum(1.0 - distance, 0.0))
     z = z[:, 0]
     sz = rise_moment / np.pi - own
-    return np.array(
-        [
-            sz + z * log_sum / np.pi,
-            sz,
-            z * angle / np.pi,
-            -(3.0 * z * angle + log_moment) / np.pi,
-        ]
-    )
+    sx, txz = sz + z * log_sum / np.pi, z * angle / np.pi
+    return np.array([sx, sz, txz, -(3.0 * z * angle + log_moment) / np.pi])
 
 
 _DEEPEST = 3.5  # half-widths of a box: points below belong to a larger one
@@ -251,7 +225,8 @@ def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.nda
         u = np.empty(len(here), dtype=complex)
         u.real = along[here] / tree.half - (2.0 * box[here] + 1.0)
         u.imag = down[here] / tree.half
-        potential, slope = inner_sum(tree, box[here], u)
+        column = np.searchsorted(tree.ids, box[here])
+        potential, slope = polynomial((row[column] for row in tree.inner[::-1]), u)
         if tree is not levels[0]:
             near, near_slope = outer_sum(tree, box[here], u)
             potential += near
@@ -261,11 +236,8 @@ def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.nda
         if tree is levels[0]:
             for i in range(0, len(here), _NEAR_BLOCK):
                 block = slice(i, i + _NEAR_BLOCK)
-                start = (box[here[block]] - NEIGHBOURS) * LEAF
-                count = (2 * NEIGHBOURS + 1) * LEAF
-                found[:, block] += near_stress(
-                    line, nearest[here[block]], rest[here[block]], down[here[block]], start, count
-                )
+                own = here[block]
+                found[:, block] += near_stress(line, nearest[own], rest[own], down[own], box[own])
         parts[:, here] = found
 
     for_each(

@@ -1,24 +1,18 @@
 """Gaussian profile filters: which waves of a profile are form, which are roughness, which noise.
 
-The weighting function is that of ISO 16610-21:2011, eq. 1,
+The weighting function is that of ISO 16610-21:2011, eq. 1, not truncated,
 
     s(x) = exp(-pi (x / (alpha lambda))^2) / (alpha lambda),   alpha = sqrt(ln 2 / pi) = 0.4697,
 
-so that the mean line holds exactly half of a wave of the cut-off's length, without a phase:
-its transmission is 2^-(lambda / wavelength)^2 (eq. 2). The function is not truncated.
+so that the mean line holds exactly half of a wave of the cut-off's length lambda [m], without a
+phase: its transmission is 2^-(lambda / wavelength)^2 (eq. 2).
 
-Towards the ends of the trace, where the standard's weighting function would reach beyond it,
-the mean line is that of a straight line fitted with the same weights to what there is of the
-trace (ISO 16610-28:2016, retention of moments up to the first): a straight line passes unchanged
-up to both ends, and nothing of the trace is lost. Half a cut-off inside, this differs from the
-plain filter by a few thousandths of the waviness; one cut-off inside, by 1e-6 of it.
+Towards the ends of the trace the mean line is that of a straight line fitted with the same weights
+to what there is of the trace (ISO 16610-28:2016, retention of moments up to the first): a straight
+line passes unchanged, and nothing of the trace is lost. Half a cut-off inside, this differs from
+the plain filter by a few thousandths of the waviness; one cut-off inside, by 1e-6 of it.
 
 The filter acts on the profile's spline, so that samples need not be evenly spaced.
-
-Nomenclature
-  lambda  cut-off (nesting index) [m]
-  s       weighting function [1/m]
-  u       distance from the place where the mean line is wanted, over lambda
 """
 
 from math import ceil, log, pi, sqrt

@@ -1,19 +1,13 @@
 """A turned surface along its feed: the path of the tool's nose, its ridges rounded, and noise.
 
-A tool with a round nose of radius r leaves one arc a feed f; neighbouring arcs meet in ridges of
-height r - sqrt(r^2 - f^2/4), about f^2/(8 r). Real ridges are not sharp (and a sharp one would
-attract an unbounded pressure), so each is rounded by an arc of radius rho tangent to both. By
-the triangle of the centres the height from valley to ridge becomes
+A tool with a round nose of radius r leaves one arc a feed f. Real ridges between neighbouring arcs
+are not sharp (and a sharp one would attract an unbounded pressure), so each is rounded by an arc of
+radius rho tangent to both. By the triangle of the centres the height from valley to ridge is
 
-    h = (r + rho) - sqrt((r + rho)^2 - f^2/4),
+    h = (r + rho) - sqrt((r + rho)^2 - f^2/4),     about f^2/(8 (r + rho)).
 
-the sharp formula with r + rho for r. The curve has a continuous slope; its curvature jumps where
-the arcs meet, between 1/r and -1/rho, and the spline needs several samples on each arc to follow
-that without ringing.
-
-Nomenclature
-  f, r, rho   feed, nose radius, ridge radius [m]
-  u           distance from the nearest ridge [m], at most f/2
+The slope is continuous; the curvature jumps where the arcs meet, between 1/r and -1/rho, and the
+spline needs several samples on each arc to follow that without ringing. f, r, rho [m].
 """
 
 from math import ceil, sqrt

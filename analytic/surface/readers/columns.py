@@ -9,7 +9,6 @@ from analytic.numerics import check_positive
 from analytic.profile import MAX_SAMPLES, Profile
 from analytic.surface.readers.text import (
     DECIMAL_COMMAS,
-    NAMES,
     ProfileError,
     ProfileTable,
     read_table,
@@ -43,24 +42,14 @@ SAME_PLACE = 1e-9  # of the length: x closer than this coincide
 class ReadProfile:
     """A profile as its file gives it, and how it was read.
 
-    profile    x and height in m, x ascending; heights not moved; x of heights alone starts at 0
-    columns    1 or 2
-    separator  semicolon | tab | blank | comma | none
-    decimal    point | comma
-    header     text lines before the first row
-    bridged    dropouts put on the straight line between their neighbours
-    trimmed    dropouts left out at the ends of the trace
-    reordered  whether the rows had to be sorted by x
+    profile   x and height in m, x ascending; heights not moved; x of heights alone starts at 0
+    bridged   dropouts put on the straight line between their neighbours
+    trimmed   dropouts left out at the ends of the trace
     """
 
     profile: Profile
-    columns: int
-    separator: str
-    decimal: str
-    header: tuple[str, ...]
     bridged: int
     trimmed: int
-    reordered: bool
 
 
 def read_profile(
@@ -104,16 +93,8 @@ def read_profile(
         raise ProfileError(path, f"{message}; a profile needs at least {MIN_SAMPLES}")
     order = np.argsort(x, kind="stable")
     _check_places(table, x[order], inside[order])
-    return ReadProfile(
-        profile=Profile(x[order], height[order]),
-        columns=table.numbers.shape[1],
-        separator=NAMES[table.separator],
-        decimal=NAMES[table.decimal],
-        header=table.header,
-        bridged=int(np.count_nonzero(lost[inside])),
-        trimmed=len(lost) - len(inside),
-        reordered=bool(np.any(np.diff(x) < 0.0)),
-    )
+    bridged = int(np.count_nonzero(lost[inside]))
+    return ReadProfile(Profile(x[order], height[order]), bridged, len(lost) - len(inside))
 
 
 def _check_shape(table: ProfileTable, spacing: float | None, max_samples: int) -> None:

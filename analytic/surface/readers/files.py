@@ -26,7 +26,14 @@ from analytic.surface.readers.text import (
     regular_file,
     unreadable,
 )
-from analytic.surface.readers.topography import MapLine, Topography, is_sdf, read_sdf, trace_of
+from analytic.surface.readers.topography import (
+    MapLine,
+    Topography,
+    is_sdf,
+    read_sdf,
+    refuse_line,
+    trace_of,
+)
 
 HEAD = 4096  # bytes by which text is recognised
 MAX_BYTES = 2**31  # of a topography
@@ -97,10 +104,7 @@ def read_measured(
         return _from_topography(read_instrument_file, *rest)
     except ColumnsError as error:
         return _from_topography(_map_in_text(error), *rest)
-    if chosen is not None:
-        what = str(chosen).split()[0]
-        message = f"is a line scan, which has no {what}s; allowed is to leave out {what}"
-        raise ProfileError(path, message)
+    refuse_line(path, chosen)
     _check_given(path, x_scale or spacing, height_scale, "is text, which names no unit")
     return MeasuredProfile(read.profile, "text", None, read.bridged, read.trimmed)
 

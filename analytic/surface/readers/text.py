@@ -149,7 +149,6 @@ class ProfileTable:
     lines      each row's line number in the file, from 1
     separator  ";", tab, " " (any run of blanks), "," or "" for a single column
     decimal    "." or ","
-    header     text lines before the first row
     """
 
     path: Path
@@ -158,7 +157,6 @@ class ProfileTable:
     lines: np.ndarray
     separator: str
     decimal: str
-    header: tuple[str, ...]
 
     def error(self, row: int, message: str) -> ProfileError:
         """The error to raise about one row."""
@@ -176,7 +174,7 @@ def read_table(path: Path, max_bytes: int, one_column: bool) -> ProfileTable:
     Raises ProfileError at the first row that is not a row of numbers and dropouts.
     """
     file_lines = read_lines(path, max_bytes)
-    first, header = _header(path, file_lines)
+    first = _first_row(path, file_lines)
     rows, lines = _rows(file_lines, first)
     filled = [i for i, row in enumerate(rows) if row.strip(NOTHING)]
     some_blank = len(filled) < len(rows)
@@ -184,20 +182,18 @@ def read_table(path: Path, max_bytes: int, one_column: bool) -> ProfileTable:
     separator, decimal = _dialect(path, int(lines[0]), text, one_column)
     numbers = _fast_numbers(text, separator, decimal)
     if numbers is None:
-        table = ProfileTable(
-            path, np.empty((0, 0)), text, lines[filled], separator, decimal, header
-        )
+        table = ProfileTable(path, np.empty((0, 0)), text, lines[filled], separator, decimal)
         numbers = _careful_numbers(table)
     numbers = np.where(np.isfinite(numbers), numbers, np.nan)
     if some_blank and numbers.shape[1] == 1:
         every = np.full((len(rows), 1), np.nan)
         every[filled] = numbers
-        return ProfileTable(path, every, rows, lines, separator, decimal, header)
-    return ProfileTable(path, numbers, text, lines[filled], separator, decimal, header)
+        return ProfileTable(path, every, rows, lines, separator, decimal)
+    return ProfileTable(path, numbers, text, lines[filled], separator, decimal)
 
 
-def _header(path: Path, lines: list[str]) -> tuple[int, tuple[str, ...]]:
-    """Index of the first row, and the text lines before it."""
+def _first_row(path: Path, lines: list[str]) -> int:
+    """Index of the first row, behind the header."""
     header: list[str] = []
     for index, line in enumerate(lines):
         bare = _without_comment(line)
@@ -205,7 +201,7 @@ def _header(path: Path, lines: list[str]) -> tuple[int, tuple[str, ...]]:
             continue
         pieces = [piece for piece in re.split(r"[;,\s]+", bare) if piece]
         if NUMBER.fullmatch(pieces[0]) or all(map(_is_cell, pieces)):
-            return index, tuple(header)
+            return index
         header.append(bare.strip())
     what = f"{shown(header[0])} is no row of numbers" if header else "it holds only comments"
     raise ProfileError(path, f"has no samples: {what}; a row is x and height, or a height")

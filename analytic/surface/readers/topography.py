@@ -97,10 +97,7 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
     height is NaN. Raises ProfileError where there is nothing to choose from, or outside the map.
     """
     if not topography.is_map:
-        if chosen is not None:
-            what = str(chosen).split()[0]
-            message = f"is a line scan, which has no {what}s; allowed is to leave out {what}"
-            raise ProfileError(topography.path, message)
+        refuse_line(topography.path, chosen)
         if topography.x is not None:
             return topography.x, topography.heights
         return np.arange(len(topography.heights)) * topography.pitch[0], topography.heights
@@ -113,22 +110,26 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
         )
     rows, columns = topography.heights.shape
     along, across = topography.pitch
+    for what, number, count in (("row", chosen.row, rows), ("column", chosen.column, columns)):
+        if number is not None and not 0 <= number < count:
+            raise ProfileError(
+                topography.path,
+                f"has no {what} {number} (a map of {topography.size()}); "
+                f"allowed is from 0 to {count - 1}",
+            )
     if chosen.row is not None:
-        _check_number(topography, "row", chosen.row, rows)
         return np.arange(columns) * along, topography.heights[chosen.row]
     if chosen.column is not None:
-        _check_number(topography, "column", chosen.column, columns)
         return np.arange(rows) * across, topography.heights[:, chosen.column]
     return _along(topography, np.array(chosen.line, dtype=float))
 
 
-def _check_number(topography: Topography, what: str, number: int, count: int) -> None:
-    if not 0 <= number < count:
-        raise ProfileError(
-            topography.path,
-            f"has no {what} {number} (a map of {topography.size()}); "
-            f"allowed is from 0 to {count - 1}",
-        )
+def refuse_line(path: Path, chosen: MapLine | None) -> None:
+    """ProfileError where a line of a map was chosen from a line scan."""
+    if chosen is not None:
+        what = str(chosen).split()[0]
+        message = f"is a line scan, which has no {what}s; allowed is to leave out {what}"
+        raise ProfileError(path, message)
 
 
 def _along(topography: Topography, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -203,7 +204,8 @@ def read_sdf(path: Path) -> Topography:
     """
     content = path.read_bytes()
     read = _read_text if content.startswith(MAGIC_TEXT) else _read_binary
-    scales, heights = read(path, content)
+    scales, heights, kind = read(path, content)
+    heights[~np.isfinite(heights) | (heights == LOST.get(kind, np.nan))] = np.nan
     if not (np.all(np.isfinite(scales)) and np.all(scales > 0.0)):
         raise _damaged(path, "its scales are not positive and finite")
     heights = heights * scales[2]
@@ -217,7 +219,8 @@ def read_sdf(path: Path) -> Topography:
     )
 
 
-def _read_binary(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray]:
+def _read_binary(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray, int]:
+    """Scales (3,), heights as counted (profiles, points) and the data type."""
     start = len(MAGIC_BINARY) + HEADER.size
     if len(content) < start:
         raise _damaged(path, "it ends inside its header")
@@ -232,11 +235,10 @@ def _read_binary(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray]:
     if len(content) < start + count * dtype.itemsize:
         raise _damaged(path, f"it ends before its {profiles} profiles of {points} heights")
     numbers = np.frombuffer(content, dtype, count, start).astype(float)
-    numbers[~np.isfinite(numbers) | (numbers == LOST.get(kind, np.nan))] = np.nan
-    return np.array(scales), numbers.reshape(profiles, points)
+    return np.array(scales), numbers.reshape(profiles, points), kind
 
 
-def _read_text(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray]:
+def _read_text(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray, int]:
     header, star, rest = content.decode("latin-1").partition("*")
     if not star:
         raise _damaged(path, "its header has no end")
@@ -262,8 +264,7 @@ def _read_text(path: Path, content: bytes) -> tuple[np.ndarray, np.ndarray]:
         numbers = np.array([word if word.upper() != "BAD" else "nan" for word in words], float)
     except ValueError as error:
         raise _damaged(path, f"a height is no number ({error})") from error
-    numbers[~np.isfinite(numbers) | (numbers == LOST.get(kind, np.nan))] = np.nan
-    return scales, numbers.reshape(profiles, points)
+    return scales, numbers.reshape(profiles, points), kind
 
 
 def _check_kind(path: Path, compression: int, kind: int) -> None:

@@ -137,7 +137,7 @@ def test_what_makes_no_sense_is_refused():
         rounded_punch_from_half_width(0.0, 1.0, 1.0, 1.0)
     with pytest.raises(ValueError, match="half_flat must be at least 0"):
         rounded_punch_from_half_width(1.0, -1.0, 1.0, 1.0)
-    with pytest.raises(ValueError, match="half_flat must be below the half-width"):
+    with pytest.raises(ValueError, match="half_flat must be at least 0 and below"):
         rounded_punch_from_half_width(1.0, 1.0, 1.0, 1.0)
 
 

@@ -4,9 +4,10 @@ import json
 
 import numpy as np
 import pytest
+from exact_stresses import hat_displacement
 from scenes import DATA
 
-from analytic.operators.elements import hat_displacement, hat_galerkin, strip_displacement
+from analytic.operators.elements import hat_galerkin, strip_displacement
 
 
 def rows(name: str, key: str) -> tuple[np.ndarray, np.ndarray]:

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from exact_stresses import hat_displacement
 from numpy.polynomial.legendre import leggauss
 from scipy.linalg import toeplitz
 
-from analytic.operators.elements import hat_displacement
 from analytic.operators.half_plane import DenseCompliance, HalfPlane, SumOfBodies, SumOfConvolutions
 from analytic.operators.periodic import PeriodicHalfPlane
 

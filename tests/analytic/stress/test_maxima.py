@@ -5,15 +5,15 @@ import pytest
 
 from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
 from analytic.stress.field import graded_depths, stress_field
-from analytic.stress.maxima import field_maxima, stress_maxima
+from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import stress_at
 
 UNIT = HertzContact(1.0, 1.0, np.pi / 2.0, 1.0, 2.0)
 NAMES = ("sx", "sz", "txz")
 
 
-def largest_tau1(*given):
-    return field_maxima([lambda stress: stress.tau1], *given)[0]
+def largest_tau1(x, pressure, friction, field, *element):
+    return stress_maxima(x, pressure, friction, field, 0.3, *element).tau1
 
 
 def elements(count: int, element: str) -> tuple[np.ndarray, np.ndarray]:

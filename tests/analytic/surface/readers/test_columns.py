@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scenes import PROFILES
 
 from analytic.surface.readers.columns import read_profile
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.text import ProfileError, read_table
 
 X = [0.0, 0.5, 1.5, 2.0, 4.25]
 HEIGHT = [0.125, -3.0, 2.5, 0.0, -0.75]
@@ -64,7 +64,7 @@ def test_two_columns_in_any_dialect(tmp_path, content):
     read = read_profile(write(tmp_path, content), x_scale=1.0, height_scale=1.0)
     np.testing.assert_array_equal(read.profile.x, X)
     np.testing.assert_array_equal(read.profile.height, HEIGHT)
-    assert (read.columns, read.bridged, read.trimmed) == (2, 0, 0)
+    assert (read.bridged, read.trimmed) == (0, 0)
 
 
 @pytest.mark.parametrize("content", ONE_COLUMN.values(), ids=ONE_COLUMN)
@@ -73,22 +73,15 @@ def test_one_column_in_any_dialect(tmp_path, content):
     read = read_profile(path, x_scale=1.0, height_scale=1.0, spacing=0.25)
     np.testing.assert_array_equal(read.profile.x, [0.0, 0.25, 0.5, 0.75, 1.0])
     np.testing.assert_array_equal(read.profile.height, HEIGHT)
-    assert read.columns == 1
 
 
-def test_what_was_found_is_reported(tmp_path):
+def test_header_separator_and_order_of_rows_are_found(tmp_path):
     content = "% stylus\nWeg;Höhe\nmm;µm\n2,5;0\n0;1\n1,5;2,5\n0,5;-3\n".encode()
     read = read_profile(write(tmp_path, content), x_scale=1e-3, height_scale=1e-6)
-    assert (read.separator, read.decimal, read.columns) == ("semicolon", "comma", 2)
-    assert read.header == ("Weg;Höhe", "mm;µm")
-    assert read.reordered
+    table = read_table(tmp_path / "trace.txt", 1000, one_column=False)
+    assert (table.separator, table.decimal, table.numbers.shape) == (";", ",", (4, 2))
     np.testing.assert_allclose(read.profile.x, [0.0, 0.5e-3, 1.5e-3, 2.5e-3], rtol=1e-15)
     np.testing.assert_allclose(read.profile.height, [1e-6, -3e-6, 2.5e-6, 0.0], rtol=1e-15)
-
-
-def test_rows_in_order_are_not_called_reordered(tmp_path):
-    content = TWO_COLUMNS["comma"]
-    assert not read_profile(write(tmp_path, content), x_scale=1.0, height_scale=1.0).reordered
 
 
 def test_whole_numbers_with_a_comma_are_two_columns(tmp_path):
@@ -107,7 +100,6 @@ def test_heights_are_scaled_but_not_moved(tmp_path):
 @pytest.mark.parametrize("name", ["ground_unrun", "ground_run_in", "ground_polished"])
 def test_profiles_of_the_project_are_read(name):
     read = read_profile(PROFILES / f"{name}.csv", x_scale=1e-6, height_scale=1e-6)
-    assert read.header == ("x_um,height_um",)
     assert len(read.profile.x) == 2237
     assert read.profile.length == pytest.approx(2236e-6, rel=1e-12)
     assert abs(np.mean(read.profile.height)) < 1e-11

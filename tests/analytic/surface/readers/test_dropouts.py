@@ -32,7 +32,7 @@ def test_neighbours_are_those_in_x_whatever_the_order_of_rows(tmp_path):
     read = bridged(tmp_path, "5,6\n1,NaN\n9,NaN\n0,1\n6,5\n7,4\n")
     np.testing.assert_array_equal(read.profile.x, [0, 1, 5, 6, 7])
     np.testing.assert_array_equal(read.profile.height, [1, 2, 6, 5, 4])
-    assert (read.bridged, read.trimmed, read.reordered) == (1, 1, True)
+    assert (read.bridged, read.trimmed) == (1, 1)
 
 
 def test_empty_lines_of_a_single_column_are_lost_heights(tmp_path):
