@@ -94,9 +94,10 @@ def run(
     progress  gets each stage as it begins
     Raises SceneError for a wrong scene, SolverError where no solution is found.
 
+    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
     >>> coarse = {
-    ...     "roller": {"radius": 8e-3, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
-    ...     "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3},
+    ...     "roller": {"radius": 8e-3, **steel},
+    ...     "body": steel,
     ...     "load": {"per_length": 1e6},
     ...     "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5},
     ...     "resolution": {"pitch": "20 um", "levels": 2},
@@ -129,19 +130,10 @@ def read(folder: str | os.PathLike) -> Run:
 def compare(*runs: Run) -> Figures:
     """The figures of several runs, a row for each run, friction coefficient and quantity.
 
-    >>> light, heavy = (
-    ...     run(
-    ...         {
-    ...             "title": f"{load} N/m",
-    ...             "roller": {"radius": 8e-3, "youngs_modulus": 210e9, "poissons_ratio": 0.3},
-    ...             "body": {"youngs_modulus": 210e9, "poissons_ratio": 0.3},
-    ...             "load": {"per_length": load},
-    ...         },
-    ...         "half-plane",
-    ...     )
-    ...     for load in (1e6, 4e6)
-    ... )
-    >>> both = compare(light, heavy)
+    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+    >>> bodies = {"roller": {"radius": 8e-3, **steel}, "body": steel}
+    >>> scenes = [bodies | {"load": {"per_length": load}} for load in (1e6, 4e6)]
+    >>> both = compare(*(run(scene, "half-plane") for scene in scenes))
     >>> peaks = [row["half_plane"] for row in both.rows if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
     2.0

@@ -28,8 +28,7 @@ class Printed:
         raise NotImplementedError
 
     def __repr__(self) -> str:
-        lines = self._console().export_text().splitlines()
-        return "\n".join(line.rstrip() for line in lines)
+        return "\n".join(map(str.rstrip, self._console().export_text().splitlines()))
 
     def _repr_html_(self) -> str:
         return self._console().export_html(inline_styles=True, code_format=PAGE)
@@ -44,10 +43,7 @@ class Printed:
 
 @dataclass(frozen=True, repr=False)
 class Run(Printed):
-    """A finished run.
-
-    outcome  everything that was computed
-    """
+    """A finished run; `outcome` is everything that was computed."""
 
     outcome: Outcome
 

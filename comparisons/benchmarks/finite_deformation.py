@@ -120,8 +120,8 @@ class RollerCase:
     @property
     def hats(self) -> np.ndarray:
         """Nodes with the outer feet."""
-        x = self.grid.x
-        return np.concatenate([[x[0] - self.grid.pitch], x, [x[-1] + self.grid.pitch]])
+        x, pitch = self.grid.x, self.grid.pitch
+        return np.array([x[0] - pitch, *x, x[-1] + pitch])
 
     def weighted_gap(self, grid: HatGrid, shape: Literal["parabola", "circle"]) -> np.ndarray:
         """Initial gap weighted with the hats of a grid, with the roughness."""
@@ -145,19 +145,13 @@ class RollerCase:
 
     @cached_property
     def _spline(self) -> CubicSpline:
-        return self_affine(
-            hurst=HURST,
-            samples=int(64 * TRACE) + 1,
-            length=TRACE,
-            seed=self.seed,
-            rms_slope=self.slope,
-            shortest_wavelength=SHORTEST,
-            longest_wavelength=LONGEST,
-        ).spline()
+        kind = {"hurst": HURST, "rms_slope": self.slope, "seed": self.seed}
+        waves = {"shortest_wavelength": SHORTEST, "longest_wavelength": LONGEST}
+        return self_affine(samples=int(64 * TRACE) + 1, length=TRACE, **kind, **waves).spline()
 
 
 class ModelFigures(NamedTuple):
-    """Peak pressure, contact length, largest principal shear and Newton's iterations."""
+    """Peak pressure, contact length, largest principal shear, iterations."""
 
     peak: float
     length: float
@@ -210,13 +204,9 @@ def model_series(case: RollerCase) -> list[ModelFigures]:
         return _figures(found, stress, case.hats[1:-1], found.pressure)
 
     current = linear(rough, CurrentContact(rough, case.hats, roller))
-
-    def along_roller(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        return roller(x)[1], np.ones_like(x)
-
-    current_stress = nodal_stress(
-        rough, current.displacement, case.hats, current.pressure, direction=along_roller
-    )
+    loaded = rough, current.displacement, case.hats, current.pressure
+    along_roller = {"direction": lambda x: (roller(x)[1], np.ones_like(x))}
+    current_stress = nodal_stress(*loaded, **along_roller)
     finite = press_finitely(rough, case.hats, roller, start, load=case.load)
     return [
         undeformed(flat, parabola),

@@ -110,13 +110,9 @@ def figures(
     weight."""
     length = float(weights[pressure > 0.0].sum())
     at = int(np.argmax(pressure))
-    return PressureFigures(
-        length,
-        float(weights @ pressure) / length,
-        float(pressure[at]),
-        float(x[at]),
-        float(np.linalg.norm(pressure - flow) / np.linalg.norm(flow)),
-    )
+    mean, apart = weights @ pressure / length, np.linalg.norm(pressure - flow)
+    found = mean, pressure[at], x[at], apart / np.linalg.norm(flow)
+    return PressureFigures(length, *map(float, found))
 
 
 def compare(case: CappedCase) -> list[dict[str, PressureFigures]]:
@@ -154,12 +150,8 @@ def compare(case: CappedCase) -> list[dict[str, PressureFigures]]:
                 models[name] = pressure(load, cap)
             except ContactError:  # the cap cannot bear the load
                 continue
-        rows.append(
-            {
-                name: figures(grid.x, found, grid.weights, contact.pressure)
-                for name, found in models.items()
-            }
-        )
+        flow = contact.pressure
+        rows.append({n: figures(grid.x, p, grid.weights, flow) for n, p in models.items()})
     return rows
 
 
@@ -173,16 +165,13 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     for case in CASES:
         pitch, size = case.pitch * options.coarser, case.size * options.coarser
-        rows = zip(case.peaks, compare(replace(case, pitch=pitch, size=size)), strict=True)
-        print_table(
-            case.title,
-            COLUMNS,
-            [
-                (f"{peak:g} Y", name, *(f"{v:.2f}" for v in vars(found).values()))
-                for peak, models in rows
-                for name, found in models.items()
-            ],
-        )
+        pressed = compare(replace(case, pitch=pitch, size=size))
+        rows = [
+            (f"{peak:g} Y", name, *(f"{v:.2f}" for v in vars(found).values()))
+            for peak, models in zip(case.peaks, pressed, strict=True)
+            for name, found in models.items()
+        ]
+        print_table(case.title, COLUMNS, rows)
     return 0
 
 

@@ -83,7 +83,7 @@ def print_demands(demands: Sequence[Demand], peers: Sequence | None = None) -> i
         print("holds " if demand.holds else "FAILS ", demand.text)
     failed = sum(not demand.holds for demand in demands)
     print(f"{failed} demands fail" if failed else "all demands hold")
-    if peers is not None and not peers:
+    absent = peers is not None and not peers
+    if absent:
         print("no peer is installed: nothing is shown")
-        return 1
-    return 1 if failed else 0
+    return int(absent or failed > 0)

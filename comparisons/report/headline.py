@@ -37,9 +37,8 @@ def headline(outcome: Outcome) -> Headline:
     verdict, _ = validity_verdict(checks)
     several = len(outcome.problem.scene.friction) > 1
     if verdict == "holds":
-        said = (
-            f"{_all_judged(checks)}; nearest to its tolerance, {_said(_nearest(checks), several)}"
-        )
+        nearest = _said(_nearest(checks), several)
+        said = f"{_all_judged(checks)}; nearest to its tolerance, {nearest}"
         return Headline("holds", f"The half-plane holds here: {said}.")
     if verdict == "fails":
         outside = [check for check in checks if check.is_outside]

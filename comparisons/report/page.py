@@ -1,6 +1,6 @@
 """The report: one page that opens without a network and prints without loss."""
 
-from dataclasses import dataclass
+from collections.abc import Callable
 
 from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
@@ -12,7 +12,7 @@ from comparisons.report.figures.pressures import close_up_picture, pressure_pict
 from comparisons.report.figures.problem import problem_picture
 from comparisons.report.figures.running_in import running_in_picture
 from comparisons.report.figures.sections import section_pictures
-from comparisons.report.figures.style import Picture, drawing
+from comparisons.report.figures.style import drawing
 from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
@@ -31,22 +31,20 @@ from comparisons.report.tables.verification import (
 )
 from comparisons.results.outcome import Outcome
 
-
-@dataclass(frozen=True)
-class Pictures:
-    """All pictures of a run; empty for what does not apply."""
-
-    problem: Picture
-    running_in: Picture | None
-    pressure: Picture
-    close_up: Picture
-    surface: Picture
-    fields: list[tuple[float, list[Picture]]]
-    near: list[Picture]
-    sections: list[Picture]
-    mesh: list[Picture]
-    model_error: Picture | None
-    cost: Picture
+# Each gives one picture, a list, or None where it does not apply.
+PICTURES: dict[str, Callable[[Outcome], object]] = {
+    "problem": problem_picture,
+    "running_in": running_in_picture,
+    "pressure": pressure_picture,
+    "close_up": close_up_picture,
+    "surface": surface_picture,
+    "fields": field_pictures,
+    "near": near_surface_pictures,
+    "sections": section_pictures,
+    "mesh": mesh_pictures,
+    "model_error": model_error_picture,
+    "cost": cost_picture,
+}
 
 
 def render(outcome: Outcome) -> str:
@@ -81,19 +79,7 @@ def render(outcome: Outcome) -> str:
     )
 
 
-def draw(outcome: Outcome) -> Pictures:
-    """Draw what applies to the run."""
+def draw(outcome: Outcome) -> dict[str, object]:
+    """What each of PICTURES gives."""
     with drawing():
-        return Pictures(
-            problem=problem_picture(outcome),
-            running_in=running_in_picture(outcome),
-            pressure=pressure_picture(outcome),
-            close_up=close_up_picture(outcome),
-            surface=surface_picture(outcome),
-            fields=field_pictures(outcome),
-            near=near_surface_pictures(outcome),
-            sections=section_pictures(outcome),
-            mesh=mesh_pictures(outcome),
-            model_error=model_error_picture(outcome),
-            cost=cost_picture(outcome),
-        )
+        return {name: picture(outcome) for name, picture in PICTURES.items()}

@@ -9,13 +9,8 @@ from pathlib import Path
 from comparisons.common.files import whole_file
 
 BROWSERS = (
-    "chromium",
-    "chromium-browser",
-    "chromium-headless-shell",
-    "chrome-headless-shell",
-    "google-chrome",
-    "google-chrome-stable",
-    "microsoft-edge",
+    *("chromium", "chromium-browser", "chromium-headless-shell", "chrome-headless-shell"),
+    *("google-chrome", "google-chrome-stable", "microsoft-edge"),
 )
 REMEDY = "apt-get install --no-install-recommends chromium"
 PATIENCE = 120.0  # s; a page of 5 MB takes two on a machine that does nothing else
@@ -32,14 +27,8 @@ def browser() -> str | None:
 
 def options(profile: str) -> list[str]:
     """What to start a browser with: no window, nothing of the user's, nothing from the network."""
-    given = [
-        "--headless",
-        "--disable-gpu",
-        "--disable-extensions",
-        "--disable-background-networking",
-        "--no-first-run",
-        f"--user-data-dir={profile}",
-    ]
+    given = ["--headless", "--disable-gpu", "--disable-extensions", "--no-first-run"]
+    given += ["--disable-background-networking", f"--user-data-dir={profile}"]
     # as root a browser refuses to start with a sandbox; the pages are this program's own
     return [*given, "--no-sandbox"] if os.geteuid() == 0 else given
 
@@ -53,42 +42,25 @@ def print_report(folder: Path) -> Path:
 
 def print_pdf(page: Path, target: Path, patience: float = PATIENCE) -> None:
     """Print a page into `target`, which appears whole or not at all. Raises NoPdfError."""
-    found = browser()
+    found, by_hand = browser(), f"print {page} from any browser"
     if found is None:
         raise NoPdfError(
             f"{target}: not printed: neither Chromium nor Chrome is installed; "
-            f"{REMEDY} gets one, or print {page} from any browser"
+            f"{REMEDY} gets one, or {by_hand}"
         )
     with (
         tempfile.TemporaryDirectory(prefix="crosscheck-", ignore_cleanup_errors=True) as profile,
         whole_file(target) as part,
     ):
-        command = [
-            found,
-            *options(profile),
-            "--no-pdf-header-footer",
-            f"--print-to-pdf={part.resolve()}",
-            page.resolve().as_uri(),
-        ]
+        printing = "--no-pdf-header-footer", f"--print-to-pdf={part.resolve()}"
+        command = [found, *options(profile), *printing, page.resolve().as_uri()]
+        silent = {"capture_output": True, "stdin": subprocess.DEVNULL}
         try:
-            done = subprocess.run(
-                command, capture_output=True, stdin=subprocess.DEVNULL, timeout=patience
-            )
+            ended = subprocess.run(command, timeout=patience, **silent).returncode
+            why = f"ended with {ended} and left no PDF"
         except subprocess.TimeoutExpired:
-            raise NoPdfError(
-                f"{target}: not printed: {found} did not end within {patience:g} s; "
-                f"print {page} from any browser"
-            ) from None
-        if not _is_whole(part):
-            raise NoPdfError(
-                f"{target}: not printed: {found} ended with {done.returncode} and left no PDF; "
-                f"print {page} from any browser"
-            )
-
-
-def _is_whole(path: Path) -> bool:
-    """Whether a file is a PDF from its first line to its last."""
-    if not path.is_file():
-        return False
-    content = path.read_bytes()
-    return content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")
+            why = f"did not end within {patience:g} s"
+            part.unlink(missing_ok=True)
+        content = part.read_bytes() if part.is_file() else b""
+        if not (content.startswith(b"%PDF-") and content.rstrip().endswith(b"%%EOF")):
+            raise NoPdfError(f"{target}: not printed: {found} {why}; {by_hand}")

@@ -5,20 +5,25 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import InputError
-from comparisons.report.figures.fields import COMPONENTS, field_pictures
-from comparisons.report.figures.mesh import mesh_pictures
-from comparisons.report.figures.model_error import model_error_picture
-from comparisons.report.figures.pressures import close_up_picture, pressure_picture
-from comparisons.report.figures.problem import problem_picture
-from comparisons.report.figures.sections import section_pictures
+from comparisons.report.figures.fields import COMPONENTS
 from comparisons.report.figures.style import collected_figures
-from comparisons.report.figures.surfaces import surface_picture
+from comparisons.report.page import PICTURES
 from comparisons.report.tables.text import listed
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pyvista import Plotter
+
+
+def _method(name: str, words: str, first: int = 0) -> "Callable[..., list[Axes]]":
+    """Draws one of PICTURES; of several the one at `place`."""
+
+    def method(self: "Plots", place: int = first) -> "list[Axes]":
+        return self._axes(name, place)
+
+    method.__name__, method.__doc__ = name, words
+    return method
 
 
 @dataclass(frozen=True)
@@ -31,21 +36,13 @@ class Plots:
 
     outcome: Outcome
 
-    def problem(self) -> "list[Axes]":
-        """The bodies to scale, and the contact close up."""
-        return self._axes(problem_picture)
-
-    def pressure(self) -> "list[Axes]":
-        """Pressures of the models over Hertz's, their difference, the surfaces below."""
-        return self._axes(pressure_picture)
-
-    def close_up(self) -> "list[Axes]":
-        """The same around the highest peak, with the nodes of the pressures."""
-        return self._axes(close_up_picture)
-
-    def surfaces(self) -> "list[Axes]":
-        """Both bodies' surfaces before and under load."""
-        return self._axes(surface_picture)
+    problem = _method("problem", "The bodies to scale, and the contact close up.")
+    pressure = _method("pressure", "Pressures over Hertz's, their difference, the surfaces below.")
+    close_up = _method("close_up", "The same around the highest peak, with the nodes.")
+    surfaces = _method("surface", "Both bodies' surfaces before and under load.")
+    sections = _method("sections", "tau1 over depth: 0 under the peak, 1 under the contact's edge.")
+    mesh = _method("mesh", "Mesh: 0 all, 1 under the contact, 2 under the highest pressure.", 1)
+    model_error = _method("model_error", "The half-plane's errors by source, and their tolerances.")
 
     def field(self, component: str = "tau1", friction: float | None = None) -> "list[Axes]":
         """A stress component below the contact by each model, and the difference.
@@ -61,19 +58,7 @@ class Plots:
             raise InputError(f"friction: is {friction:g}; allowed is {listed(frictions)}")
         place = 0 if friction is None else frictions.index(friction)
         # drawn component by component, in each all friction coefficients
-        return self._axes(field_pictures, names.index(component) * len(frictions) + place)
-
-    def sections(self, place: int = 0) -> "list[Axes]":
-        """tau1 over depth: 0 under the highest pressure, 1 under the edge of the contact."""
-        return self._axes(section_pictures, place)
-
-    def mesh(self, place: int = 1) -> "list[Axes]":
-        """The finite elements' mesh: 0 all, 1 under the contact, 2 under the highest pressure."""
-        return self._axes(mesh_pictures, place)
-
-    def model_error(self) -> "list[Axes]":
-        """The half-plane's errors by source, beside their tolerances."""
-        return self._axes(model_error_picture)
+        return self._axes("fields", names.index(component) * len(frictions) + place)
 
     def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
         """A field of a model on its own points in VTK, x to the right, z down; `.show()` shows it.
@@ -101,12 +86,12 @@ class Plots:
         plotter.reset_camera()
         return plotter
 
-    def _axes(self, draw: Callable[[Outcome], object], place: int = 0) -> "list[Axes]":
-        """Axes of one of the figures that `draw` makes; the others are closed."""
+    def _axes(self, name: str, place: int) -> "list[Axes]":
+        """Axes of one of the figures that this entry of PICTURES draws; the others are closed."""
         from matplotlib import pyplot
 
         with collected_figures() as drawn:
-            draw(self.outcome)
+            PICTURES[name](self.outcome)
         for number, each in enumerate(drawn):
             if number != place:
                 pyplot.close(each)

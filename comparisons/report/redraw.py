@@ -51,12 +51,14 @@ def draw_again(
     for folder in folders:
         callback(f"{folder}: drawing the report")
         content, row = _drawn(folder)  # one at a time in memory
-        page = folder / "report.html"
-        write_whole(page, content)
-        report = Report(page, row)
+        report = Report(folder / "report.html", row)
+        write_whole(report.page, content)
         if pdf:
             callback(f"{folder}: printing the report")
-            report = _printed(report)
+            try:
+                report = replace(report, pdf=print_report(folder))
+            except NoPdfError as error:
+                report = replace(report, no_pdf=str(error))
         reports.append(report)
     if summary is not None:
         summary.parent.mkdir(parents=True, exist_ok=True)
@@ -74,13 +76,6 @@ def _drawn(folder: Path) -> tuple[str, SummaryRow]:
             f"{folder}: its result.json, record.json and report.npz make up no report "
             f"({error!r}); allowed is what one run wrote"
         ) from error
-
-
-def _printed(report: Report) -> Report:
-    try:
-        return replace(report, pdf=print_report(report.page.parent))
-    except NoPdfError as error:
-        return replace(report, no_pdf=str(error))
 
 
 def reports_content(reports: Sequence[Report], summary: Path | None) -> dict:

@@ -124,6 +124,5 @@ def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
         raise InputError(f"{path}: is missing; {REMEDY}") from None
     except Exception as error:  # of a file that was cut short meshio may say anything
         raise InputError(f"{path}: cannot be read: {error}; {REMEDY}") from None
-    finest = replace(run.finest, mesh=mesh)
-    run = replace(run, levels=(*run.levels[:-1], finest))
+    run = replace(run, levels=(*run.levels[:-1], replace(run.finest, mesh=mesh)))
     return replace(outcome, runs={**outcome.runs, run.name: run})

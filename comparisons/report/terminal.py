@@ -32,21 +32,12 @@ SHORT = {
     "tau1_field_near": "tau1 near, L2",
     "tau1_field_deep": "tau1 deep, L2",
 }
-STYLES = {
-    "agree": "cyan",
-    "differ": "bold red",
-    "inconclusive": "yellow",
-    "holds": "bold cyan",
-    "fails": "bold red",
-    "not converged": "bold red",
-}
+STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
+STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
 LISTED = 2  # effects in the terminal; the report has them all
 ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 # Any terminal shows these.
-PLAIN = str.maketrans(
-    {"µ": "u", "²": "2", "−": "-", "–": "-", "₀": "0", "₁": "1", "×": "x"}
-    | {"τ": "tau", "ν": "nu", "β": "beta"}
-)
+PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
 
 
 def summary(outcome: Outcome) -> "RenderableType":
@@ -75,16 +66,10 @@ def _comparison(outcome: Outcome) -> "Table":
     if any(row.verdict == "inconclusive" for row in rows):
         table.padding = 0  # the longest verdict fits into 80 columns
     for row in rows:
-        cells = (
-            f"{SHORT[row.quantity]}\n{row.note}".strip(),
-            row.friction,
-            row.half_plane,
-            row.finite_element,
-            row.difference,
-            row.uncertainty,
-            row.tolerance,
-        )
-        table.add_row(*map(_cell, cells), _cell(row.verdict, STYLES.get(row.verdict, "")))
+        name, figures = f"{SHORT[row.quantity]}\n{row.note}", (row.half_plane, row.finite_element)
+        judged = row.difference, row.uncertainty, row.tolerance
+        cells = map(_cell, (name.strip(), row.friction, *figures, *judged))
+        table.add_row(*cells, _cell(row.verdict, STYLES.get(row.verdict, "")))
     return table
 
 
@@ -149,21 +134,15 @@ def surface_text(info: ProfileInfo, run_in: bool = False) -> str:
 def run_in_text(outcome: Outcome) -> str:
     """How the surface was run in, whether it settled, and whether that held."""
     run_in = outcome.problem.scene.run_in
-    return (
-        f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
-        f"{'' if run_in.status == 'settled' else 'not '}settled"
-        f"{'' if run_in.converged else ', not converged'}"
-        f"{above_hardness(outcome)}"
-    )
-
-
-def above_hardness(outcome: Outcome) -> str:
-    """Whether features finer than running-in resolved are pressed harder than it allowed."""
-    hardness = outcome.problem.scene.run_in.constraints.hardness
+    text = f"{area(run_in.volume)} moved in {len(run_in.passes)} passes, "
+    text += "settled" if run_in.status == "settled" else "not settled"
+    text += "" if run_in.converged else ", not converged"
+    # features finer than running-in resolved may be pressed harder than it allowed
+    hardness = run_in.constraints.hardness
     peak = max(np.max(run.finest.solution.pressure) for run in outcome.runs.values())
-    if peak <= ABOVE * hardness:
-        return ""
-    return f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
+    if peak > ABOVE * hardness:
+        text += f"; pressed afterwards by up to {peak / hardness:.2f} times its hardness"
+    return text
 
 
 def _facts(outcome: Outcome) -> "Table":
@@ -178,8 +157,7 @@ def _facts(outcome: Outcome) -> "Table":
         rows.append(("run in", run_in_text(outcome)))
     if outcome.budget is not None:
         rows.append(("not modelled", not_modelled_line(outcome)))
-    moved = coupling_line(outcome)
-    if moved is not None:
+    if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())

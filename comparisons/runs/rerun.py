@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
 
-
 Pair = tuple[object, object]
+DIGITS = 9  # of a figure: enough to see what moved by more than rounding
 
 
 @dataclass(frozen=True)
@@ -118,9 +118,6 @@ def _unlike(before: dict, now: dict) -> dict[str, Pair]:
     return {n: (before.get(n), now.get(n)) for n in names if before.get(n) != now.get(n)}
 
 
-DIGITS = 9  # of a figure: enough to see what moved by more than rounding
-
-
 def rerun_summary(repetition: Repetition) -> "RenderableType":
     """What moved, and what the repetition had that the record had not."""
     from rich.console import Group
@@ -143,14 +140,9 @@ def _table(moved: tuple[Moved, ...]) -> "Table":
     table = plain_table("figure", numbers=numbers)
     table.add_column("of")
     for row in moved:
-        cells = (
-            row.path,
-            _value(row.recorded),
-            _value(row.repeated),
-            "" if row.change is None else f"{row.change:+.2e}",
-            "" if not row.by else f"{row.stated:.2e}",
-            row.by or "none",
-        )
+        change = "" if row.change is None else f"{row.change:+.2e}"
+        stated = (f"{row.stated:.2e}", row.by) if row.by else ("", "none")
+        cells = (row.path, _value(row.recorded), _value(row.repeated), change, *stated)
         style = STYLES["differ"] if row.beyond else ""
         table.add_row(*(Text(cell, style=style) for cell in cells))
     return table
@@ -190,13 +182,10 @@ def _lines(repetition: Repetition) -> list[str]:
         refinement = repetition.outcome.result["refinement"]
         lines.append(f"Recorded on {before} levels, repeated on {now}: {refinement}.")
     if repetition.other:
-        parts = (f"{n} {_known(a)}, now {_known(b)}" for n, (a, b) in repetition.other.items())
+        known = {n: ["unknown" if v is None else v for v in p] for n, p in repetition.other.items()}
+        parts = (f"{name} {before}, now {now}" for name, (before, now) in known.items())
         lines.append(f"Other than recorded: {'; '.join(parts)}.")
     return lines
-
-
-def _known(value: object) -> str:
-    return "unknown" if value is None else str(value)
 
 
 def _count(number: int, name: str) -> str:

@@ -69,9 +69,9 @@ def run(
 def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
     """Raise SceneError for what only one process can solve where there are several."""
     settings = scene.finite_element
-    name = "deformation" if settings.deformation == "finite" else "plastic"
-    nonlinear = settings.deformation == "finite" or settings.plastic
-    if nonlinear and "finite_element" in models and is_several():
+    finite = settings.deformation == "finite"
+    name = "deformation" if finite else "plastic"
+    if (finite or settings.plastic) and "finite_element" in models and is_several():
         raise SceneError(
             f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
             "mpirun"
@@ -116,10 +116,7 @@ def solve(
         cache.discard()
         raise
     result = result_of(problem, plan, runs, rows, stop, moved, budget)
-    hashes = {
-        f"{name}_pressure": digest(level_run.finest.solution.pressure)
-        for name, level_run in runs.items()
-    }
+    hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
     run_in = problem.scene.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)

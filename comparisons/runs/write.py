@@ -56,27 +56,18 @@ def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
 
 def write_contact(path: Path, problem: Problem, level: Level) -> None:
     """contact.csv: a row for each pressure element."""
-    columns = {
-        "x [m]": level.grid.x,
-        "pressure [Pa]": level.solution.pressure,
-        "gap [m]": level.solution.gap,
-        "deformed height [m]": deformed_height(problem, level),
-    }
-    _write_csv(path, columns)
+    columns = level.grid.x, level.solution.pressure, level.solution.gap
+    head = "x [m],pressure [Pa],gap [m],deformed height [m]"
+    _write_csv(path, head, *columns, deformed_height(problem, level))
 
 
 def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
     """run_in_profile.csv: the trace along its own x, its height before and after."""
-    run_in = scene.run_in
-    after = run_in.profile.height
-    columns = {
-        "x [m]": run_in.profile.x + scene.position,
-        "height before running-in [m]": after + run_in.lowering,
-        "height [m]": after,
-    }
-    _write_csv(path, columns)
+    x, after = scene.run_in.profile.x + scene.position, scene.run_in.profile.height
+    head = "x [m],height before running-in [m],height [m]"
+    _write_csv(path, head, x, after + scene.run_in.lowering, after)
 
 
-def _write_csv(path: Path, columns: dict[str, np.ndarray]) -> None:
-    rows = np.column_stack(list(columns.values()))
-    np.savetxt(path, rows, delimiter=",", fmt="%.12g", header=",".join(columns), comments="")
+def _write_csv(path: Path, head: str, *columns: np.ndarray) -> None:
+    rows = np.column_stack(columns)
+    np.savetxt(path, rows, delimiter=",", fmt="%.12g", header=head, comments="")

@@ -36,7 +36,7 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window
 from comparisons.report.figures.style import Picture
-from comparisons.report.page import Pictures
+from comparisons.report.page import PICTURES
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
@@ -196,21 +196,22 @@ def wavy_outcome() -> Outcome:
 
 
 @pytest.fixture(scope="session")
-def no_pictures() -> Callable[[Outcome], Pictures]:
+def no_pictures() -> Callable[[Outcome], dict]:
     """Stands in for `comparisons.report.page.draw`, which takes longer than all the rest of a run:
     the page has all its words, and nothing to look at."""
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
-    def pictures(outcome: Outcome) -> Pictures:
+    def pictures(outcome: Outcome) -> dict[str, object]:
         run_in = None if outcome.problem.scene.run_in is None else blank
         budget = None if outcome.budget is None else blank
-        return Pictures(blank, run_in, blank, blank, blank, [], [], [], [], budget, blank)
+        made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
+        return made | {name: [] for name in ("fields", "near", "sections", "mesh")}
 
     return pictures
 
 
 @pytest.fixture(scope="module")
-def undrawn(no_pictures: Callable[[Outcome], Pictures]) -> Iterator[None]:
+def undrawn(no_pictures: Callable[[Outcome], dict]) -> Iterator[None]:
     """The reports of a whole module without pictures."""
     with patch("comparisons.report.page.draw", no_pictures):
         yield

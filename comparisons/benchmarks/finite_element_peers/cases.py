@@ -23,7 +23,7 @@ import numpy as np
 
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
 from analytic.grid import HatGrid
 from analytic.material import Material
@@ -45,12 +45,6 @@ SLACK = 1e-9  # of the block: points closer to a side than this are on it
 # The reference: edges to a, growth of the elements, degree, hats to an edge.
 FINEST, FINEST_GROWTH, FINEST_DEGREE, FINEST_HATS = 640, 0.15, 3, 2
 SAMPLES = 40_001  # places at which pressures are compared
-# This project's: degree of the displacements, and hats on an element edge.
-CONFIGURATIONS = {
-    "P2, a hat an edge": (2, 1),
-    "P2, two hats an edge": (2, 2),
-    "P3, two hats an edge": (3, 2),
-}
 
 
 class FailedError(Exception):
@@ -202,9 +196,8 @@ def case_of(
     )
     reach = MARGIN * float(np.abs(grid.x[predicted.pressure > 0.0]).max())
     task = BlockTask(_mesh(reach, finest, FINEST_GROWTH), waves, 0.0)
-    feet, solution, unknowns = _contact(task, FINEST_DEGREE, FINEST_HATS, load)
-    answer = BlockAnswer(feet, np.pad(solution.pressure, 1), unknowns, 0)
-    return BlockCase(title, waves, edges, task.ends[1], solution.approach, answer)
+    answer, approach = _contact(task, FINEST_DEGREE, FINEST_HATS, load)
+    return BlockCase(title, waves, edges, task.ends[1], approach, answer)
 
 
 def _mesh(reach: float, edges: int, growth: float) -> BlockMesh:
@@ -216,22 +209,20 @@ def _mesh(reach: float, edges: int, growth: float) -> BlockMesh:
 def crosscheck() -> list[BlockCode]:
     """This project's finite elements, with the half-plane as the model of the outer iteration."""
     return [
-        BlockCode("crosscheck", name, partial(_solved, *each))
-        for name, each in CONFIGURATIONS.items()
+        BlockCode("crosscheck", "P2, a hat an edge", partial(_solved, 2, 1)),
+        BlockCode("crosscheck", "P2, two hats an edge", partial(_solved, 2, 2)),
+        BlockCode("crosscheck", "P3, two hats an edge", partial(_solved, 3, 2)),
     ]
 
 
 def _solved(degree: int, hats: int, task: BlockTask) -> BlockAnswer:
-    given = Constraints(approach=task.approach)
-    feet, solution, unknowns = _contact(task, degree, hats, given)
-    steps = solution.iterations["steps"]
-    return BlockAnswer(feet, np.pad(solution.pressure, 1), unknowns, steps)
+    return _contact(task, degree, hats, Constraints(approach=task.approach))[0]
 
 
 def _contact(
     task: BlockTask, degree: int, hats: int, constraints: Constraints
-) -> tuple[np.ndarray, ContactSolution, int]:
-    """Nodes (n + 2,) [m] of the hats with the outer feet, pressures on them, and unknowns."""
+) -> tuple[BlockAnswer, float]:
+    """Pressures at the nodes of the hats and at their outer feet, and the approach [m]."""
     body = elastic_body(task.mesh, MATERIAL, Support("bonded", "fixed"), degree=degree)
     grid = HatGrid.within(*task.ends, task.mesh.spec.surface_size / hats)
     feet = np.arange(grid.first - 1, grid.last + 2) * grid.pitch
@@ -244,4 +235,5 @@ def _contact(
     )
     if not solution.converged:
         raise FailedError(f"not converged: {solution.residuals}")
-    return feet, solution, body.unknowns
+    pressure, steps = np.pad(solution.pressure, 1), solution.iterations["steps"]
+    return BlockAnswer(feet, pressure, body.unknowns, steps), solution.approach

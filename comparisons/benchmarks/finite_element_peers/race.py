@@ -1,18 +1,16 @@
-"""Contact on finite elements beside other codes, on one thread, at equal error.
+"""Contact on finite elements beside CalculiX, on one thread, at equal error.
 
     python -m comparisons.benchmarks.finite_element_peers
 
-A cylinder, waves and roughness on it, pressed on the same blocks with the same meshes by CalculiX
-and scikit-fem, each in the way of its users, and by this project. Processor time of a solution,
+A cylinder, waves and roughness on it, pressed on the same blocks with the same meshes by CalculiX,
+in the way of its users, and by this project. Processor time of a solution,
 from the mesh in memory to the pressures, in a process that has solved the same before (CalculiX:
 without start and reading). On each mesh all codes run in turn, several times, so that disturbances
 by other processes are shared. A code that fails on a mesh, or exceeds the limit there, is not run
 on finer ones.
 
-The meshes give each configuration a curve of time over error. An error counts as reached from the
-first mesh after which no finer one exceeds it, so that an error that changes sign counts for
-nothing. Times between meshes are interpolated in logarithms of both. A code's time is that of its
-best configuration.
+An error counts as reached from the first mesh after which no finer one exceeds it. Times between
+meshes are interpolated in logarithms of both. A code's time is that of its best configuration.
 
 Exit status 0 only if a peer is installed and this project is no later than those installed at every
 error that they reach. Absent peers are named.
@@ -26,7 +24,6 @@ from typing import NamedTuple
 
 from comparisons.benchmarks.finite_element_peers import cases
 from comparisons.benchmarks.finite_element_peers.calculix import calculix
-from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
 from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table, timed
 
 CASES = ("cylinder", "waves", "rough")
@@ -67,12 +64,12 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--rounds", type=int, default=3, help="timed solutions on a mesh")
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds for one")
     options = parser.parse_args(arguments)
-    ours, peers = cases.crosscheck(), installed(calculix, scikit_fem)
+    ours, peers = cases.crosscheck(), installed(calculix)
     found, rows = [], []
     for name in options.cases:
         case = getattr(cases, name)()
         results = race(case, ours + peers, options.rounds, options.limit)
-        rows += [(case.title, *_cells(result)) for result in results]
+        rows += [_cells(case.title, result) for result in results]
         found += times_at_errors(case.title, results, ours[0].name)
     print_table("Every mesh, relative errors", COLUMNS, rows)
     for peer in peers:
@@ -83,16 +80,11 @@ def main(arguments: list[str] | None = None) -> int:
     return print_demands([times.demand for times in found], peers)
 
 
-def _cells(result: BlockResult) -> list[str]:
-    return [
-        result.code.name,
-        result.code.configuration,
-        str(result.edges),
-        str(result.answer.unknowns),
-        str(result.answer.steps),
-        f"{1e3 * result.seconds:.3g}",
-        *(f"{result.errors[name]:.1e}" for name in TARGETS),
-    ]
+def _cells(title: str, result: BlockResult) -> list[str]:
+    code, answer = result.code, result.answer
+    sizes = map(str, (result.edges, answer.unknowns, answer.steps))
+    errors = (f"{result.errors[name]:.1e}" for name in TARGETS)
+    return [title, code.name, code.configuration, *sizes, f"{1e3 * result.seconds:.3g}", *errors]
 
 
 def race(

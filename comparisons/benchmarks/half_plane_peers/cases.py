@@ -121,14 +121,8 @@ def rough(count: int, seed: int) -> LineCase:
 @lru_cache(maxsize=8)
 def rough_waves(count: int, seed: int, shortest: float) -> np.ndarray:
     """Coefficients of the waves k = 0 to n/2 of a self-affine line of unit length [m]."""
-    profile = self_affine(
-        hurst=HURST,
-        samples=count + 1,
-        length=1.0,
-        seed=seed,
-        rms_slope=RMS_SLOPE,
-        shortest_wavelength=shortest,
-    )
+    kind = {"hurst": HURST, "rms_slope": RMS_SLOPE, "shortest_wavelength": shortest}
+    profile = self_affine(samples=count + 1, length=1.0, seed=seed, **kind)
     return np.fft.rfft(profile.height[:-1]) / count
 
 
@@ -154,8 +148,5 @@ def load_for_share(count: int, waves: np.ndarray) -> float:
 
 def _solved(waves: np.ndarray, count: int, load: float) -> ContactSolution:
     pitch = 1.0 / count
-    operator = PeriodicHalfPlane(count, pitch, 1.0)
-    weights = np.full(count, pitch)
-    return solve_contact(
-        operator, pitch * hat_averages(waves, count), weights, Constraints(load=load)
-    )
+    operator, gap = PeriodicHalfPlane(count, pitch, 1.0), pitch * hat_averages(waves, count)
+    return solve_contact(operator, gap, np.full(count, pitch), Constraints(load=load))

@@ -153,10 +153,9 @@ def _loosest(code: LineCode, case: LineCase, most: int, limit: float) -> LineRes
 def demands(title: str, count: int, ours: LineResult, peers: list[LineResult]) -> list[Demand]:
     """Demands on `ours` beside the `peers` on one case of `count` nodes."""
     found = [Demand(ours.meets, f"{title}: ours meets the yardstick")]
-    for peer in peers:
-        if not (peer.meets or peer.over):
-            found.append(Demand(True, f"{title}: {peer.code} never meets the yardstick"))
     rivals = [peer for peer in peers if peer.meets or peer.over]
+    misses = [peer.code for peer in peers if peer not in rivals]
+    found += [Demand(True, f"{title}: {code} never meets the yardstick") for code in misses]
     if rivals:
         wanted = WANTED.get(count, 1.0)
         ratio = min(peer.seconds for peer in rivals) / ours.seconds

@@ -13,7 +13,7 @@ On a periodic line the elements see every wave with its aliases k + j n. On a fr
 unit length, E* = 1. The constant of the displacement is arbitrary.
 """
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -46,15 +46,13 @@ class ContactResiduals:
 
     @property
     def worst(self) -> float:
-        return max(
-            self.load_balance, self.complementarity, self.penetration, self.negative_pressure
-        )
+        return max(astuple(self)[:-1])
 
 
 def measure(case: LineCase, pressure: np.ndarray, element: str) -> ContactResiduals:
     """Of pressures (n,) [Pa] by a code with `element` "hat", "strip" or "point"."""
     if not np.all(np.isfinite(pressure)) or np.max(pressure) <= 0.0:
-        return ContactResiduals(np.inf, np.inf, np.inf, np.inf, np.inf)
+        return ContactResiduals(*[np.inf] * 5)
     initial = {"hat": case.hat_averages, "strip": case.gaps, "point": -case.heights}[element]
     periodic = case.periodic or element == "point"
     moved = displacements(pressure, element, periodic)

@@ -24,19 +24,11 @@ def cost_picture(outcome: Outcome) -> style.Picture:
     first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
     for y, width, (name, label, seconds) in zip(place, shown, rows, strict=True):
         total = label.endswith("in all")
-        axes.barh(
-            y,
-            width - first,
-            left=first,
-            height=0.72,
-            facecolor=style.LINES[name]["color"] if total else "white",
-            edgecolor=style.LINES[name]["color"],
-            hatch=HATCHES[name],
-            linewidth=0.9,
-        )
-        axes.annotate(
-            with_unit(seconds, "s", 3), (width, y), (4, 0), textcoords="offset points", va="center"
-        )
+        colour = style.LINES[name]["color"]
+        look = {"facecolor": colour if total else "white", "edgecolor": colour, "linewidth": 0.9}
+        axes.barh(y, width - first, left=first, height=0.72, hatch=HATCHES[name], **look)
+        beside = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
+        axes.annotate(with_unit(seconds, "s", 3), (width, y), **beside)
     axes.set_xscale("log")
     last = 10.0 ** np.ceil(np.log10(shown.max()))
     axes.set_xlim(first, last)
@@ -45,10 +37,8 @@ def cost_picture(outcome: Outcome) -> style.Picture:
     axes.minorticks_off()
     style.horizontal_bars(axes, place, [label for _, label, _ in rows])
     axes.set_xlabel("time, logarithmic")
-    totals = "; ".join(
-        f"{LABELS[name]} {with_unit(sum(run.seconds.values()), 's', 3)}"
-        for name, run in outcome.runs.items()
-    )
+    times = {LABELS[n]: sum(run.seconds.values()) for n, run in outcome.runs.items()}
+    totals = "; ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in times.items())
     return style.Picture(
         source=style.data_uri(drawn),
         alternative=f"Run time by stage. In all: {totals}.",

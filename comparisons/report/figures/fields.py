@@ -46,9 +46,8 @@ def round_bands(fields: list[np.ndarray], signed: bool) -> np.ndarray:
 def cross(axes: "Axes", x: float, z: float) -> None:
     """Mark a point so that it is seen on every colour."""
     for colour, thick in (("white", 2.6), ("black", 1.1)):
-        axes.plot(
-            x, z, marker="+", color=colour, markersize=7.5, markeredgewidth=thick, clip_on=False
-        )
+        look = {"color": colour, "markersize": 7.5, "markeredgewidth": thick, "clip_on": False}
+        axes.plot(x, z, marker="+", **look)
 
 
 def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]":
@@ -110,12 +109,8 @@ def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> n
     columns, rows = int(PIXELS * box.width * wide), int(PIXELS * box.height * tall)
     across = x[0] + (np.arange(columns) + 0.5) / columns * (x[-1] - x[0])
     down = z[0] + (np.arange(rows) + 0.5) / rows * (z[-1] - z[0])
-    at = np.meshgrid(
-        np.interp(down, z, np.arange(len(z))),
-        np.interp(across, x, np.arange(len(x))),
-        indexing="ij",
-    )
-    return map_coordinates(values, at, order=1)
+    at = np.interp(down, z, np.arange(len(z))), np.interp(across, x, np.arange(len(x)))
+    return map_coordinates(values, np.meshgrid(*at, indexing="ij"), order=1)
 
 
 def _stripes(where: np.ndarray) -> np.ndarray:
@@ -149,9 +144,8 @@ def colour_bar(
         look = {"facecolor": "none", "edgecolor": (0.0, 0.0, 0.0, SHADE), "hatch": "//////"}
         axes.axvspan(bands[0], -0.5 * step, linewidth=0.0, **look)
     axes.tick_params(length=2.0, pad=1.5)
-    axes.annotate(
-        label, (0.0, 0.5), (-18, 0), "axes fraction", "offset points", ha="right", va="center"
-    )
+    beside = {"xytext": (-18, 0), "xycoords": "axes fraction", "textcoords": "offset points"}
+    axes.annotate(label, (0.0, 0.5), **beside, ha="right", va="center")
 
 
 LOW, TALL = 0.9, 2.6  # inches: least and greatest height of a field

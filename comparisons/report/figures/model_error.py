@@ -107,16 +107,10 @@ def error_bars(outcome: Outcome) -> list[ErrorBar]:
         ):
             frictions = [error["friction"] for error in same]
             some = len(frictions) < len(scene.friction)
-            bars.append(
-                ErrorBar(
-                    quantity,
-                    label(quantity) + (f", μ = {listed(frictions)}" if some else ""),
-                    parts[frictions[0]],
-                    same[0]["value"],
-                    same[0]["uncertainty"] or 0.0,
-                    scene.tolerance.get(quantity),
-                )
-            )
+            name = label(quantity) + (f", μ = {listed(frictions)}" if some else "")
+            error = same[0]["value"], same[0]["uncertainty"] or 0.0
+            tolerance = scene.tolerance.get(quantity)
+            bars.append(ErrorBar(quantity, name, parts[frictions[0]], *error, tolerance))
     return bars
 
 
@@ -160,18 +154,9 @@ def _draw(axes: "Axes", bars: list[ErrorBar]) -> None:
                 axes.barh(y, width, left=start, height=0.66, **_look(part))
                 start += width
         error, uncertainty = 100.0 * abs(bar.error), 100.0 * bar.uncertainty
-        axes.errorbar(
-            error,
-            y,
-            xerr=[[min(uncertainty, error)], [uncertainty]],
-            fmt="D",
-            markersize=4.0,
-            color=INK,
-            markerfacecolor="#ffffff",
-            elinewidth=0.9,
-            capsize=2.5,
-            zorder=4,
-        )
+        ends_of = {"xerr": [[min(uncertainty, error)], [uncertainty]], "capsize": 2.5}
+        diamond = {"fmt": "D", "markersize": 4.0, "color": INK, "markerfacecolor": "#ffffff"}
+        axes.errorbar(error, y, **ends_of, **diamond, elinewidth=0.9, zorder=4)
         ends += [start, error + uncertainty]
         if bar.tolerance:
             axes.plot([100.0 * bar.tolerance] * 2, [y - 0.46, y + 0.46], color=INK, lw=2.0)

@@ -172,26 +172,19 @@ def _cap_and_legend(axes: "Axes", outcome: Outcome) -> None:
     if hardness is not None and hardness < FARTHEST_CAP * peak:
         look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
         axes.axhline(hardness / p0, label="hardness", **look)
-    narrow = axes.figure.get_figwidth() < 0.75 * style.WIDE
-    axes.set_ylim(0.0, (1.34 if narrow else 1.17) * axes.dataLim.y1)
-    axes.legend(
-        loc="upper left" if narrow else "upper right",
-        bbox_to_anchor=(0.0, 0.91) if narrow else (1.0, 1.02),
-        ncols=4,
-        borderaxespad=0.1,
-        columnspacing=1.0,
-        handlelength=2.0,
-        handletextpad=0.5,
-    )
+    if axes.figure.get_figwidth() < 0.75 * style.WIDE:
+        side, corner, room = "upper left", (0.0, 0.91), 1.34
+    else:
+        side, corner, room = "upper right", (1.0, 1.02), 1.17
+    axes.set_ylim(0.0, room * axes.dataLim.y1)
+    gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
+    axes.legend(loc=side, bbox_to_anchor=corner, ncols=4, **gaps)
 
 
 def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
     """The pressure with the feet of its first and last hat."""
     x, pitch = level.grid.x, level.grid.pitch
-    return (
-        np.concatenate([[x[0] - pitch], x, [x[-1] + pitch]]),
-        np.concatenate([[0.0], level.solution.pressure, [0.0]]),
-    )
+    return np.array([x[0] - pitch, *x, x[-1] + pitch]), np.pad(level.solution.pressure, 1)
 
 
 def draw_difference(

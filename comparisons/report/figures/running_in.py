@@ -36,10 +36,8 @@ def running_in_picture(outcome: Outcome) -> style.Picture | None:
 def running_in_in_words(scene: ResolvedScene) -> str:
     """What running-in did, in one sentence, and in more where it fell short."""
     run_in, places = scene.run_in, len(scene.running_in.positions)
-    took = (
-        f"{len(run_in.passes)} passes ({run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)} over "
-        f"{places} place{'s' * (places > 1)})"
-    )
+    sweeps = f"{run_in.sweeps} sweep{'s' * (run_in.sweeps > 1)}"
+    took = f"{len(run_in.passes)} passes ({sweeps} over {places} place{'s' * (places > 1)})"
     unfinished = "" if run_in.status == "settled" else "; it has not settled"
     sentence = (
         f"In {took} at {given(scene.running_in.hardness, 'Pa')} plastic flow took "
@@ -66,10 +64,7 @@ def _drawn(outcome: Outcome, width: float) -> "Figure":
     [axes] = style.stacked(drawn, [(0.35, 2.34)], 0.8, 0.02 * width)
     axes.plot(x / along.factor, before / up.factor, label="before running-in", **BEFORE)
     axes.plot(x / along.factor, after / up.factor, label="after", **AFTER)
-    axes.set(
-        xlim=(x[0] / along.factor, x[-1] / along.factor),
-        xlabel=f"x [{along.name}]",
-        ylabel=f"height [{up.name}]",
-    )
+    ends = x[[0, -1]] / along.factor
+    axes.set(xlim=ends, xlabel=f"x [{along.name}]", ylabel=f"height [{up.name}]")
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncol=2)
     return drawn

@@ -61,14 +61,9 @@ def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
         panels[0].set_title(f"friction {plain(friction)}")
     for panels in columns:
         panels[-1].set_xlabel("z/a")
-    drawn.legend(
-        *drawn.axes[0].get_legend_handles_labels(),
-        loc="upper right",
-        bbox_to_anchor=(0.985, 1.0),
-        ncols=3,
-        borderaxespad=0.1,
-        columnspacing=1.2,
-    )
+    lines, place = drawn.axes[0].get_legend_handles_labels(), (0.985, 1.0)
+    room = {"ncols": 3, "borderaxespad": 0.1, "columnspacing": 1.2}
+    drawn.legend(*lines, loc="upper right", bbox_to_anchor=place, **room)
     at = decimal(outcome.window.x[column] / hertz.half_width)
     largest = "; ".join(
         f"friction {plain(mu)}: "

@@ -125,13 +125,10 @@ def _capped(problem: Problem, row: Comparison) -> bool:
 def _in_hertz(problem: Problem, quantity: str, value: float | None) -> str:
     """The figure over that of the smooth contact under the same load."""
     hertz = problem.hertz
-    units = {
-        "peak_pressure": Scale(hertz.peak_pressure, "p₀"),
-        "contact_length": Scale(2.0 * hertz.half_width, "× 2a"),
-        "tau1_max": Scale(hertz.peak_pressure, "p₀"),
-        "tau1_max_depth": Scale(hertz.half_width, "a"),
-        "txz_max_abs": Scale(hertz.peak_pressure, "p₀"),
-    }
+    pressures = ("peak_pressure", "tau1_max", "txz_max_abs")
+    units = dict.fromkeys(pressures, Scale(hertz.peak_pressure, "p₀"))
+    units["contact_length"] = Scale(2.0 * hertz.half_width, "× 2a")
+    units["tau1_max_depth"] = Scale(hertz.half_width, "a")
     return "" if value is None or quantity not in units else units[quantity].text(value)
 
 

@@ -123,13 +123,9 @@ def _parts(found: Uncertainty, checked: bool) -> tuple[str, ...]:
     order = significant(known.order, 2) if known.order is not None else ""
     if known.behaviour != "monotone":
         order = f"{order} {known.behaviour}".strip()
-    return (
-        order,
-        percent(found.discretisation),
-        percent(found.iteration),
-        *([percent(found.domain)] if checked else []),
-        percent(found.total),
-    )
+    domain = [found.domain] if checked else []
+    parts = (found.discretisation, found.iteration, *domain, found.total)
+    return (order, *map(percent, parts))
 
 
 def check_table(outcome: Outcome) -> TextTable:
@@ -155,16 +151,13 @@ def cost_table(outcome: Outcome) -> TextTable:
 
 
 def _cost(outcome: Outcome, run: ModelRun) -> dict[str, str]:
-    level = run.finest
+    level, counts = run.finest, run.finest.solution.iterations
     memory = outcome.result["models"][run.name][0]["cost"]["peak_memory"]
     return {
         "time": with_unit(sum(level.seconds.values()), "s", 3),
         "unknowns": integer(level.unknowns),
         "pressure elements": integer(level.grid.count),
-        **{
-            f"contact solver: {kind.replace('_', ' ')}": integer(count)
-            for kind, count in level.solution.iterations.items()
-        },
+        **{f"contact solver: {k.replace('_', ' ')}": integer(n) for k, n in counts.items()},
         "peak memory of the process": with_unit(memory, "byte", 3),
         ALL_LEVELS: with_unit(sum(run.seconds.values()), "s", 3),
     }
@@ -173,10 +166,9 @@ def _cost(outcome: Outcome, run: ModelRun) -> dict[str, str]:
 def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
     """Versions, machine and hashes of the run."""
     record = outcome.record
-    rows = [
-        (part, ", ".join(f"{name} {value}" for name, value in record[part].items() if value))
-        for part in ("versions", "machine")
-    ]
+    rows = []
+    for part in ("versions", "machine"):
+        rows.append((part, ", ".join(f"{n} {value}" for n, value in record[part].items() if value)))
     if record.get("seed") is not None:
         rows.append(("seed", str(record["seed"])))
     if record.get("profile"):
@@ -188,8 +180,7 @@ def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
 def _hashed(name: str) -> str:
     """What a hash of the record is of: a model's pressures, or another array."""
     for model, words in HYPHENATED.items():
-        if name.startswith(f"{model}_"):
-            return f"the {words} model's {name.removeprefix(f'{model}_').replace('_', ' ')}"
+        name = name.replace(f"{model}_", f"the {words} model's ")
     return name.replace("_", " ")
 
 
@@ -225,14 +216,11 @@ def operator_table(outcome: Outcome) -> TextTable | None:
     rows = [
         [f"column at x = {with_unit(c.x, 'm', 3)}", percent(c.difference), percent(c.beyond)]
         for c in found.columns
-    ] + [
-        [
-            f"waves of {with_unit(w.length, 'm', 3)}, {plain(float(f'{w.elements:.3g}'))} elements",
-            percent(w.difference, signed=True),
-            "",
-        ]
-        for w in found.waves
     ]
+    for wave in found.waves:
+        elements = plain(float(f"{wave.elements:.3g}"))
+        words = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
+        rows.append([words, percent(wave.difference, signed=True), ""])
     if effect is not None:
         moved = [percent(c.difference) for c in effect.columns]
         moved += [percent(w.difference, signed=True) for w in effect.waves]

@@ -7,7 +7,7 @@ from unittest.mock import patch
 
 import pytest
 
-from comparisons.report.page import Pictures, render
+from comparisons.report.page import render
 from comparisons.report.pdf import NoPdfError, print_pdf, print_report
 from comparisons.results.outcome import Outcome
 
@@ -33,7 +33,7 @@ CUT = """
 def levels_file(
     finish: Callable[..., Outcome],
     smooth_tables: dict,
-    no_pictures: Callable[[Outcome], Pictures],
+    no_pictures: Callable[[Outcome], dict],
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     """The words of the report of a run with as many levels as there are columns for."""
