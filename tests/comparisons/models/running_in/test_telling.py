@@ -53,7 +53,7 @@ class TestTelling:
     def test_report_shows_both_surfaces_and_one_sentence(self, outcome: Outcome, monkeypatch):
         figures = []
         monkeypatch.setattr(
-            "comparisons.report.figures.running_in.data_uri",
+            "comparisons.report.figures.style.data_uri",
             lambda figure: figures.append(figure) or "data:",
         )
         picture = running_in_picture(outcome)
