@@ -27,7 +27,7 @@ class PairHistory:
     """The difference of both models at one friction coefficient.
 
     norms          relative L2 by quantity, one table a level, coarse to fine
-    uncertainties  of those of the last level
+    uncertainties  of those of the last level, absolute: the norms are relative
     """
 
     friction: float
@@ -78,7 +78,7 @@ def pair_norms(
     window: Window | None,
 ) -> dict[str, float]:
     """Relative L2 norms of the difference of two pressures (n,) and of two fields of tau1 (m, k)
-    on the window, the second of each as reference; those of fields where both are there."""
+    on the window, None without one; the second of each is the reference."""
     found = {"pressure_l2": relative_l2(*pressures)}
     if all(field is not None for field in tau1):
         found |= field_norms(*tau1, problem, window)
@@ -102,12 +102,10 @@ def field_norms(
 def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str, Uncertainty]:
     """Of every figure that the model has by itself."""
     history = [figures(level, problem, friction) for level in run.levels]
-    moved = (
-        figures(run.far_boundary_check, problem, friction) if run.far_boundary_check else history[0]
-    )
+    moved = figures(run.far_boundary_check or run.levels[0], problem, friction)
     found = {}
     for name, value in history[-1].items():
-        values = [figures_of_level[name] for figures_of_level in history]
+        values = [of_level[name] for of_level in history]
         resolution = 0.0
         if name in LENGTHS:
             resolution = length_resolution(run.finest.grid.pitch, len(run.finest.patches))
@@ -130,8 +128,6 @@ def pair_history(
     friction: float,
     window: Window | None,
 ) -> PairHistory:
-    """Norms of the difference of the two models, and their uncertainties, absolute: the norms are
-    relative."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
     history = [norms(one, other, problem, friction, window) for one, other in pairs]
     first, check = finite_element.levels[0], finite_element.far_boundary_check
@@ -172,22 +168,15 @@ def compared(
     problem: Problem, runs: dict[str, ModelRun], window: Window | None
 ) -> tuple[Comparison, ...]:
     """Every quantity at every friction coefficient, of finished runs of both models."""
-    pair = runs["half_plane"], runs["finite_element"]
-    return tuple(
-        row
-        for friction in problem.scene.friction
-        for row in compare(*pair, problem, friction, window)
-    )
+    frictions = problem.scene.friction
+    return tuple(row for mu in frictions for row in _compared(problem, runs, mu, window))
 
 
-def compare(
-    half_plane: ModelRun,
-    finite_element: ModelRun,
-    problem: Problem,
-    friction: float,
-    window: Window | None,
+def _compared(
+    problem: Problem, runs: dict[str, ModelRun], friction: float, window: Window | None
 ) -> list[Comparison]:
-    """Every quantity at one friction coefficient, in the order of QUANTITIES."""
+    """At one friction coefficient, in the order of QUANTITIES."""
+    half_plane, finite_element = runs["half_plane"], runs["finite_element"]
     one = figures(half_plane.finest, problem, friction)
     other = figures(finite_element.finest, problem, friction)
     of_one = uncertainties(half_plane, problem, friction)
@@ -209,17 +198,9 @@ def compare(
             continue
         tolerance = problem.scene.tolerance.get(name)
         verdict = judge(difference, uncertainty, tolerance) if tolerance else None
+        known = uncertainty if np.isfinite(uncertainty) else None
         listed.append(
-            Comparison(
-                quantity=name,
-                friction=friction,
-                half_plane=first,
-                finite_element=second,
-                difference=difference,
-                uncertainty=uncertainty if np.isfinite(uncertainty) else None,
-                tolerance=tolerance,
-                verdict=verdict,
-            )
+            Comparison(name, friction, first, second, difference, known, tolerance, verdict)
         )
     return listed
 

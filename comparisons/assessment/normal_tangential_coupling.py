@@ -28,7 +28,7 @@ class Change:
     """A figure with coupling.
 
     value       [SI]; None for the norm of a difference
-    difference  relative to the figure without coupling, None where only that is zero; of a shift,
+    difference  relative to the figure without coupling, None where only that is zero; of a shift
                 over the Hertz half-width
     """
 
@@ -57,12 +57,8 @@ class Coupling:
         """For result.json; None without changes."""
         if not self.changes:
             return None
-        return {
-            **{name: asdict(change) for name, change in self.changes.items()},
-            "converged": self.converged,
-            "iterations": self.iterations,
-            "seconds": self.seconds,
-        }
+        own = asdict(self)
+        return own["changes"] | {n: own[n] for n in ("converged", "iterations", "seconds")}
 
 
 def couplings(
@@ -72,11 +68,10 @@ def couplings(
     found = []
     for friction in problem.scene.friction:
         why = no_coupling(problem, friction)
-        found.append(
-            _coupling(problem, run.finest, friction, window, callback)
-            if why is None
-            else Coupling(friction, {}, why=why)
-        )
+        if why is None:
+            found.append(_coupling(problem, run.finest, friction, window, callback))
+        else:
+            found.append(Coupling(friction, {}, why=why))
     return tuple(found)
 
 
@@ -120,7 +115,7 @@ def _stretched(problem: Problem, grid: HatGrid, more: int) -> HatGrid:
 
 
 def _spread(level: Level, grid: HatGrid) -> Level:
-    """The level with its pressures on a longer grid of the same pitch."""
+    """The level's pressures on a longer grid of the same pitch."""
     before, after = level.grid.first - grid.first, grid.last - level.grid.last
     pressure = np.pad(level.solution.pressure, (before, after))
     return replace(level, grid=grid, solution=replace(level.solution, pressure=pressure))

@@ -1,6 +1,8 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
 import math
+from collections.abc import Callable
+from functools import lru_cache
 from itertools import count
 from time import perf_counter
 from typing import TYPE_CHECKING
@@ -24,28 +26,8 @@ NO_HELP = 0.9  # of an uncertainty before the last level, if it is still larger 
 FAR_BOUNDARY_CHECK = "finite_element-far_boundary_check"
 
 
-class CurrentBodies:
-    """The finite elements' bodies of the latest pitch alone, for the far-boundary check on it."""
-
-    def __init__(self) -> None:
-        self._pitch: float | None = None
-        self._store: BodyStore | None = None
-
-    def of(self, pitch: float) -> "BodyStore":
-        """The store of a pitch [m]."""
-        from comparisons.models.finite_element.bodies import BodyStore
-
-        if self._store is None or pitch != self._pitch:
-            self._pitch, self._store = pitch, BodyStore()
-        return self._store
-
-
 def refined(
-    problem: Problem,
-    plan: Plan,
-    window: Window | None,
-    cache: Cache,
-    callback: ProgressCallback,
+    problem: Problem, plan: Plan, window: Window | None, cache: Cache, callback: ProgressCallback
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.
 
@@ -53,7 +35,12 @@ def refined(
     """
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     check: Level | None = None
-    bodies = CurrentBodies()
+
+    @lru_cache(maxsize=1)  # the latest pitch's alone, for the far-boundary check on it
+    def bodies(pitch: float) -> "BodyStore":
+        from comparisons.models.finite_element.bodies import BodyStore
+
+        return BodyStore()
 
     def solved(
         name: str, name_in_cache: str, pitch: float, progress: ProgressCallback, **how: bool
@@ -67,7 +54,6 @@ def refined(
     begin = perf_counter()
 
     def progress(number: int) -> ProgressCallback:
-        """A callback for a level."""
         spent = perf_counter() - begin
         behind = spent / (spent + _expected(levels, len(problem.pitches)))
         return _numbered(callback, number, behind)
@@ -185,7 +171,7 @@ def _solve(
     pitch: float,
     window: Window | None,
     callback: ProgressCallback,
-    bodies: CurrentBodies,
+    bodies: Callable[[float], "BodyStore"],
     half_block: bool = False,
 ) -> Level:
     """One level of one model; what the other model alone needs is not imported."""
@@ -197,7 +183,7 @@ def _solve(
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    refinement, stages, store = Refinement(pitch, half_block), Stages(callback), bodies.of(pitch)
+    refinement, stages, store = Refinement(pitch, half_block), Stages(callback), bodies(pitch)
     return finite_element_level(
         problem, plan, refinement, window, stages, store=store, check=not half_block
     )

@@ -104,18 +104,6 @@ def grid_convergence(
     return Convergence(value, limit, uncertainty, observed, "monotone")
 
 
-def two_grids(values: Sequence[float], resolution: float = 0.0) -> float:
-    """Uncertainty of the last of two values of a figure, taken to converge by the lowest order;
-    infinite where there is one.
-
-    resolution  as in `grid_convergence`
-    """
-    if len(values) < 2:
-        return np.inf
-    change = abs(float(values[-1]) - float(values[-2]))
-    return max(TWO_GRIDS * change / (2.0**LOWEST_ORDER - 1.0), resolution)
-
-
 @dataclass(frozen=True)
 class Uncertainty:
     """Relative uncertainty of a figure, by cause; `convergence` says how refinement went."""
@@ -161,9 +149,10 @@ def length_resolution(pitch: float, patches: int) -> float:
 
 
 def effect_discretisation(values: Sequence[float], formal_order: float, resolution: float) -> float:
-    """Of an effect on two levels or more: by `two_grids` on two, else by `grid_convergence`."""
-    if len(values) < 3:
-        return two_grids(values, resolution)
+    """Of an effect by `grid_convergence`; on two levels by the lowest order, on one infinite."""
+    if len(values) == 2:
+        change = abs(float(values[-1]) - float(values[-2]))
+        return max(TWO_GRIDS * change / (2.0**LOWEST_ORDER - 1.0), resolution)
     return grid_convergence(values, formal_order, resolution).uncertainty
 
 

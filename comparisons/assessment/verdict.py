@@ -67,17 +67,14 @@ class ToleranceCheck:
 
     @property
     def is_inside(self) -> bool:
-        """Whether the error is within the tolerance, its total uncertainty included."""
         return abs(self.value) + self.total_uncertainty <= self.tolerance
 
     @property
     def is_outside(self) -> bool:
-        """Whether the error exceeds the tolerance by more than its total uncertainty."""
         return abs(self.value) - self.total_uncertainty > self.tolerance
 
     @property
     def verdict(self) -> Validity:
-        """In one word."""
         return "holds" if self.is_inside else "fails" if self.is_outside else "inconclusive"
 
     @property
@@ -100,10 +97,8 @@ def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
     numerical = [s for s in unclear if s.is_unresolved]
     if numerical:
         return "inconclusive", f"an error cannot be told from its tolerance: {_named(numerical)}"
-    return "inconclusive", (
-        f"what no model of this run contains may move an error across its tolerance: "
-        f"{_named(unclear)}, by {_effects(unclear)}"
-    )
+    why = "what no model of this run contains may move an error across its tolerance"
+    return "inconclusive", f"{why}: {_named(unclear)}, by {_effects(unclear)}"
 
 
 def _named(checks: Sequence[ToleranceCheck]) -> str:

@@ -27,6 +27,11 @@ def json_option(name: str) -> typer.models.OptionInfo:
     return typer.Option("--json", help=f"Print {name} instead of the table.")
 
 
+def out_option(content: str, default: str) -> typer.models.OptionInfo:
+    """The option `--out` of a command that writes a folder."""
+    return typer.Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
+
+
 def complete_scenes(incomplete: str) -> list[str]:
     """Names of scenes, TOML files and folders that begin so."""
     from comparisons.scenes.files import scene_names
@@ -43,14 +48,12 @@ def complete_maps(incomplete: str) -> list[str]:
 
 
 def complete_groups(incomplete: str) -> list[str]:
-    """Dimensionless groups that a map may have as an axis."""
     from comparisons.studies.maps.groups import GROUPS
 
     return _beginning(GROUPS, incomplete)
 
 
 def complete_quantities(incomplete: str) -> list[str]:
-    """Quantities that are compared."""
     from comparisons.common.quantities import QUANTITIES
 
     return _beginning(QUANTITIES, incomplete)

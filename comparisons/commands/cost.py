@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Scene, job, json_option
+from comparisons.commands.arguments import RESULTS, Scene, job, json_option, out_option
 from comparisons.commands.output import progress, show, show_file
 from comparisons.common.errors import ExitStatus
 
@@ -13,10 +13,7 @@ from comparisons.common.errors import ExitStatus
 @job
 def cost(
     scene: Scene,
-    out: Annotated[
-        Path | None,
-        typer.Option(help="Folder for the results.", show_default="results/<name>-cost"),
-    ] = None,
+    out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
     repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:

@@ -136,7 +136,6 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
 
 
 def findings_table(findings: Sequence[Finding]) -> "Table":
-    """A row for each item."""
     from rich import box
     from rich.table import Table
     from rich.text import Text

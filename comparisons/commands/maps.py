@@ -12,6 +12,7 @@ from comparisons.commands.arguments import (
     complete_quantities,
     job,
     json_option,
+    out_option,
 )
 from comparisons.commands.output import progress, show, show_json
 from comparisons.common.errors import ExitStatus
@@ -40,9 +41,7 @@ def map_of(
         str | None,
         typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the map.", show_default="results/<name>")
-    ] = None,
+    out: Annotated[Path | None, out_option("map", "<name>")] = None,
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
     """Map where the half-plane holds, over two dimensionless groups."""

@@ -57,10 +57,8 @@ def show(renderable: object) -> None:
     """Print a table, as wide as the terminal if there is one."""
     from rich.console import Console
 
-    if is_watched():
-        Console().print(renderable)
-    else:
-        Console(width=UNSEEN_WIDTH, force_terminal=False).print(renderable)
+    unseen = Console(width=UNSEEN_WIDTH, force_terminal=False)
+    (Console() if is_watched() else unseen).print(renderable)
 
 
 def say(sentence: str) -> None:

@@ -3,17 +3,13 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from comparisons.commands.arguments import RESULTS, job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option, out_option
 from comparisons.commands.output import progress, show, show_json
 
 
 @job
 def paper(
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the page.", show_default="results/paper")
-    ] = None,
+    out: Annotated[Path | None, out_option("page", "paper")] = None,
     as_json: Annotated[bool, json_option("paper.json")] = False,
 ) -> int:
     """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""

@@ -6,7 +6,14 @@ from typing import Annotated, Literal
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, Scene, complete_models, job, json_option
+from comparisons.commands.arguments import (
+    RESULTS,
+    Scene,
+    complete_models,
+    job,
+    json_option,
+    out_option,
+)
 from comparisons.commands.output import progress, say, show, show_json
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first, is_first
@@ -18,9 +25,7 @@ Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 @job
 def run(
     scene: Scene,
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the results.", show_default="results/<name>")
-    ] = None,
+    out: Annotated[Path | None, out_option("results", "<name>")] = None,
     models: Annotated[
         str,
         typer.Option(

@@ -5,15 +5,13 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option, out_option
 from comparisons.commands.output import progress, show, show_file
 
 
 @job
 def stability(
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the rows.", show_default="results/stability")
-    ] = None,
+    out: Annotated[Path | None, out_option("rows", "stability")] = None,
     junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
     as_json: Annotated[bool, json_option("stability.json")] = False,
 ) -> int:

@@ -5,15 +5,13 @@ from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, job, json_option
+from comparisons.commands.arguments import RESULTS, job, json_option, out_option
 from comparisons.commands.output import progress, show, show_file
 
 
 @job
 def verify(
-    out: Annotated[
-        Path | None, typer.Option(help="Folder for the figures.", show_default="results/verify")
-    ] = None,
+    out: Annotated[Path | None, out_option("figures", "verify")] = None,
     junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
     as_json: Annotated[bool, json_option("verify.json")] = False,
 ) -> int:

@@ -65,7 +65,6 @@ class Cache:
                 return
 
     def discard(self) -> None:
-        """Remove the folder."""
         if self.folder is not None and is_first():
             shutil.rmtree(self.folder, ignore_errors=True)
 
@@ -74,7 +73,6 @@ class Cache:
         remove_leftovers(self.folder)
 
     def path(self, name: str) -> Path:
-        """The file of a result."""
         return self.folder / f"{name}.npz"
 
     def _read(self, name: str) -> object | None:
@@ -89,8 +87,7 @@ class Cache:
 
 
 def kinds_of(*roots: type) -> dict[str, type]:
-    """Every dataclass that values of these types may be made of, by name: those that their fields
-    mention."""
+    """Every dataclass that values of these types and their fields may be made of, by name."""
     found: dict[str, type] = {}
     left = list(roots)
     while left:
@@ -103,7 +100,6 @@ def kinds_of(*roots: type) -> dict[str, type]:
 
 
 def _mentioned(hint: object) -> Iterator[type]:
-    """The classes in a type hint."""
     if isinstance(hint, type):
         yield hint
     for part in typing.get_args(hint):

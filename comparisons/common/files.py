@@ -16,26 +16,14 @@ from pathlib import Path
 from comparisons.common.errors import InputError
 
 # What a run may write; those that a repetition does not write again are removed.
+OWN_FOLDERS = ("half_plane", "finite_element")
 OWN_FILES = (
-    "result.json",
-    "report.html",
-    "report.npz",
-    "report.pdf",
-    "record.json",
-    "run_in_profile.csv",
-    "half_plane/contact.csv",
-    "half_plane/stress.vtu",
-    "finite_element/contact.csv",
-    "finite_element/stress.vtu",
-    "finite_element/mesh.msh",
+    *("result.json", "report.html", "report.npz", "report.pdf", "record.json"),
+    *("run_in_profile.csv", "finite_element/mesh.msh"),
+    *(f"{model}/{name}" for model in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
 )
 # The same in formats that a run writes when it is asked to, or where a field is large.
-OTHER_FILES = tuple(
-    f"{model}/stress.{name}"
-    for model in ("half_plane", "finite_element")
-    for name in ("vtkhdf", "msh")
-)
-OWN_FOLDERS = ("half_plane", "finite_element")
+OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh"))
 PART = ".part"  # ends the name of a file that is not whole yet
 ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
@@ -53,8 +41,7 @@ def check_writable(out: Path) -> None:
         os.lstat(out.parent / f".{out.name}.part-12345678")
     except OSError as error:
         if error.errno == errno.ENAMETOOLONG:
-            message = f"{out}: cannot be written: {error.strerror}; allowed is a shorter name"
-            raise InputError(message) from error
+            raise _cannot(out, f"{error.strerror}; allowed is a shorter name") from error
     place = out
     while not os.path.lexists(place) and place != place.parent:
         place = place.parent
@@ -64,7 +51,11 @@ def check_writable(out: Path) -> None:
             _check_folder(out, folder)
     for name in (*OWN_FILES, *OTHER_FILES):
         if (out / name).is_dir():
-            raise InputError(f"{out}: cannot be written: {out / name} is a folder; allowed is none")
+            raise _cannot(out, f"{out / name} is a folder; allowed is none")
+
+
+def _cannot(out: Path, why: str) -> InputError:
+    return InputError(f"{out}: cannot be written: {why}")
 
 
 def _check_folder(out: Path, place: Path) -> None:
@@ -80,24 +71,18 @@ def _check_folder(out: Path, place: Path) -> None:
             tempfile.TemporaryDirectory(prefix=".crosscheck-", dir=place).cleanup()
             return
         except NotADirectoryError as error:
-            raise InputError(
-                f"{out}: cannot be written: {place} is not a folder; allowed is a folder"
-            ) from error
+            raise _cannot(out, f"{place} is not a folder; allowed is a folder") from error
         except OSError as error:
             if isinstance(error, FileNotFoundError) and attempt < ATTEMPTS - 1:
                 continue
-            raise InputError(
-                f"{out}: cannot be written: {place} ({error.strerror}); "
-                "allowed is a folder that can"
-            ) from error
+            why = f"{place} ({error.strerror}); allowed is a folder that can"
+            raise _cannot(out, why) from error
 
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A path to write to: what is there when the block ends replaces `path`, whole or not at all.
-
-    If the block fails or is interrupted, `path` stays as it was.
-    """
+    """A path to write to: what is there when the block ends replaces `path`; if the block fails or
+    is interrupted, `path` stays as it was."""
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
     try:
         yield part
@@ -107,7 +92,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file, as UTF-8, that is there whole or not at all."""
+    """Write a file as UTF-8."""
     with whole_file(path) as part:
         part.write_text(text, encoding="utf-8")
 

@@ -6,15 +6,9 @@ processes that take different branches wait for each other for ever. What each c
 is equal where they are the same program on the same kind of processor.
 
 Matrix and factor are distributed. gmsh, MUMPS' ordering, the half-plane, the recovery of stresses
-and all files are the first's; mesh, pressures and displacements are whole in each. Largest resident
-memory [MB] at 375 000 unknowns, factor 1.25 kB an unknown:
-
-    processes      factor in each   first   others
-    1              468              986
-    2              243 to 285       719     511
-    4              139 to 154       598     372
-
-Beside its part of the factor the first takes 1 kB an unknown.
+and all files are the first's; mesh, pressures and displacements are whole in each. At 375 000
+unknowns one process takes 986 MB, of four the first 598 MB and the others 372 MB: the factor takes
+1.25 kB an unknown in all, and the first 1 kB an unknown beside its part of it.
 """
 
 import io

@@ -42,11 +42,9 @@ def scale_of(values: Iterable[float | None], unit: str) -> Scale:
     for factor, name in choices:
         if largest >= factor * 0.9995:
             return Scale(factor, name)
-    return Scale(*(choices[-1] if largest > 0.0 else _plain(choices)))
-
-
-def _plain(choices: tuple[tuple[float, str], ...]) -> tuple[float, str]:
-    return next(choice for choice in choices if choice[0] == 1.0)
+    if largest > 0.0:
+        return Scale(*choices[-1])
+    return Scale(*next(choice for choice in choices if choice[0] == 1.0))
 
 
 def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
@@ -95,21 +93,16 @@ def percent(
     if value == 0.0:
         return "0 %"
     size = 100.0 * abs(value)
-    decimals, last = digits - 1 - _leading(size, digits), _last_supported(uncertainty)
-    if last is not None and last < decimals:
+    decimals, last = digits - 1 - _leading(size, digits), math.inf
+    if uncertainty and math.isfinite(uncertainty):
+        last = 1 - _leading(100.0 * uncertainty, 2)
+    if last < decimals:
         decimals = last
     elif size < 1e-4:
         return "< 0.0001 %"
     size = round(size, decimals)
     sign = "" if size == 0.0 else MINUS if value < 0.0 else "+" if signed else ""
     return f"{sign}{size:.{max(0, decimals)}f} %"
-
-
-def _last_supported(uncertainty: float | None) -> int | None:
-    """Decimals of a percentage down to one beyond its uncertainty's leading digit."""
-    if not uncertainty or not math.isfinite(uncertainty):
-        return None
-    return 1 - _leading(100.0 * uncertainty, 2)
 
 
 def _leading(size: float, digits: int) -> int:

@@ -27,7 +27,6 @@ def machine_memory() -> float:
 
 
 def _kilobytes(path: str, name: str) -> int | None:
-    """A figure of Linux's tables of memory."""
     try:
         with open(path) as file:
             return int(dict(line.split(":", 1) for line in file)[name].split()[0])

@@ -5,6 +5,7 @@ import json
 import marshal
 import os
 import platform
+from contextlib import suppress
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -15,19 +16,8 @@ import numpy as np
 PROJECT = Path(__file__).resolve().parents[2]
 # Folders and files whose code shapes a level of a scene.
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
-PACKAGES = (
-    "crosscheck",
-    "numpy",
-    "scipy",
-    "fenics-dolfinx",
-    "petsc4py",
-    "gmsh",
-    "meshio",
-    "pyvista",
-    "pydantic",
-    "pint",
-    "matplotlib",
-)
+PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
+PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
 
 
 def versions() -> dict[str, str | None]:
@@ -54,14 +44,11 @@ def machine() -> dict[str, str | int | None]:
 
 
 def _processor() -> str | None:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            names = [
-                line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")
-            ]
-    except OSError:
-        return platform.processor() or None
-    return names[0] if names else platform.processor() or None
+    with suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as lines:
+        for line in lines:
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return platform.processor() or None
 
 
 @cache

@@ -60,12 +60,7 @@ QUANTITIES: dict[str, Quantity] = {
         "largest orthogonal shear stress", "Pa", _pressure, 2.0, needs_stress=True
     ),
     "tau1_field_near": Quantity(
-        "tau1 down to 0.1 a, relative L2 difference",
-        "",
-        _one,
-        1.0,
-        of_pair=True,
-        needs_stress=True,
+        "tau1 down to 0.1 a, relative L2 difference", "", _one, 1.0, of_pair=True, needs_stress=True
     ),
     "tau1_field_deep": Quantity(
         "tau1 deeper than 0.5 a, relative L2 difference",

@@ -72,7 +72,10 @@ def to_si(given: object, dimension: Dimension) -> float:
         except OverflowError:
             value = math.inf
         return _finite(value, given)
-    number, unit = _split(given)
+    match = _NUMBER.fullmatch(given)
+    if match is None:
+        raise UnitError(f"is {describe(given)}, which is not a number and a unit")
+    number, unit = match[1], match[2]
     if not unit:
         raise UnitError(f"is {describe(given)}, which has no unit")
     factor = _factor(unit, dimension, given)
@@ -112,13 +115,6 @@ def _finite(value: float, given: object) -> float:
     if not math.isfinite(value):
         raise UnitError(f"is {describe(given)}, which is not finite")
     return value
-
-
-def _split(given: str) -> tuple[str, str]:
-    match = _NUMBER.fullmatch(given)
-    if match is None:
-        raise UnitError(f"is {describe(given)}, which is not a number and a unit")
-    return match[1], match[2]
 
 
 def _factor(unit: str, dimension: Dimension, given: str) -> Decimal:
@@ -166,7 +162,6 @@ def _unknown(unit: str, dimension: Dimension) -> str:
 
 
 def _phrase(parsed: object) -> str:
-    """The dimension of a pint unit in words."""
     root = _registry().get_root_units(parsed)[1]
     for dimension in DIMENSIONS:
         if root == _root(dimension):

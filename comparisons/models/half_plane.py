@@ -81,11 +81,9 @@ def _stresses(
         )
         for points in (window, search_window(problem, window))
     )
-    results = []
+    nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
-        found = stress_maxima(
-            x, pressure, friction, searched.at(friction), problem.scene.body.poissons_ratio
-        )
+        found = stress_maxima(x, pressure, friction, searched.at(friction), nu)
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
         results.append(StressResult(friction, extremes, shown.at(friction).stress))
     return tuple(results)

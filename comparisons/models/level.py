@@ -14,8 +14,7 @@ from meshes.block import BlockMesh
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """What a level will take by measured laws, before it is begun: `unknowns`, `memory` [bytes] at
-    the peak, `seconds`."""
+    """What a level will take by measured laws; `memory` [bytes] at the peak."""
 
     unknowns: int
     memory: float
@@ -104,11 +103,9 @@ class Level:
 
 @dataclass(frozen=True)
 class ModelRun:
-    """All levels of one model, coarse to fine.
+    """All levels of one model, half_plane or finite_element, coarse to fine.
 
-    name    half_plane | finite_element
-    far_boundary_check  finite elements: the coarsest level again on a block of half the size, if
-                        checked
+    far_boundary_check  the coarsest level again on a block of half the size, where it is checked
     """
 
     name: str
@@ -123,10 +120,7 @@ class ModelRun:
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""
         total: dict[str, float] = {}
-        for level in (
-            *self.levels,
-            *([self.far_boundary_check] if self.far_boundary_check else []),
-        ):
+        for level in filter(None, (*self.levels, self.far_boundary_check)):
             for stage, seconds in level.seconds.items():
                 total[stage] = total.get(stage, 0.0) + seconds
         return total

@@ -36,7 +36,10 @@ def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0)
             return HalfPlane(count, pitch, modulus)
         beta = dundurs_constants(scene.body, scene.roller)[1]
         return CoupledHalfPlane(count, pitch, modulus, friction * beta)
-    body = _layered_body(scene)
+    if scene.coating is not None:
+        body = LayeredBody(scene.coating.material, scene.coating.thickness, scene.body)
+    else:
+        body = LayeredBody(scene.body, scene.thickness, scene.base or "bonded")
     normal = LayeredSurface(count, pitch, body)
     if scene.roller is not None:
         roller = HalfPlane(count, pitch, scene.roller.plane_strain_modulus)
@@ -54,14 +57,6 @@ def solve_on(
     constraints: Constraints,
     start: np.ndarray | None = None,
 ) -> ContactSolution:
-    """The contact on an analytic or dense operator, by the solver for those that sliding traction
-    couples or by that for all others; arguments as in `analytic.contact.problem.solve_contact`."""
+    """As `analytic.contact.problem.solve_contact`, also for operators that traction couples."""
     solve = solve_coupled if hasattr(operator, "skew") else solve_contact
     return solve(operator, gap, weights, constraints, start)
-
-
-def _layered_body(scene: ResolvedScene) -> LayeredBody:
-    """The coating on its body, or the body on its base."""
-    if scene.coating is not None:
-        return LayeredBody(scene.coating.material, scene.coating.thickness, scene.body)
-    return LayeredBody(scene.body, scene.thickness, scene.base or "bonded")

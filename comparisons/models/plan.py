@@ -67,43 +67,26 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
         if needless:
             skipped.append(Skipped(step, because))
 
+    slides = any(scene.friction)
     skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
-    skip(
-        stress and not any(scene.friction),
-        "stresses of the sliding traction",
-        "there is no friction",
-    )
+    skip(stress and not slides, "stresses of the sliding traction", "there is no friction")
     skip(scene.hardness is None, "hardness cap", "the body has no hardness")
     if "half_plane" in models:
         skip(not coupling, "coupling", uncoupled[-1])
     if finite_elements:
         skip(scene.roller is None, "mesh of the roller", "it is rigid")
-        skip(
-            shared,
-            "factorisation of the roller's block",
-            "it is the body's block with another modulus, or the same",
-        )
-        skip(
-            not effects,
-            "effects beside the scene's own finite elements",
-            "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged",
-        )
+        same = "it is the body's block with another modulus, or the same"
+        skip(shared, "factorisation of the roller's block", same)
+        why = "not asked for (budget.effects)" if scene.tolerance else "no quantity is judged"
+        skip(not effects, "effects beside the scene's own finite elements", why)
         skip(not domain_check, "check of the far boundary", "the body's boundaries are its own")
         leans = no_check(scene)
         skip(leans is not None, "check of the compliance before contact", leans)
     if set(models) != set(MODELS):
         skipped.append(Skipped("comparison", "it takes both models"))
-    return Plan(
-        models=models,
-        stress=stress,
-        shared_factor=shared,
-        coupling=coupling,
-        effects=effects,
-        domain_check=domain_check,
-        skipped=tuple(skipped),
-        assumptions=assumptions_of(problem),
-    )
+    steps = stress, shared, coupling, effects, domain_check
+    return Plan(models, *steps, tuple(skipped), assumptions_of(problem))
 
 
 def no_coupling(problem: Problem, friction: float) -> str | None:
@@ -117,14 +100,8 @@ def no_coupling(problem: Problem, friction: float) -> str | None:
 
 def _shares_factor(scene: ResolvedScene) -> bool:
     """Whether the roller's block is the body's but for a factor on its modulus."""
-    settings = scene.finite_element
-    return (
-        scene.roller is not None
-        and scene.roller.poissons_ratio == scene.body.poissons_ratio
-        and scene.thickness is None
-        and scene.width is None
-        and scene.coating is None
-        and settings.geometry == "flat"
-        and settings.roller_body == "half-plane"
-        and not settings.plastic
-    )
+    settings, roller = scene.finite_element, scene.roller
+    own = (scene.thickness, scene.width, scene.coating) != (None, None, None) or settings.plastic
+    flat = settings.geometry == "flat" and settings.roller_body == "half-plane"
+    alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
+    return alike and flat and not own

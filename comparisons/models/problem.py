@@ -105,7 +105,6 @@ class Problem:
         return self.scene.friction[0] * self.dundurs_beta if self.scene.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:
-        """The pressure elements of a level."""
         return HatGrid.within(*self.extent, pitch)
 
     def constraints(self, load: float | None = None) -> Constraints:
@@ -265,18 +264,20 @@ def _check_circle(problem: Problem) -> None:
 
 def _check_count(problem: Problem) -> None:
     """Refuse pressure elements that are too few to show a contact, or too many to hold."""
-    scene = problem.scene
-    low, high = problem.extent
+    where, length = (
+        f"{problem.scene.source}: resolution.pitch",
+        problem.extent[1] - problem.extent[0],
+    )
     coarsest, finest = problem.pitches[0], problem.pitches[-1]
-    if high - low < FEWEST_ELEMENTS * coarsest:
+    if length < FEWEST_ELEMENTS * coarsest:
         raise SceneError(
-            f"{scene.source}: resolution.pitch: is {coarsest:g} m; allowed is at most "
-            f"{(high - low) / FEWEST_ELEMENTS:.3g} m for a contact of {high - low:.3g} m"
+            f"{where}: is {coarsest:g} m; allowed is at most {length / FEWEST_ELEMENTS:.3g} m for "
+            f"a contact of {length:.3g} m"
         )
-    if high - low > MOST_ELEMENTS * finest:
-        allowed = (high - low) / MOST_ELEMENTS * 2.0 ** (len(problem.pitches) - 1)
+    if length > MOST_ELEMENTS * finest:
+        least = length / MOST_ELEMENTS * 2.0 ** (len(problem.pitches) - 1)
         raise SceneError(
-            f"{scene.source}: resolution.pitch: {coarsest:g} m needs {(high - low) / finest:.3g} "
-            f"pressure elements at the finest of {len(problem.pitches)} levels; allowed is at "
-            f"least {allowed:.3g} m, {MOST_ELEMENTS:g} elements"
+            f"{where}: {coarsest:g} m needs {length / finest:.3g} pressure elements at the finest "
+            f"of {len(problem.pitches)} levels; allowed is at least {least:.3g} m, "
+            f"{MOST_ELEMENTS:g} elements"
         )

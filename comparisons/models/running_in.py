@@ -31,22 +31,16 @@ def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
     settings = scene.running_in
     if settings is None or scene.run_in is not None:
         return scene
-    modulus = combined_modulus(scene.roller, scene.body)
+    radius, modulus = scene.roller_radius, combined_modulus(scene.roller, scene.body)
     load = _load(scene, modulus)
+    pitch = _pitch(scene, hertz_from_load(load, radius, modulus).half_width)
+    limits = Constraints(load=load, hardness=settings.hardness)
+    places, sweeps = np.array(settings.positions) - scene.position, settings.sweeps
     try:
-        found = run_in(
-            scene.profile,
-            scene.roller_radius,
-            modulus,
-            Constraints(load=load, hardness=settings.hardness),
-            np.array(settings.positions) - scene.position,
-            pitch=_pitch(scene, hertz_from_load(load, scene.roller_radius, modulus).half_width),
-            sweeps=settings.sweeps,
-        )
+        found = run_in(scene.profile, radius, modulus, limits, places, pitch=pitch, sweeps=sweeps)
     except ContactError as error:
-        raise SceneError(
-            f"{scene.source}: running_in.hardness: {error}; allowed is more"
-        ) from error
+        where = f"{scene.source}: running_in.hardness"
+        raise SceneError(f"{where}: {error}; allowed is more") from error
     info = replace(scene.profile_info, roughness=roughness(found.profile))
     return replace(scene, profile=found.profile, profile_info=info, run_in=found)
 

@@ -92,29 +92,16 @@ def field_of(outcome: Outcome, run: ModelRun) -> FieldFile:
     if level.mesh_field is not None:
         arrays |= level.mesh_field.others
         units |= {name: "1" if "strain" in name else "Pa" for name in level.mesh_field.others}
-    return FieldFile(
-        points=np.column_stack([plane[:, 0], np.zeros(len(plane)), plane[:, 1]]),
-        kind=kind,
-        cells=cells,
-        arrays=arrays,
-        units=units,
-        title=outcome.problem.scene.title,
-        scene=scene_text(outcome.problem.scene),
-    )
+    points = np.column_stack([plane[:, 0], np.zeros(len(plane)), plane[:, 1]])
+    scene = outcome.problem.scene
+    return FieldFile(points, kind, cells, arrays, units, scene.title, scene_text(scene))
 
 
 def _arrays(stresses: Mapping[float, StressState], nu: float | np.ndarray) -> dict:
     found = {}
-    for index, (friction, stress) in enumerate(stresses.items()):
+    for index, (friction, s) in enumerate(stresses.items()):
         suffix = "" if index == 0 else f" (friction {friction:g})"
-        values = (
-            stress.sx,
-            stress.sz,
-            stress.sy(nu),
-            stress.txz,
-            stress.tau1,
-            stress.von_mises(nu),
-        )
+        values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu))
         found |= {name + suffix: v for name, v in zip(STRESSES, values, strict=True)}
     return found
 

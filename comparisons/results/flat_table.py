@@ -30,33 +30,15 @@ from comparisons.results.result_json import SCHEMA
 
 FILE = "result.json"
 GROUPS = (
-    "a_over_thickness",
-    "a_over_radius",
-    "a_over_width",
-    "rms_slope",
-    "max_slope",
-    "friction_dundurs",
-    "peak_pressure_over_hardness",
+    *("a_over_thickness", "a_over_radius", "a_over_width", "rms_slope", "max_slope"),
+    *("friction_dundurs", "peak_pressure_over_hardness"),
 )
 EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS}
 TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
 COLUMNS = (
-    "run",
-    "scene",
-    "title",
-    "friction",
-    "quantity",
-    "unit",
-    "half_plane",
-    "finite_element",
-    "difference",
-    "uncertainty",
-    "tolerance",
-    "verdict",
-    "validity",
-    "model_error",
-    "model_error_uncertainty",
-    "model_error_verdict",
+    *("run", "scene", "title", "friction", "quantity", "unit", "half_plane", "finite_element"),
+    *("difference", "uncertainty", "tolerance", "verdict", "validity"),
+    *("model_error", "model_error_uncertainty", "model_error_verdict"),
     *EFFECT_COLUMNS.values(),
     *GROUPS,
 )
@@ -93,10 +75,9 @@ def check_ending(path: Path) -> None:
         try:
             import pyarrow.parquet  # noqa: F401
         except ImportError as error:
-            raise InputError(
-                f"{path}: Parquet takes pyarrow, which is not installed ({error}); allowed is "
-                ".csv, or python -m pip install pyarrow"
-            ) from error
+            why = f"Parquet takes pyarrow, which is not installed ({error})"
+            remedy = "allowed is .csv, or python -m pip install pyarrow"
+            raise InputError(f"{path}: {why}; {remedy}") from error
 
 
 def write_table(path: Path, rows: list[Row]) -> None:
@@ -120,16 +101,12 @@ def _results(folders: Iterable[Path]) -> list[Path]:
         if not folder.is_dir():
             raise InputError(f"{folder}: is no folder; allowed is one that runs have left")
         every = sorted(folder.rglob(FILE))  # what is hidden is being written
-        below = [p for p in every if not any(map(_is_hidden, p.relative_to(folder).parts))]
+        below = [p for p in every if "/." not in f"/{p.relative_to(folder).as_posix()}"]
         if not below:
             raise InputError(f"{folder}: holds no run; allowed is a folder with {FILE} below it")
         for path in below:
             found.setdefault(path.resolve(), path)
     return list(found.values())
-
-
-def _is_hidden(name: str) -> bool:
-    return name.startswith(".")
 
 
 def rows_of(result: Mapping, run: str) -> list[Row]:
@@ -156,10 +133,8 @@ def _rows_in(path: Path) -> list[Row]:
         for name in COLUMNS:
             kinds = str if name in TEXTS else int | float
             if row[name] is not None and not isinstance(row[name], kinds):
-                raise InputError(
-                    f"{path}: {row['quantity']}: {name}: is {row[name]!r}; allowed is what a run "
-                    "wrote"
-                )
+                given = f"{row['quantity']}: {name}: is {row[name]!r}"
+                raise InputError(f"{path}: {given}; allowed is what a run wrote")
     return rows
 
 
@@ -177,10 +152,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "model_error": error["value"],
                 "model_error_uncertainty": error["uncertainty"],
                 "model_error_verdict": error["verdict"],
-                **{
-                    EFFECT_COLUMNS[name]: sign * effect["value"]
-                    for name, effect in error["effects"].items()
-                },
+                **{EFFECT_COLUMNS[n]: sign * e["value"] for n, e in error["effects"].items()},
             }
 
 

@@ -47,12 +47,9 @@ class Outcome:
     def converged(self) -> bool:
         """Whether every level of every model met its contact conditions, and running-in did."""
         run_in = self.problem.scene.run_in
-        if run_in is not None and not run_in.converged:
-            return False
-        levels = [level for run in self.runs.values() for level in run.levels]
-        return all(level.solution.converged for level in levels) and all(
-            coupling.converged for coupling in self.couplings
-        )
+        solutions = [level.solution for run in self.runs.values() for level in run.levels]
+        solutions += self.couplings if run_in is None else (*self.couplings, run_in)
+        return all(each.converged for each in solutions)
 
     @property
     def exit_status(self) -> ExitStatus:

@@ -7,7 +7,7 @@ is solved like any other. Nothing here is refused; the user is warned.
 from collections.abc import Iterator
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
-from analytic.material import Material, combined_modulus
+from analytic.material import combined_modulus
 from comparisons.common.numbers import given, significant, with_unit
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo, ResolvedScene
@@ -24,18 +24,19 @@ FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between 
 
 def warnings_about(scene: ResolvedScene) -> list[str]:
     """One sentence each, before anything is solved."""
-    return [
-        *_of_radius(scene.roller_radius),
-        *_of_material("body", scene.body),
-        *_of_material("roller", scene.roller),
-        *_of_load(scene),
-        *warnings_about_surface(scene.profile_info),
-    ]
+    found, radius = [], scene.roller_radius
+    if radius > LARGEST_RADIUS:
+        found.append(f"roller.radius is {given(radius, 'm')}: a number without unit is in m")
+    for section, material in (("body", scene.body), ("roller", scene.roller)):
+        if material is not None and not SOFTEST <= material.youngs_modulus <= STIFFEST:
+            modulus = f"{section}.youngs_modulus is {given(material.youngs_modulus, 'Pa')}"
+            found.append(f"{modulus}: a number without unit is in Pa")
+    return [*found, *_of_load(scene), *warnings_about_surface(scene.profile_info)]
 
 
 def warnings_about_surface(info: ProfileInfo | None) -> list[str]:
     """The same of a measured trace alone."""
-    return [] if info is None or info.trace is None or info.path is None else [*_of_trace(info)]
+    return [] if info is None or info.path is None else [*_of_trace(info)]
 
 
 def warnings_about_result(outcome: Outcome) -> list[str]:
@@ -57,19 +58,6 @@ def warnings_about_result(outcome: Outcome) -> list[str]:
             "the curve between them"
         )
     return found
-
-
-def _of_radius(radius: float) -> Iterator[str]:
-    if radius > LARGEST_RADIUS:
-        yield f"roller.radius is {given(radius, 'm')}: a number without unit is in m"
-
-
-def _of_material(section: str, material: Material | None) -> Iterator[str]:
-    if material is None:
-        return
-    modulus = material.youngs_modulus
-    if not SOFTEST <= modulus <= STIFFEST:
-        yield f"{section}.youngs_modulus is {given(modulus, 'Pa')}: a number without unit is in Pa"
 
 
 def _of_load(scene: ResolvedScene) -> Iterator[str]:

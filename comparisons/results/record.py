@@ -2,6 +2,7 @@
 
 import sys
 
+from analytic.profile import Profile
 from comparisons.common.provenance import digest, machine, versions
 from comparisons.models.level import ModelRun
 from comparisons.scenes.scene import ProfileInfo, ResolvedScene
@@ -20,15 +21,7 @@ def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str,
         "schema": SCHEMA,
         "name": scene.name,
         "scene": scene.tables,
-        "profile": None
-        if profile is None
-        else {
-            "x": profile.x.tolist(),
-            "height": profile.height.tolist(),
-            "sha256": digest(profile.x, profile.height),
-            "file_sha256": scene.profile_info.sha256,
-            "trace": _trace(scene.profile_info),
-        },
+        "profile": None if profile is None else _profile(profile, scene.profile_info),
         "models": list(runs),
         "levels": max(len(run.levels) for run in runs.values()),
         "versions": versions(),
@@ -39,14 +32,12 @@ def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str,
     }
 
 
-def _trace(info: ProfileInfo) -> dict:
-    """The trace as read or made, and how it was read."""
-    return {
-        "x": info.trace.x.tolist(),
-        "height": info.trace.height.tolist(),
-        "sha256": digest(info.trace.x, info.trace.height),
-        "format": info.format,
-        "place": info.place,
-        "bridged": info.bridged,
-        "trimmed": info.trimmed,
-    }
+def _profile(pressed: Profile, info: ProfileInfo) -> dict:
+    how = {name: getattr(info, name) for name in ("format", "place", "bridged", "trimmed")}
+    trace = _samples(info.trace) | how
+    return _samples(pressed) | {"file_sha256": info.sha256, "trace": trace}
+
+
+def _samples(profile: Profile) -> dict:
+    x, height = profile.x, profile.height
+    return {"x": x.tolist(), "height": height.tolist(), "sha256": digest(x, height)}

@@ -35,7 +35,6 @@ class Record:
     models   of half_plane, finite_element
     levels   of each model
     figures  the content of result.json
-    versions, machine, hashes   as recorded
     """
 
     scene: ResolvedScene
@@ -72,26 +71,17 @@ def read_record(folder: Path) -> Record:
         models=tuple(name for name in MODELS if name in models),
         levels=levels,
         figures=figures,
-        versions=_part(path, content, "versions", dict),
-        machine=_part(path, content, "machine", dict),
-        hashes=_part(path, content, "hashes", dict),
+        **{name: _part(path, content, name, dict) for name in ("versions", "machine", "hashes")},
     )
 
 
 def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedScene:
-    """The scene, to be solved on so many levels however long that takes here, and its effects on
-    as many as they were."""
-    tables = _part(path, content, "scene", dict)
-    kept = None
+    tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
+    trace = None
     if tables.get("profile") is not None:
-        kept = _trace(path, _part(path, content, "profile", dict))
-    scene = resolve_tables(
-        tables,
-        name=_part(path, content, "name", str),
-        folder=path.parent,
-        source=str(path),
-        trace=kept,
-    )
+        trace = _trace(path, _part(path, content, "profile", dict))
+    folder, source = path.parent, str(path)
+    scene = resolve_tables(tables, name=name, folder=folder, source=source, trace=trace)
     effects = figures.get("error_budget") or {}
     return replace(
         scene,
@@ -111,16 +101,13 @@ def _trace(path: Path, profile: dict) -> KnownTrace:
             samples, trace["format"], trace["place"], int(trace["bridged"]), int(trace["trimmed"])
         )
         same = digest(x, height) == trace["sha256"]
+        wrong = "" if same else ": has another SHA-256 than recorded"
     except KeyError as error:
-        raise InputError(
-            f"{where}.{error.args[0]}: is missing; allowed is what was recorded"
-        ) from None
+        wrong = f".{error.args[0]}: is missing"
     except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{where}: {error}; allowed is what was recorded") from None
-    if not same:
-        raise InputError(
-            f"{where}: has another SHA-256 than recorded; allowed is what was recorded"
-        )
+        wrong = f": {error}"
+    if wrong:
+        raise InputError(f"{where}{wrong}; allowed is what was recorded")
     return KnownTrace(read, profile.get("file_sha256"))
 
 
@@ -149,13 +136,10 @@ def _no_number(name: str) -> None:
 def check_schema(path: Path, content: Mapping, known: int) -> None:
     """Raise InputError unless the content of a file is of the schema that is known here."""
     schema = _part(path, content, "schema", int)
-    if schema < known:
-        raise InputError(
-            f"{path}: schema: is {schema}, of an earlier crosscheck; allowed is {known}: run the "
-            "scene again"
-        )
-    if schema > known:
-        raise InputError(f"{path}: schema: is {schema}, of a later crosscheck; allowed is {known}")
+    if schema != known:
+        age, remedy = ("a later", "") if schema > known else ("an earlier", ": run the scene again")
+        given = f"is {schema}, of {age} crosscheck"
+        raise InputError(f"{path}: schema: {given}; allowed is {known}{remedy}")
 
 
 def _part(path: Path, content: Mapping, name: str, kind: type, within: str = "") -> object:

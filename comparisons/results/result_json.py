@@ -59,9 +59,7 @@ def result_of(
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
         "model_error": {} if budget is None else model_error_content(problem, budget),
-        "error_budget": None
-        if budget is None
-        else error_budget_content(problem, runs, comparisons, budget),
+        "error_budget": budget and error_budget_content(problem, runs, comparisons, budget),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "refinement": refinement,
         "skipped": [asdict(skipped) for skipped in plan.skipped],
@@ -108,46 +106,40 @@ def _model(
             "peak_memory": _peak_memory(problem, run),
             "levels": [_cost_of(level) for level in run.levels],
         },
-        **(_coupling(problem, friction, couplings) if run.name == "half_plane" else {}),
-        **(_operator(run) if run.name == "finite_element" else {}),
+        **(
+            _coupling(problem, friction, couplings)
+            if run.name == "half_plane"
+            else {"operator": _operator(run)}
+        ),
     }
 
 
-def _operator(run: ModelRun) -> dict:
+def _operator(run: ModelRun) -> dict | None:
     """The compliance before contact: of the finest level, and the verdicts of all."""
-    found = run.finest.operator
-    if found is None:
-        return {"operator": None}
     checks = [level.operator for level in run.levels]
-    return {"operator": found.as_dict() | {"levels": [c and c.verdict for c in checks]}}
+    if checks[-1] is None:
+        return None
+    return checks[-1].as_dict() | {"levels": [c and c.verdict for c in checks]}
 
 
 def _cost_of(level: Level) -> dict:
     """One level: what it took, and what the laws said before it was meshed."""
-    found = {
+    laws = ("expected_seconds", "expected_memory") if level.mesh is not None else ()
+    return {
         "pitch": level.grid.pitch,
         "unknowns": level.unknowns,
         "seconds": sum(level.seconds.values()),
-    }
-    if level.mesh is None:
-        return found
-    return found | {
-        "expected_seconds": level.expected_seconds,
-        "expected_memory": level.expected_memory,
+        **{name: getattr(level, name) for name in laws},
     }
 
 
 def _coupling(problem: Problem, friction: float, couplings: tuple[Coupling, ...]) -> dict:
     """What normal-tangential coupling changes, or why it changes nothing."""
     found = next((c for c in couplings if c.friction == friction), None)
-    if found is None:
-        return {
-            "normal_tangential_coupling": None,
-            "normal_tangential_coupling_why": no_coupling(problem, friction),
-        }
+    why = no_coupling(problem, friction) if found is None else found.why
     return {
-        "normal_tangential_coupling": found.as_dict(),
-        "normal_tangential_coupling_why": found.why,
+        "normal_tangential_coupling": found and found.as_dict(),
+        "normal_tangential_coupling_why": why,
     }
 
 
@@ -185,8 +177,7 @@ def _stress(stress: StressResult | None) -> dict | None:
     found = {}
     for key, name in names.items():
         extreme = stress.extremes[key]
-        found[name] = abs(extreme.value)
-        found[f"{name}_at"] = [extreme.x, extreme.z]
+        found |= {name: abs(extreme.value), f"{name}_at": [extreme.x, extreme.z]}
     return found
 
 
@@ -226,28 +217,23 @@ def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list
 
 
 def error_budget_content(
-    problem: Problem,
-    runs: dict[str, ModelRun],
-    rows: tuple[Comparison, ...],
-    budget: ErrorBudget,
+    problem: Problem, runs: dict[str, ModelRun], rows: tuple[Comparison, ...], budget: ErrorBudget
 ) -> dict:
     """What became of every effect, and by quantity the numerical parts and the sampling's, all
     relative; None for what is unknown."""
     stated = {
-        (model, friction): uncertainties(run, problem, friction)
-        for model, run in runs.items()
-        for friction in problem.scene.friction
+        mu: {model: uncertainties(run, problem, mu) for model, run in runs.items()}
+        for mu in problem.scene.friction
     }
     quantities: dict[str, list[dict]] = {}
     for row in rows:
-        numerical = {
-            model: _numerical(stated[model, row.friction].get(row.quantity)) for model in runs
-        }
-        quantities.setdefault(row.quantity, []).append(
-            {"friction": row.friction}
-            | ({} if row.half_plane is None else {"numerical": numerical})
-            | {"input": budget.sampling.get(row.friction, {}).get(row.quantity)}
-        )
+        name, friction = row.quantity, row.friction
+        entry: dict = {"friction": friction}
+        if row.half_plane is not None:
+            of_models = stated[friction].items()
+            entry["numerical"] = {model: _numerical(own[name]) for model, own in of_models}
+        entry["input"] = budget.sampling.get(friction, {}).get(name)
+        quantities.setdefault(name, []).append(entry)
     return {
         "effects": {name: _effect(name, budget) for name in EFFECTS},
         "levels": budget.levels,
@@ -260,7 +246,6 @@ def error_budget_content(
 def _effect(name: str, budget: ErrorBudget) -> dict:
     """What became of an effect, and by what estimate."""
     selection = budget.selection
-    estimate = selection.estimates.get(name)
     if name in selection.contained:
         status, why = "contained", "the scene's own finite elements have it"
     elif name in selection.added:
@@ -271,12 +256,10 @@ def _effect(name: str, budget: ErrorBudget) -> dict:
         status, why = "negligible", "its estimate is below a tenth of every tolerance"
     else:
         status, why = "does not apply", "it does not apply, or has no size"
-    return {"status": status, "because": why, "estimate": estimate}
+    return {"status": status, "because": why, "estimate": selection.estimates.get(name)}
 
 
-def _numerical(uncertainty: Uncertainty | None) -> dict | None:
-    if uncertainty is None:
-        return None
+def _numerical(uncertainty: Uncertainty) -> dict:
     convergence = uncertainty.convergence
     return {
         "iteration": uncertainty.iteration,

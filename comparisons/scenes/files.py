@@ -35,13 +35,10 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     if os.path.lexists(given):
         return Path(given)
     if given.endswith(".toml") or os.path.dirname(given):
-        raise SceneError(
-            f"{given}: there is no such file; allowed is a scene file or a scene's name"
-        )
-    raise SceneError(
-        f"{given}: is neither a file nor a scene; the nearest scene is {nearest(given, names)}, "
-        f"all are {', '.join(names)}"
-    )
+        raise SceneError(f"{given}: there is no such file; allowed is a scene's file or name")
+    near, every = nearest(given, names), ", ".join(names)
+    why = "is neither a file nor a scene; the nearest scene is"
+    raise SceneError(f"{given}: {why} {near}, all are {every}")
 
 
 def read_toml(path: Path) -> dict:

@@ -30,12 +30,8 @@ from comparisons.scenes.schema.profile import AUTOMATIC, FILTER, ProfileSection
 SINUSOID_REACH = 4.0  # length of a sinusoid over the widest contact, where the scene gives none
 SINUSOID_WAVES = 3.0  # and at least so many wavelengths
 
-_MAKERS = {
-    "sinusoid": sinusoid,
-    "self-affine": self_affine,
-    "ground": ground_texture,
-    "turned": turned,
-}
+_MAKERS = {"sinusoid": sinusoid, "self-affine": self_affine}
+_MAKERS |= {"ground": ground_texture, "turned": turned}
 # What a message allows for a field that neither the file nor the scene gives.
 _ALLOWED = {
     "x_unit": "exactly one of x_unit and spacing",
@@ -64,9 +60,7 @@ def profile_of(
 
     table     [profile] with SI numbers and its defaults
     position  [m] of the roller's centre on the trace; None is the middle
-    folder    that the path of a measured profile starts from
-    source    what messages call the scene
-    known     to take instead of reading the file, or of making the profile again
+    folder, source, known   as in `comparisons.scenes.resolve.resolve_tables`
     Returns the account of the whole trace and the position as well. Raises SceneError.
     """
     if "file" in table:
@@ -120,38 +114,25 @@ def _measured(
         trace, form = _without_form(known.read.profile, table["form"])
     except ValueError as error:
         raise SceneError(f"{source}: profile.form: {error}") from error
-    return trace, {
-        "source": table["file"],
-        "path": path,
-        "trace": known.read.profile,
-        "sha256": known.sha256,
-        "form": form,
-        "bridged": known.read.bridged,
-        "trimmed": known.read.trimmed,
-        "format": known.read.format,
-        "place": known.read.place,
-    }
+    how = {name: getattr(known.read, name) for name in ("bridged", "trimmed", "format", "place")}
+    origin = {"source": table["file"], "path": path, "trace": known.read.profile, "form": form}
+    return trace, origin | how | {"sha256": known.sha256}
 
 
 def _read(table: Mapping, path: Path) -> KnownTrace:
+    place = {name: table[name] for name in ("row", "column", "line") if name in table}
+    x_scale, height_scale = (
+        unit_in_si(table[unit], LENGTH) if unit in table else None for unit in ("x_unit", "z_unit")
+    )
     read = read_measured(
         path,
-        x_scale=_scale(table, "x_unit"),
-        height_scale=_scale(table, "z_unit"),
+        x_scale=x_scale,
+        height_scale=height_scale,
         spacing=table.get("spacing"),
         dropouts=table["dropouts"],
-        chosen=_chosen(table),
+        chosen=MapLine(**place) if place else None,
     )
     return KnownTrace(read, hashlib.sha256(path.read_bytes()).hexdigest())
-
-
-def _scale(table: Mapping, field: str) -> float | None:
-    return unit_in_si(table[field], LENGTH) if field in table else None
-
-
-def _chosen(table: Mapping) -> MapLine | None:
-    given = {name: table[name] for name in ("row", "column", "line") if name in table}
-    return MapLine(**given) if given else None
 
 
 def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:

@@ -60,11 +60,10 @@ def resolve_tables(
         scene = SceneFile.model_validate(tables)
     except ValidationError as error:
         raise scene_error(error, source) from error
-    body = Material(scene.body.youngs_modulus, scene.body.poissons_ratio)
-    roller = _roller(scene.roller)
-    load = Load(
-        LOAD_KINDS.get(scene.load.kind, scene.load.kind), getattr(scene.load, scene.load.kind)
-    )
+    body, coating = _material(scene.body), scene.coating
+    roller = None if scene.roller.rigid else _material(scene.roller)
+    kind = scene.load.kind
+    load = Load(LOAD_KINDS.get(kind, kind), getattr(scene.load, kind))
     plain = plain_tables(scene)
     if scene.body.thickness is not None:
         plain["body"].setdefault("base", "bonded")
@@ -101,7 +100,7 @@ def resolve_tables(
         body=body,
         hardness=scene.body.hardness,
         yielding=_yielding(scene.body),
-        coating=_coating(scene.coating),
+        coating=None if coating is None else Coated(_material(coating), coating.thickness),
         thickness=scene.body.thickness,
         width=scene.body.width,
         base=plain["body"].get("base"),
@@ -121,20 +120,14 @@ def resolve_tables(
     )
 
 
-def _roller(table: RollerSection) -> Material | None:
-    return None if table.rigid else Material(table.youngs_modulus, table.poissons_ratio)
+def _material(table: BodySection | CoatingSection | RollerSection) -> Material:
+    return Material(table.youngs_modulus, table.poissons_ratio)
 
 
 def _yielding(table: BodySection) -> Yielding | None:
     if table.yield_stress is None:
         return None
     return Yielding(table.yield_stress, table.hardening_modulus or 0.0)
-
-
-def _coating(table: CoatingSection | None) -> Coated | None:
-    if table is None:
-        return None
-    return Coated(Material(table.youngs_modulus, table.poissons_ratio), table.thickness)
 
 
 def with_tolerance(scene: ResolvedScene, tolerance: float) -> ResolvedScene:

@@ -100,8 +100,8 @@ class ProfileInfo:
 
     def as_dict(self) -> dict:
         """The same for JSON, without `path`, which another machine does not have, and `trace`."""
-        plain = asdict(replace(self, path=None, trace=None))
-        figures = {name: value for name, value in plain.items() if name not in ("path", "trace")}
+        figures = asdict(replace(self, path=None, trace=None))
+        del figures["path"], figures["trace"]
         nested = ("form", "roughness", "standard")
         return figures | {name: _finite(figures[name]) for name in nested if figures[name]}
 
@@ -139,7 +139,7 @@ class FiniteElementSettings:
 
     geometry      flat: the roughness is in the gap | rough: it is the boundary
     gap           reference: at the place before loading, pressure along the mean normal |
-                  displaced: at the displaced place, pressure along the roller's normal
+                  displaced: on the deformed surface, pressure along the roller's normal
     roller_shape  parabola | circle
     roller_body   half-plane | disc: an elastic roller is a block, or a sector of its own circle
     coupled       the sliding traction moves the surfaces

@@ -33,16 +33,15 @@ class Effect:
     give: Callable[[ResolvedScene, ResolvedScene], ResolvedScene]
 
 
-def _has_profile(problem: Problem) -> bool:
-    return problem.scene.profile is not None
-
-
-def _always(problem: Problem) -> bool:
-    return True
+def _with(scene: ResolvedScene, **setting: object) -> ResolvedScene:
+    return replace(scene, finite_element=replace(scene.finite_element, **setting))
 
 
 def _switch(
-    label: str, words: str, applies: Callable[[Problem], bool] = _always, **setting: object
+    label: str,
+    words: str,
+    applies: Callable[[Problem], bool] = lambda problem: True,
+    **setting: object,
 ) -> Effect:
     """An effect that is one field of the scene's [finite_element], at this value."""
     [(field, value)] = setting.items()
@@ -51,18 +50,12 @@ def _switch(
         words,
         lambda scene: getattr(scene.finite_element, field) == value,
         applies,
-        lambda scene, whole: replace(
-            scene, finite_element=replace(scene.finite_element, **setting)
-        ),
+        lambda scene, whole: _with(scene, **setting),
     )
 
 
 def _bounded(scene: ResolvedScene) -> bool:
     return scene.thickness is not None or scene.width is not None
-
-
-def _give_bounds(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
-    return replace(scene, thickness=whole.thickness, width=whole.width, base=whole.base)
 
 
 def _couples(problem: Problem) -> bool:
@@ -71,18 +64,15 @@ def _couples(problem: Problem) -> bool:
     return moves and any(scene.friction) and not scene.coupled
 
 
-def _give_flow(scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
-    settings = replace(scene.finite_element, plastic=True)
-    return replace(scene, finite_element=settings, yielding=whole.yielding)
-
-
 EFFECTS: dict[str, Effect] = {
     "finite_size": Effect(
         "finite thickness or width",
         "the body's own thickness and width",
         _bounded,
         lambda problem: _bounded(problem.scene),
-        _give_bounds,
+        lambda scene, whole: replace(
+            scene, thickness=whole.thickness, width=whole.width, base=whole.base
+        ),
     ),
     "coating": Effect(
         "coating",
@@ -92,7 +82,10 @@ EFFECTS: dict[str, Effect] = {
         lambda scene, whole: replace(scene, coating=whole.coating),
     ),
     "rough_boundary": _switch(
-        "rough boundary", "the trace as boundary", _has_profile, geometry="rough"
+        "rough boundary",
+        "the trace as boundary",
+        lambda problem: problem.scene.profile is not None,
+        geometry="rough",
     ),
     "deformed_gap": _switch(
         "deformed gap",
@@ -111,9 +104,7 @@ EFFECTS: dict[str, Effect] = {
         "sliding traction that moves the surfaces",
         lambda scene: scene.finite_element.coupled and not scene.coupled,
         _couples,
-        lambda scene, whole: replace(
-            scene, finite_element=replace(scene.finite_element, coupled=True)
-        ),
+        lambda scene, whole: _with(scene, coupled=True),
     ),
     "finite_strain": _switch(
         "finite strain", "strains and rotations that are not small", deformation="finite"
@@ -123,7 +114,7 @@ EFFECTS: dict[str, Effect] = {
         "flow in place of the cap on the pressure",
         lambda scene: scene.finite_element.plastic,
         lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
-        _give_flow,
+        lambda scene, whole: replace(_with(scene, plastic=True), yielding=whole.yielding),
     ),
 }
 
@@ -157,15 +148,8 @@ def plain(scene: ResolvedScene) -> ResolvedScene:
         deformation="linear",
         plastic=False,
     )
-    return replace(
-        scene,
-        thickness=None,
-        width=None,
-        base=None,
-        coating=None,
-        yielding=None,
-        finite_element=settings,
-    )
+    bare = dict.fromkeys(("thickness", "width", "base", "coating", "yielding"))
+    return replace(scene, **bare, finite_element=settings)
 
 
 def with_effects(scene: ResolvedScene, names: Iterable[str]) -> ResolvedScene:

@@ -12,7 +12,7 @@ The scene's own finite elements do not contain F(0) + whole - F(scene).
 
 from dataclasses import dataclass
 from functools import reduce
-from operator import add
+from operator import add, sub
 from typing import Protocol
 
 import numpy as np
@@ -92,15 +92,14 @@ def contributions_of(
 
     nothing, jointly = solved(frozenset()), solved(linear)
     effects = {name: solved(frozenset({name})) - nothing for name in names}
-    interaction = reduce(lambda left, part: left - part, effects.values(), jointly - nothing)
+    interaction = reduce(sub, effects.values(), jointly - nothing)
     nonlinear = {}
     for name in NONLINEAR:
         if name in whole:
             add_to = _flow if name == "plastic_flow" else _strain
             with_it, without, share = add_to(problem, selection, linear, friction)
-            change = solutions.solution(with_it, level, friction) - solutions.solution(
-                without, level, friction
-            )
+            pair = (solutions.solution(each, level, friction) for each in (with_it, without))
+            change = sub(*pair)
             nonlinear[name] = change if share is None else change * share
     own = solutions.scene_solution(level, friction)
     not_contained = reduce(add, nonlinear.values(), jointly) - own

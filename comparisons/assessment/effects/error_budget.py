@@ -60,24 +60,18 @@ class ErrorBudget:
     seconds: float
 
     def of(self, quantity: str, friction: float) -> ModelError:
-        """The model error in a quantity."""
         wanted = quantity, friction
         return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
 
     def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
         """Of every model error that has a tolerance."""
-        return [
-            ToleranceCheck(
-                error.quantity,
-                error.friction,
-                error.value,
-                error.uncertainty,
-                self.selection.not_modelled(error.quantity),
-                tolerance[error.quantity],
-            )
-            for error in self.model_errors
-            if error.quantity in tolerance
-        ]
+        found = []
+        for error in self.model_errors:
+            name, value, uncertainty = error.quantity, error.value, error.uncertainty
+            if name in tolerance:
+                left = self.selection.not_modelled(name), tolerance[name]
+                found.append(ToleranceCheck(name, error.friction, value, uncertainty, *left))
+        return found
 
 
 def error_budget(
@@ -145,21 +139,13 @@ def _refined(
             break
         for friction, parts in new.items():
             history[friction].append(parts)
-        own = [
-            error
-            for friction, parts in history.items()
-            for error in model_errors(
-                problem,
-                window,
-                runs,
-                [row for row in rows if row.friction == friction],
-                parts,
-                selection,
-            )
-        ]
-        if number >= LEAST_LEVELS and _settled(rows, own):
-            break
-        if number >= LEAST_LEVELS and _is_beyond(problem, runs, solved, number):
+        own = []
+        for friction, parts in history.items():
+            there = [row for row in rows if row.friction == friction]
+            own += model_errors(problem, window, runs, there, parts)
+        if number >= LEAST_LEVELS and (
+            _settled(rows, own) or _is_beyond(problem, runs, solved, number)
+        ):
             break
     return len(next(iter(history.values()))), own
 
@@ -177,17 +163,11 @@ def _is_beyond(
 
 def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:
     """The models' differences as they are."""
-    return [
-        ModelError(
-            row.quantity,
-            row.friction,
-            {},
-            0.0,
-            row.difference,
-            math.inf if row.uncertainty is None else row.uncertainty,
-        )
-        for row in rows
-    ]
+    found = []
+    for row in rows:
+        uncertainty = math.inf if row.uncertainty is None else row.uncertainty
+        found.append(ModelError(row.quantity, row.friction, {}, 0.0, row.difference, uncertainty))
+    return found
 
 
 def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
@@ -220,11 +200,10 @@ def sampling_changes(
 
     levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
     """
-    profile, frictions = problem.scene.profile, problem.scene.friction
-    level = levels[:SAMPLED][-1]
+    frictions, level = problem.scene.friction, levels[:SAMPLED][-1]
     found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
     for first in (0, 1):
-        thinned = _with_profile(problem, _every_other(profile, first))
+        thinned = _thinned(problem, first)
         other = half_plane_level(thinned, level.grid.pitch, window, Stages())
         for friction in frictions:
             whole = quantities_of(level, problem, friction)
@@ -234,18 +213,12 @@ def sampling_changes(
     return found
 
 
-def _every_other(profile: Profile, first: int) -> Profile:
-    """Every other sample from the given one on, and both ends, so that nothing is cut off."""
+def _thinned(problem: Problem, first: int) -> Problem:
+    """The problem with every other sample of its profile from the given one on, and both ends, so
+    that nothing is cut off; on the same grids."""
+    profile, scene = problem.scene.profile, problem.scene
     last = len(profile.x) - 1
-    kept = sorted({0, *range(first, last + 1, 2), last})
-    return Profile(profile.x[kept], profile.height[kept])
-
-
-def _with_profile(problem: Problem, profile: Profile) -> Problem:
-    """The problem with another profile, on the same grids."""
-    return replace(
-        problem,
-        scene=replace(problem.scene, profile=profile),
-        gap=roller_gap(problem.scene.roller_radius, surface(profile)),
-        knots=profile.x,
-    )
+    samples = sorted({0, *range(first, last + 1, 2), last})
+    profile = Profile(profile.x[samples], profile.height[samples])
+    gap = roller_gap(scene.roller_radius, surface(profile))
+    return replace(problem, scene=replace(scene, profile=profile), gap=gap, knots=profile.x)

@@ -29,10 +29,7 @@ NORMS = ("pressure_l2", "tau1_field_near", "tau1_field_deep")
 
 
 def estimates(
-    problem: Problem,
-    peak: float,
-    linear: Iterable[str],
-    couplings: tuple[Coupling, ...] = (),
+    problem: Problem, peak: float, linear: Iterable[str], couplings: tuple[Coupling, ...] = ()
 ) -> dict[str, Sizes]:
     """By effect and quantity, without those of no size.
 
@@ -43,9 +40,9 @@ def estimates(
     found = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),
-        "rough_boundary": _rough_boundary(_slope(problem)),
+        "rough_boundary": _rough_boundary(problem),
         "deformed_gap": _deformed_gap(problem, peak),
-        "exact_circle": _exact_circle(_curvature(problem)),
+        "exact_circle": _exact_circle(problem),
         "finite_roller": _finite_roller(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
         "finite_strain": _finite_strain(problem, peak, set(linear)),
@@ -66,11 +63,6 @@ def _curvature(problem: Problem) -> float:
     return problem.hertz.half_width / problem.scene.roller_radius
 
 
-def _slope(problem: Problem) -> float:
-    info = problem.scene.profile_info
-    return 0.0 if info is None else info.roughness.rms_slope
-
-
 # Of second order in a/t and a/w in the contact, of first in stresses, which keep what the far
 # boundary reflects: 4.6 % in tau1 and 18 % in its near field at a/t = 0.05.
 BODY_SQUARE = {"thickness": 0.6, "width": 6.0}
@@ -79,11 +71,9 @@ BROADER = 1.5  # reflected by free sides, of what a base reflects
 
 
 def _finite_size(problem: Problem) -> Sizes:
-    scene, found = problem.scene, _equal(0.0)
-    for extent, length, factor in (
-        ("thickness", scene.thickness, 1.0),
-        ("width", scene.width, BROADER),
-    ):
+    found = _equal(0.0)
+    for extent, factor in (("thickness", 1.0), ("width", BROADER)):
+        length = getattr(problem.scene, extent)
         if length is None:
             continue
         ratio = problem.hertz.half_width / length
@@ -113,7 +103,13 @@ BOUNDARY_PER_SLOPE_SQUARED = 1.0
 UNFLATTENED = {"tau1_max": 2.1, "txz_max_abs": 2.1, "tau1_field_near": 5.0, "tau1_max_depth": 7.0}
 
 
-def _rough_boundary(slope: float) -> Sizes:
+def _slope(problem: Problem) -> float:
+    info = problem.scene.profile_info
+    return 0.0 if info is None else info.roughness.rms_slope
+
+
+def _rough_boundary(problem: Problem) -> Sizes:
+    slope = _slope(problem)
     found = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
     found["pressure_l2"] *= 2.0
     return found | _unflattened(slope)
@@ -123,8 +119,8 @@ def _unflattened(slope: float) -> Sizes:
     return {name: factor * slope for name, factor in UNFLATTENED.items()}
 
 
-# The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. At its
-# displaced place the surface is shorter by its own strain under the pressure, (1 - 2 nu) (1 + nu)
+# The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. Once
+# deformed, the surface is shorter by its own strain under the pressure, (1 - 2 nu) (1 + nu)
 # p / E: 2.7 % in the peak pressure of asperities at p/E = 0.054; and asperities are seen elsewhere,
 # by a part of their own width. On a boundary that stays level the near field of tau1 differs by
 # 33 % at a/R = 0.07.
@@ -148,9 +144,9 @@ def _deformed_gap(problem: Problem, peak: float) -> Sizes:
 CIRCLE, CIRCLE_IN_NORMS = 0.25, 0.8
 
 
-def _exact_circle(curvature: float) -> Sizes:
-    found = _equal(CIRCLE * curvature**2)
-    return found | dict.fromkeys(NORMS, CIRCLE_IN_NORMS * curvature**2)
+def _exact_circle(problem: Problem) -> Sizes:
+    square = _curvature(problem) ** 2
+    return _equal(CIRCLE * square) | dict.fromkeys(NORMS, CIRCLE_IN_NORMS * square)
 
 
 # A sector of the roller, free above, in place of a half-plane: 0.3 % at a/R = 0.07.

@@ -18,7 +18,6 @@ from comparisons.assessment.effects.quantities_of_interest import (
     quantities_of,
     relative_sizes,
 )
-from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.assessment.effects.variants import strain_share_uncertainty
 from comparisons.assessment.uncertainty import (
     LENGTHS,
@@ -69,7 +68,6 @@ def model_errors(
     runs: dict[str, ModelRun],
     rows: list[Comparison],
     history: list[EffectContributions],
-    selection: EffectSelection,
 ) -> list[ModelError]:
     """One for each row, all of one friction coefficient.
 
@@ -78,11 +76,9 @@ def model_errors(
     """
     friction, last = rows[0].friction, history[-1]
     whole = [parts.own + parts.not_contained for parts in history]
-    half_plane = [
-        quantities_of(level, problem, friction)
-        for level in runs["half_plane"].levels[: len(history)]
-    ]
     number = len(history) - 1
+    levels = runs["half_plane"].levels[: len(history)]
+    half_plane = [quantities_of(level, problem, friction) for level in levels]
     iteration = largest_iteration(
         *(level for run in runs.values() for level in (run.finest, run.levels[number]))
     )
@@ -106,6 +102,7 @@ def model_errors(
     not_contained = [parts.not_contained for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]
     pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
+    interaction = relative_sizes(last.interaction, whole[-1], problem, window)
     found = []
     for row in rows:
         name = row.quantity
@@ -123,7 +120,7 @@ def model_errors(
         if not QUANTITIES[name].of_pair:
             added = last.not_contained.figures[name]
             value, uncertainty = _of_figure(row, numerical, added, missing, problem)
-        elif _is_any(last.not_contained):
+        elif last.not_contained.pressure.any() or any(last.not_contained.figures.values()):
             norm, there = share(name, own), pair.norms[number][name]
             parts = numerical, abs(there - row.difference), missing.uncertainty
             value = norm.value
@@ -131,16 +128,9 @@ def model_errors(
             uncertainty = difference_of_norms(norm.uncertainty, domain, parts)
         else:
             value, uncertainty = row.difference, numerical
+        joint = interaction[name]
         found.append(
-            ModelError(
-                name,
-                friction,
-                effects,
-                relative_sizes(last.interaction, whole[-1], problem, window)[name],
-                value,
-                uncertainty + stand_in,
-                stand_in,
-            )
+            ModelError(name, friction, effects, joint, value, uncertainty + stand_in, stand_in)
         )
     return found
 
@@ -163,7 +153,3 @@ def _of_figure(
 def _scale(figure: float, name: str, problem: Problem) -> float:
     """What differences are measured by [SI]: the figure, the Hertz contact's where it vanishes."""
     return abs(figure) or QUANTITIES[name].scale(problem.hertz)
-
-
-def _is_any(answer: QuantitiesOfInterest) -> bool:
-    return bool(np.any(answer.pressure)) or any(answer.figures.values())

@@ -72,7 +72,6 @@ def relative_sizes(
         for name, value in difference.figures.items()
     }
     moved = reference + difference
-    found |= pair_norms(
-        (moved.pressure, reference.pressure), (moved.tau1, reference.tau1), problem, window
-    )
+    pressures, tau1 = (moved.pressure, reference.pressure), (moved.tau1, reference.tau1)
+    found |= pair_norms(pressures, tau1, problem, window)
     return {name: found[name] for name in QUANTITIES if name in found}

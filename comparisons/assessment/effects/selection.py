@@ -72,16 +72,9 @@ def select_effects(
 
     # strain is judged beside the linear effects, so these are settled first
     first = estimates(problem, peak, own, couplings)
-    linear = own | {
-        name
-        for name, sizes in first.items()
-        if name in applying and name not in NONLINEAR and matters(sizes)
-    }
-    sized = {
-        name: sizes
-        for name, sizes in estimates(problem, peak, linear, couplings).items()
-        if name in applying
-    }
+    linear = own | {name for name in applying & set(LINEAR) if matters(first.get(name, {}))}
+    second = estimates(problem, peak, linear, couplings)
+    sized = {name: sizes for name, sizes in second.items() if name in applying}
     added, negligible, impossible = set(), {}, {}
     for name, sizes in sized.items():
         if name in own:
@@ -101,13 +94,12 @@ def why_not(name: str, problem: Problem) -> str | None:
     scene = problem.scene
     if name == "plastic_flow":
         return None if scene.yielding is not None else "the body has no yield stress"
-    if name == "finite_strain":
-        for hindered, why in (
-            (scene.finite_element.plastic, "flow is of small deformation"),
-            (scene.hardness is not None, "a cap on the pressure is of small deformation"),
-            (scene.coating is not None, "the body is coated"),
-            (is_several(), "it is solved on one process"),
-        ):
-            if hindered:
-                return why
-    return None
+    if name != "finite_strain":
+        return None
+    reasons = {
+        "flow is of small deformation": scene.finite_element.plastic,
+        "a cap on the pressure is of small deformation": scene.hardness is not None,
+        "the body is coated": scene.coating is not None,
+        "it is solved on one process": is_several(),
+    }
+    return next((why for why, hindered in reasons.items() if hindered), None)

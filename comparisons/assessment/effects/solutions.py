@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, partial
 from threading import Lock
 from typing import TYPE_CHECKING
 
@@ -110,14 +110,11 @@ class SolvedVariants:
             left = sum(self._is_new(each, number) for each in new)
             self._solve_here(variant, number, stop - (stop - start) * left / len(new))
 
-        def there(call: Call) -> Callable[[ModelVariant], None]:
-            def work(variant: ModelVariant) -> None:
-                given = self.problem, self.window, variant, number
-                self._keep(variant, number, lambda: call(_solved_there, *given))
+        def there(call: Call, variant: ModelVariant) -> None:
+            given = self.problem, self.window, variant, number
+            self._keep(variant, number, lambda: call(_solved_there, *given))
 
-            return work
-
-        share_out(new, here, [there(call) for call in self._helpers(number, len(new))])
+        share_out(new, here, [partial(there, call) for call in self._helpers(number, len(new))])
 
     def expected_of(self, number: int) -> float:
         """Seconds that the variants of a level take by the laws of cost."""
@@ -148,9 +145,8 @@ class SolvedVariants:
         words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
         self.callback(Step(f"error budget: finite elements with {words}, level {number}", behind))
         store = self._store = self._store or BodyStore()
-        self._keep(
-            variant, number, lambda: _solved(self.problem, self.window, variant, number, store)
-        )
+        given = self.problem, self.window, variant, number, store
+        self._keep(variant, number, lambda: _solved(*given))
 
     def _keep(self, variant: ModelVariant, number: int, solve: Callable[[], Level]) -> None:
         """Note the solution of a variant on a level, or why it has none."""
@@ -189,10 +185,9 @@ def _solved(
 
     problem = problem_with(problem, variant)
     plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
+    wanted = problem, plan, Refinement(pitch), window, Stages()
     try:
-        level = finite_element_level(
-            problem, plan, Refinement(pitch), window, Stages(), store=store
-        )
+        level = finite_element_level(*wanted, store=store)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
     if not level.solution.converged:

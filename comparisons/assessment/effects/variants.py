@@ -42,9 +42,8 @@ class ModelVariant:
         """Of its file in a cache."""
         words = sorted(effect.replace("_", "-") for effect in self.effects) or ["none"]
         words += ["held"] * self.held + ["stand-in"] * self.stand_in
-        return (
-            "effect-" + "+".join(words) + ("" if self.friction is None else f"@{self.friction:g}")
-        )
+        at = "" if self.friction is None else f"@{self.friction:g}"
+        return f"effect-{'+'.join(words)}{at}"
 
 
 def problem_with(problem: Problem, variant: ModelVariant) -> Problem:

@@ -126,15 +126,6 @@ class AdaptedContact:
         """Sum of the patches [m]."""
         return float(sum(np.diff(patch.ends)[0] for patch in self.patches))
 
-    def pressure_at(self, x: np.ndarray) -> np.ndarray:
-        """Smooth pressure [Pa] at x [m], zero outside the patches."""
-        x = np.asarray(x, dtype=float)
-        total = np.zeros_like(x)
-        for patch in self.patches:
-            inside = (x > patch.ends[0]) & (x < patch.ends[1])
-            total[inside] = patch.curve(x[inside])
-        return total
-
 
 def adapted_contact(pressing: Pressing, tolerance: float, rounds: int = ROUNDS) -> AdaptedContact:
     """Press until the estimated relative L2 error of the hat pressures is within `tolerance`.

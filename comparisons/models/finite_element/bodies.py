@@ -66,7 +66,6 @@ class BodyStore:
         self._bodies: OrderedDict[Hashable, ElasticBody] = OrderedDict()
 
     def mesh(self, spec: BlockSpec) -> BlockMesh:
-        """The flat mesh of a spec."""
         return _held(self._meshes, _key(spec), lambda: from_first(lambda: build_block(spec)))
 
     def body(
@@ -86,6 +85,28 @@ def bodies_of(
 ) -> BodyPair:
     """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
     scene, settings = problem.scene, problem.scene.finite_element
+
+    def body(
+        mesh: BlockMesh,
+        shape: Hashable,
+        material: Material,
+        support: Support,
+        coating: Coating | None = None,
+    ) -> ElasticBody:
+        """Factored; of no `shape` where the boundary is its own, which nothing else can share."""
+
+        def make() -> ElasticBody:
+            with stages.stage("assembly", "finite elements: assembly"):
+                made = elastic_body(mesh, material, support, degree=degree, coating=coating)
+            with stages.stage("factorisation", "finite elements: factorisation"):
+                _ = made.factor
+            return made
+
+        degree = settings.degree
+        if shape is None:
+            return make()
+        return store.body(shape, make, material, support, degree, coating)
+
     spec = block_spec(problem, refinement, patches)
     beyond = 0.5 if refinement.half_block else np.inf
     within = (
@@ -98,10 +119,8 @@ def bodies_of(
         flat = store.mesh(spec)
         mesh = rough_mesh(problem, flat)
     shape = _key(spec) if mesh is flat else None
-    coating = None
-    if scene.coating is not None:
-        coating = Coating(scene.coating.material, scene.coating.thickness)
-    rough = _body(mesh, shape, scene.body, support, settings.degree, coating, stages, store)
+    coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
+    rough = body(mesh, shape, scene.body, support, coating)
     if scene.roller is None:
         return BodyPair(rough, None, 0.0)
     if plan.shared_factor:
@@ -116,34 +135,12 @@ def bodies_of(
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":
         support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
-    roller = _body(mesh, shape, scene.roller, support, settings.degree, None, stages, store)
+    roller = body(mesh, shape, scene.roller, support)
     return BodyPair(rough, roller, 0.0)
 
 
-def _body(
-    mesh: BlockMesh,
-    shape: Hashable,
-    material: Material,
-    support: Support,
-    degree: int,
-    coating: Coating | None,
-    stages: Stages,
-    store: BodyStore,
-) -> ElasticBody:
-    def make() -> ElasticBody:
-        with stages.stage("assembly", "finite elements: assembly"):
-            body = elastic_body(mesh, material, support, degree=degree, coating=coating)
-        with stages.stage("factorisation", "finite elements: factorisation"):
-            _ = body.factor
-        return body
-
-    if shape is None:  # a boundary of its own
-        return make()
-    return store.body(shape, make, material, support, degree, coating)
-
-
 def _key(spec: BlockSpec) -> Hashable:
-    """The spec's fields as something that can be looked up."""
+    """The spec as something that can be looked up."""
     values = (getattr(spec, field.name) for field in fields(spec))
     return tuple(value.tobytes() if isinstance(value, np.ndarray) else value for value in values)
 

@@ -74,14 +74,6 @@ class Differences:
     columns: tuple[Column, ...]
     waves: tuple[Wave, ...]
 
-    @property
-    def worst_column(self) -> Column:
-        return max(self.columns, key=lambda column: column.difference)
-
-    @property
-    def worst_wave(self) -> Wave:
-        return max(self.waves, key=lambda wave: abs(wave.difference))
-
 
 @dataclass(frozen=True)
 class ComplianceCheck:
@@ -105,7 +97,6 @@ class ComplianceCheck:
 
     def as_dict(self) -> dict:
         """For result.json."""
-        found = asdict(self.nearest)
         effect = None
         if self.half_plane is not None:
             effect = {"of": list(self.finite), **asdict(self.half_plane)}
@@ -113,7 +104,7 @@ class ComplianceCheck:
             "verdict": self.verdict,
             "because": self.because,
             "datum_removed": not self.datum,
-            **{name: list(found[name]) for name in ("columns", "waves")},
+            **{name: list(found) for name, found in asdict(self.nearest).items()},
             "not_modelled": list(self.not_modelled),
             "body_effect": effect,
         }
@@ -121,9 +112,8 @@ class ComplianceCheck:
 
 def judged(found: Differences, not_modelled: tuple[str, ...]) -> tuple[str, str]:
     """Verdict and why. The body is not judged where something is `not_modelled`."""
-    shared = (
-        0.0 if not_modelled else _shared([w.difference for w in found.waves if w.elements >= 8.0])
-    )
+    long = [wave.difference for wave in found.waves if wave.elements >= 8.0]
+    shared = 0.0 if not_modelled else _shared(long)
     for wave in found.waves:
         bound = SHORT_WAVES.get(wave.elements)
         if bound is not None and wave.difference - shared < -bound:
@@ -132,21 +122,16 @@ def judged(found: Differences, not_modelled: tuple[str, ...]) -> tuple[str, str]
                 f"{percent(shared - wave.difference)}, more than {given_percent(bound)}"
             )
     if shared:
-        return "modulus", (
-            f"all waves are off by the same {percent(shared, signed=True)}: the elastic constants"
-        )
+        off = percent(shared, signed=True)
+        return "modulus", f"all waves are off by the same {off}: the elastic constants"
     far = max(column.beyond for column in found.columns)
     text = f"{percent(far)} of a column is off far from its load"
     if far > BEYOND and not_modelled:
-        return (
-            "geometry",
-            f"{text}; the analytic surface does not model {' and '.join(not_modelled)}",
-        )
+        missing = " and ".join(not_modelled)
+        return "geometry", f"{text}; the analytic surface does not model {missing}"
     if far > BEYOND:
-        return (
-            "block",
-            f"{text}, more than {given_percent(BEYOND)}: the block's size, or how it is held",
-        )
+        bound = given_percent(BEYOND)
+        return "block", f"{text}, more than {bound}: the block's size, or how it is held"
     return "neither", "short waves and columns far from their load are right"
 
 
@@ -174,11 +159,14 @@ def operator_check(
     """
     scene = problem.scene
     refined = _refined(grid, intervals)
-    columns, waves = _places(refined), _wavelengths(refined)
+    there = np.flatnonzero(refined)
+    columns = np.unique(there[np.rint(np.multiply(PLACES, len(there) - 1)).astype(int)])
+    span = int(there[-1] - there[0]) + 1  # elements from the first to the last refined one
+    waves = _wavelengths(span)
     pressures = np.zeros((grid.count, len(columns) + len(waves)))
     pressures[columns, np.arange(len(columns))] = 1.0
     for k, length in enumerate(waves, start=len(columns)):
-        pressures[:, k] = _packet(refined, length)
+        pressures[:, k] = _packet(refined, span, length)
     finite = operator.apply_all(pressures)
 
     def against(surface: ComplianceOperator, datum: bool) -> Differences:
@@ -231,8 +219,8 @@ def _differences(
             for k, column in enumerate(columns)
         ),
         tuple(
-            Wave(length * grid.pitch, length, float(work[k]))
-            for k, length in enumerate(waves, start=len(columns))
+            Wave(length * grid.pitch, length, float(part))
+            for length, part in zip(waves, work[len(columns) :], strict=True)
         ),
     )
 
@@ -245,30 +233,18 @@ def _refined(grid: HatGrid, intervals: np.ndarray) -> np.ndarray:
     return (start >= intervals[at, 0]) & (stop <= intervals[at, 1])
 
 
-def _places(refined: np.ndarray) -> np.ndarray:
-    """Elements whose columns are compared, each once."""
-    there = np.flatnonzero(refined)
-    return np.unique(there[np.rint(np.multiply(PLACES, len(there) - 1)).astype(int)])
-
-
-def _span(refined: np.ndarray) -> int:
-    """Elements from the first to the last refined one."""
-    there = np.flatnonzero(refined)
-    return int(there[-1] - there[0]) + 1
-
-
-def _wavelengths(refined: np.ndarray) -> list[float]:
+def _wavelengths(span: int) -> list[float]:
     """Elements to a wave. Longer ones than the shortest need room for a packet."""
-    span, second = _span(refined), 2.0 * SHORTEST
+    second = 2.0 * SHORTEST
     if span < PACKET * second:
         return [SHORTEST]
     return [SHORTEST, *map(float, np.geomspace(second, span, LONGER))]
 
 
-def _packet(refined: np.ndarray, length: float) -> np.ndarray:
-    """Pressures (n,) of a wave of so many elements that swells and dies off, where most of it is on
-    refined ground and, of such places, nearest to the middle."""
-    half = (int(min(PACKET * length, _span(refined))) - 1) // 2
+def _packet(refined: np.ndarray, span: int, length: float) -> np.ndarray:
+    """Pressures (n,) of a wave of so many elements that swells and dies off, where most of it is in
+    refined ranges and, of such places, nearest to the middle."""
+    half = (int(min(PACKET * length, span)) - 1) // 2
     offset = np.arange(-half, half + 1)
     window = np.cos(0.5 * np.pi * offset / (half + 1)) ** 2
     before = np.concatenate([[0], np.cumsum(refined)])

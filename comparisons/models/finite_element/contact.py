@@ -47,7 +47,6 @@ class MutualCompliance:
 
     @property
     def rough(self) -> FiniteElementCompliance:
-        """That of the rough body."""
         return self.parts[0].compliance
 
     @property
@@ -56,9 +55,7 @@ class MutualCompliance:
         return any(part.friction for part in self.parts)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        return sum(
-            part.factor * part.compliance.apply(pressure, part.friction) for part in self.parts
-        )
+        return sum(p.factor * p.compliance.apply(pressure, p.friction) for p in self.parts)
 
     def apply_all(self, pressures: np.ndarray) -> np.ndarray:
         """`apply` to the columns of `pressures` (n, m) at once, (n, m) [m^2]."""
@@ -129,11 +126,9 @@ def solve_mutual(
 ) -> ContactSolution:
     """The contact of the finite elements; if the iteration with the model does not converge, on
     their whole matrix."""
-    solver, dense = (
-        (solve_coupled, DenseCoupledCompliance)
-        if operator.coupled
-        else (solve_contact, DenseCompliance)
-    )
+    solver, dense = solve_contact, DenseCompliance
+    if operator.coupled:
+        solver, dense = solve_coupled, DenseCoupledCompliance
     solution = solve_with_model(operator, model, gap, weights, constraints, start, solver=solver)
     if solution.converged or len(gap) > MOST_DENSE:
         return solution

@@ -52,11 +52,10 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
         across = edge * np.ceil((np.abs(problem.extent).max() + LAYER_EXTENT * depth) / edge)
     if scene.width is not None:
         across = 0.5 * scene.width
-    intervals = refined_ranges(
-        patches, edge, margin=MARGIN_HATS * refinement.pitch, half_width=across
-    )
+    margin = MARGIN_HATS * refinement.pitch
     if is_rough(problem):  # wherever pressure may come to act
-        intervals = refined_ranges(np.array([problem.extent]), edge, margin=0.0, half_width=across)
+        patches, margin = np.array([problem.extent]), 0.0
+    intervals = refined_ranges(patches, edge, margin=margin, half_width=across)
     if scene.coating is not None and scene.coating.thickness > THICKEST_COATING * depth:
         raise SceneError(
             f"{scene.source}: coating.thickness: is {scene.coating.thickness:g} m on a body of "
@@ -70,15 +69,9 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
         aside = min(across, max(scene.stress.half_range.metres(half_width), half_width))
         down = min(depth, max(scene.stress.depth.metres(half_width), half_width))
         window = (-aside, aside, down, size)
-    return BlockSpec(
-        across,
-        depth,
-        intervals,
-        edge,
-        min(growth, STEEPEST_GROWTH),
-        window,
-        interface=None if scene.coating is None else scene.coating.thickness,
-    )
+    growth, coating = min(growth, STEEPEST_GROWTH), scene.coating
+    interface = None if coating is None else coating.thickness
+    return BlockSpec(across, depth, intervals, edge, growth, window, interface=interface)
 
 
 def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:

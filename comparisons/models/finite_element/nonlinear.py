@@ -41,15 +41,10 @@ def pressed_finitely(
     """
     scene, rough = problem.scene, operator.rough
     weights, x = grid.weights, grid.x
+    prescribed = {name: getattr(constraints, name) for name in ("load", "approach", "hardness")}
+    roller, friction = roller_of(problem), scene.friction[0]
     found = press_finitely(
-        rough.body,
-        rough.hats,
-        roller_of(problem),
-        linear.pressure,
-        load=constraints.load,
-        approach=constraints.approach,
-        friction=scene.friction[0],
-        hardness=constraints.hardness,
+        rough.body, rough.hats, roller, linear.pressure, friction=friction, **prescribed
     )
     ends = [0, -1]  # on few elements the linear contact may reach them, too
     if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
@@ -97,16 +92,9 @@ def pressed_plastically(
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
+    loads, steps = (constraints.load, 0.0), flow_increments(problem, grid.pitch)
     body, (loaded, released) = press_plastically(
-        rough,
-        metal,
-        gap,
-        weights,
-        (constraints.load, 0.0),
-        linear.pressure,
-        friction,
-        roller,
-        flow_increments(problem, grid.pitch),
+        rough, metal, gap, weights, loads, linear.pressure, friction, roller, steps
     )
     own = rough.weighted(loaded.displacement)
     both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
@@ -118,15 +106,13 @@ def pressed_plastically(
         both, loaded.pressure, gap, weights, loaded.approach, constraints, counts, FLOW_TOLERANCE
     )
     fields, left = plastic_fields(body, loaded), plastic_fields(body, released)
+    residual = {name: getattr(left.stress, name) for name in ("sx", "sz", "txz")}
+    residual |= {"sy": left.sy, "von_mises": left.von_mises}
     others = {
         "sy": fields.sy,
         "von_mises": fields.von_mises,
         "equivalent_plastic_strain": fields.equivalent_strain,
-        "residual_sx": left.stress.sx,
-        "residual_sz": left.stress.sz,
-        "residual_sy": left.sy,
-        "residual_txz": left.stress.txz,
-        "residual_von_mises": left.von_mises,
+        **{f"residual_{name}": residual[name] for name in ("sx", "sz", "sy", "txz", "von_mises")},
     }
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)

@@ -28,7 +28,7 @@ class LoadedBody:
     displacement  (count,) [m^2] of its surface into the body, weighted by each hat
     stress        by friction coefficient
     patches       (k, 2) [m] contact patches
-    others        further fields at the mesh's points (n,), by name with their unit
+    others        further fields at the mesh's points (n,), by name
     """
 
     body: ElasticBody
@@ -107,38 +107,25 @@ def stresses_of(
 ) -> tuple[tuple[StressResult, ...], MeshField]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh."""
     body, results, on_mesh = pressed.body, [], {}
-    for friction in frictions:
-        nodal = pressed.stress(friction)
-        results.append(_on_window(body, nodal, friction, window, pressed.others.get("von_mises")))
-        stress, nodes = nodal.stress, nodal.nodes
-        on_mesh[friction] = StressState(stress.sx, stress.sz, stress.txz)
-    mesh_field = MeshField(
-        body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
-    )
-    return tuple(results), mesh_field
-
-
-def _on_window(
-    body: ElasticBody,
-    nodal: NodalStress,
-    friction: float,
-    window: Window,
-    von_mises: np.ndarray | None,
-) -> StressResult:
-    """`von_mises` (n,) [Pa] at the mesh's points where it does not follow from the stresses."""
     bounds = (-window.extent, window.extent, window.z[-1])
     quantities = {
         "tau1": lambda stress: stress.tau1,
         "txz": lambda stress: np.abs(stress.txz),
         "von_mises": lambda stress: stress.von_mises(stress.poissons_ratio),
     }
-    extremes = {
-        name: maximum(body, nodal, quantity, bounds) for name, quantity in quantities.items()
-    }
-    if von_mises is not None:
-        x, z = body.points.T
-        inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
-        top = np.argmax(np.where(inside, von_mises, -np.inf))
-        extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
-    x, z = np.meshgrid(window.x, window.z)
-    return StressResult(friction, extremes, evaluate(body, nodal, x, z))
+    for friction in frictions:
+        nodal = pressed.stress(friction)
+        extremes = {name: maximum(body, nodal, of, bounds) for name, of in quantities.items()}
+        if "von_mises" in pressed.others:  # it does not follow from the stresses
+            von_mises, (x, z) = pressed.others["von_mises"], body.points.T
+            inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
+            top = np.argmax(np.where(inside, von_mises, -np.inf))
+            extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
+        x, z = np.meshgrid(window.x, window.z)
+        results.append(StressResult(friction, extremes, evaluate(body, nodal, x, z)))
+        stress, nodes = nodal.stress, nodal.nodes
+        on_mesh[friction] = StressState(stress.sx, stress.sz, stress.txz)
+    mesh_field = MeshField(
+        body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
+    )
+    return tuple(results), mesh_field

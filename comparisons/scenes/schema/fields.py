@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Annotated, Self, get_args
 
 from pydantic import BaseModel, ConfigDict, model_validator
-from pydantic.fields import FieldInfo
 from pydantic_core import core_schema
 
 from comparisons.common.errors import nearest
@@ -44,26 +43,25 @@ class FieldType(ABC):
     def wrong(self, problem: str) -> ValueError:
         return ValueError(f"{problem}; allowed is {self.allowed()}")
 
+    def in_si(self, given: object, dimension: Dimension) -> float:
+        """As `comparisons.common.units.to_si`, but of a size that can be computed with."""
+        try:
+            value = to_si(given, dimension)
+        except UnitError as error:
+            raise self.wrong(str(error)) from error
+        if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
+            size = f"whose size is not from {SMALLEST:g} to {LARGEST:g} in SI"
+            raise self.wrong(f"is {describe(given)}, {size}")
+        return value
+
     def __get_pydantic_core_schema__(self, source: object, handler: object) -> object:
         return core_schema.no_info_plain_validator_function(self.read)
 
 
-def _of_sane_size(given: object, dimension: Dimension) -> float:
-    """As `to_si`; raises UnitError as well for a size that nothing can be computed with."""
-    value = to_si(given, dimension)
-    if value != 0.0 and not SMALLEST <= abs(value) <= LARGEST:
-        raise UnitError(
-            f"is {describe(given)}, whose size is not from {SMALLEST:g} to {LARGEST:g} in SI"
-        )
-    return value
-
-
 @dataclass(frozen=True)
 class Number(FieldType):
-    """A float in SI, of one dimension, within bounds in SI: above < v, at_least <= v, …
-
-    It is 0, or of a size from SMALLEST to LARGEST.
-    """
+    """A float in SI, of one dimension, within bounds: above < v, at_least <= v, …; it is 0, or of a
+    size from SMALLEST to LARGEST."""
 
     dimension: Dimension
     above: float | None = None
@@ -72,10 +70,7 @@ class Number(FieldType):
     at_most: float | None = None
 
     def read(self, given: object) -> float:
-        try:
-            value = _of_sane_size(given, self.dimension)
-        except UnitError as error:
-            raise self.wrong(str(error)) from error
+        value = self.in_si(given, self.dimension)
         if not all(holds(value, bound) for _, holds, bound in self._bounds()):
             raise self.wrong(f"is {describe(given)}")
         return value + 0.0  # -0.0 is 0.0
@@ -181,14 +176,10 @@ class ExtentField(FieldType):
     """A length above 0: a number counts Hertz half-widths, a string has a unit."""
 
     def read(self, given: object) -> Extent:
-        in_half_widths = not isinstance(given, str)
-        try:
-            value = _of_sane_size(given, LENGTH)
-        except UnitError as error:
-            raise self.wrong(str(error)) from error
+        value = self.in_si(given, LENGTH)
         if not value > 0.0:
             raise self.wrong(f"is {describe(given)}")
-        return Extent(value, in_half_widths)
+        return Extent(value, in_half_widths=not isinstance(given, str))
 
     def allowed(self) -> str:
         return 'a number of half-widths above 0 or a length above 0 such as "500 um"'
@@ -234,10 +225,8 @@ class Grid(FieldType):
         return columns, rows
 
     def allowed(self) -> str:
-        return (
-            "a list of two whole numbers [along x, along z], at least 3 each "
-            f"and at most {self.most} points in all"
-        )
+        least = "a list of two whole numbers [along x, along z], at least 3 each"
+        return f"{least} and at most {self.most} points in all"
 
 
 Length = Annotated[float, Number(LENGTH, above=0.0)]
@@ -280,16 +269,8 @@ class SceneSection(BaseModel):
 
 def allowed(table: type[SceneSection], name: str) -> str:
     """What a field may hold, in words."""
-    return field_type(table, name).allowed()
-
-
-def field_type(table: type[SceneSection], name: str) -> FieldType:
-    """What reads a field."""
-    notes = _annotations(table.model_fields[name])
-    return next(note for note in notes if isinstance(note, FieldType))
-
-
-def _annotations(info: FieldInfo) -> tuple:
-    """A field's notes; those of `Annotated[…] | None` stand inside the union."""
+    info = table.model_fields[name]
+    # the notes of `Annotated[…] | None` stand inside the union
     inner = [note for part in get_args(info.annotation) for note in get_args(part)[1:]]
-    return (*info.metadata, *inner)
+    notes = (*info.metadata, *inner)
+    return next(note for note in notes if isinstance(note, FieldType)).allowed()

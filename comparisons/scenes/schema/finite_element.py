@@ -12,12 +12,7 @@ HELD_BLOCK = 400.0  # half-widths: what a fixed boundary there does to stresses 
 # stresses at the edge of a contact half as large again as the largest below it.
 QUADRATIC_UP_TO = 0.49
 HALF_PLANE_BLOCK = 20.0  # half-widths: the series of the far field is exact to round-off there
-
-
-SEVERAL_FRICTIONS = (
-    "is true with {} friction coefficients, each of which has pressures of its own then; "
-    "allowed is one friction coefficient"
-)
+SEVERAL_FRICTIONS = "is true with {} friction coefficients; allowed is one, each moves the contact"
 
 
 class FiniteElementSection(SceneSection):
@@ -37,11 +32,7 @@ class FiniteElementSection(SceneSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.deformation == "finite" and self.plastic:
-            yield (
-                "plastic",
-                'is true beside deformation = "finite"; allowed is either, plastic flow is of '
-                "small deformation",
-            )
+            yield "plastic", 'is true beside deformation = "finite"; allowed is one of the two'
         if self.nonlinear and self.element not in (None, "P2"):
             cause = "finite_element.deformation" if self.deformation == "finite" else "plastic"
             yield "element", f'is "{self.element}" with {cause}; allowed there is "P2"'
@@ -51,10 +42,7 @@ class FiniteElementSection(SceneSection):
         return self.deformation == "finite" or self.plastic
 
     def defaults(self, poissons_ratio: float) -> dict:
-        """Fields that follow from others where the section leaves them out.
-
-        poissons_ratio  the largest of the bodies
-        """
+        """Fields that follow from others and from the bodies' largest Poisson's ratio."""
         found = {}
         if self.element is None:
             cubic = poissons_ratio > QUADRATIC_UP_TO and not self.nonlinear
@@ -74,90 +62,53 @@ class FiniteElementSection(SceneSection):
         coating: SceneSection | None,
     ) -> Iterator[tuple[str, str]]:
         """Fields of this section that do not fit the rest of the scene, and what is wrong."""
-        unbounded = body.thickness is None and body.width is None
         coated, finite = coating is not None, self.deformation == "finite"
+        far = self.far_field == "half-plane"
         coupled = load.coupled if self.coupled is None else self.coupled
-        frictions = len(load.friction)
+        frictions, slides = len(load.friction), max(load.friction) > 0.0
         if self.geometry == "rough" and profile is None:
             yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
-        if self.nonlinear and self.far_field == "half-plane":
+        if self.nonlinear and far:
             yield "far_field", 'is "half-plane" for a body that is not linear; allowed is "held"'
         if self.nonlinear and frictions != 1:
             yield (
                 "plastic" if self.plastic else "deformation",
-                f"wants one friction coefficient, not {frictions}: each has pressures of "
-                "its own; allowed is load.friction = one number",
+                f"wants one friction coefficient, not {frictions}; allowed is a single number",
             )
         if finite and body.hardness is not None:
-            yield (
-                "deformation",
-                'is "finite" for a body with a hardness, a cap on small deformation; '
-                "allowed without body.hardness",
-            )
+            yield "deformation", 'is "finite" for a body with a hardness; allowed without one'
         if self.roller_body == "disc" and roller.rigid:
-            yield (
-                "roller_body",
-                'is "disc", but the roller is rigid; allowed with an elastic roller',
-            )
-        if self.far_field == "half-plane" and not unbounded:
-            yield (
-                "far_field",
-                'is "half-plane", but the body has a thickness or a width; allowed is "held"',
-            )
-        if self.far_field == "half-plane" and coated:
+            yield "roller_body", 'is "disc", but the roller is rigid; allowed with an elastic one'
+        for bound in ("thickness", "width"):
+            if far and getattr(body, bound) is not None:
+                yield "far_field", f'is "half-plane", but the body has a {bound}; allowed is "held"'
+        if far and coated:
             yield "far_field", 'is "half-plane", but the body has a coating; allowed is "held"'
         if self.plastic and body.yield_stress is None:
-            yield (
-                "plastic",
-                "is true, but the body has no yield stress; allowed with body.yield_stress",
-            )
+            yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if self.coupled and frictions != 1:
             yield "coupled", SEVERAL_FRICTIONS.format(frictions)
         if finite and not roller.rigid:
-            yield (
-                "deformation",
-                'is "finite" with an elastic roller; allowed with roller.rigid = true',
-            )
+            problem = 'is "finite" with an elastic roller; allowed with roller.rigid = true'
+            yield "deformation", problem
         if finite and coated:
             yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
         if finite and profile is not None and self.geometry == "flat":
-            yield (
-                "geometry",
-                'is "flat" at finite deformation, which takes a rough boundary; allowed is "rough"',
-            )
-        if finite and max(load.friction) > 0.0 and not coupled:
-            yield (
-                "coupled",
-                "is false at finite deformation, where the sliding traction moves the surface; "
-                "allowed is true",
-            )
+            yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
+        if finite and slides and not coupled:
+            yield "coupled", "is false at finite deformation with friction; allowed is true"
         if body.yield_stress is not None and not self.plastic:
-            yield (
-                "plastic",
-                "is false, but the body has a yield stress; allowed is true, or no "
-                "body.yield_stress",
-            )
+            yield "plastic", "is false, but the body has a yield stress; allowed is true"
         if self.plastic and load.kind == "approach":
-            yield (
-                "plastic",
-                "is true with load.approach; allowed with per_length or hertz_peak_pressure",
-            )
-        if self.plastic and max(load.friction) > 0.0 and not coupled:
-            yield (
-                "coupled",
-                "is false for a body that yields, in which stresses of pressure and sliding "
-                "traction do not add up; allowed is true",
-            )
+            yield "plastic", "is true with load.approach; allowed with per_length"
+        if self.plastic and slides and not coupled:
+            yield "coupled", "is false for a body that yields under friction; allowed is true"
 
 
 def settings_of(
     table: FiniteElementSection, coupled: bool, poissons_ratio: float
 ) -> FiniteElementSettings:
-    """The section with its defaults.
-
-    coupled         what [load] says of both models
-    poissons_ratio  the largest of the bodies
-    """
+    """The section with its defaults; `coupled` is what [load] says of both models."""
     given = dict(table) | table.defaults(poissons_ratio)
     if table.coupled is None:
         given["coupled"] = coupled

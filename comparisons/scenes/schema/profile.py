@@ -47,9 +47,7 @@ class Segment(FieldType):
 
     def read(self, given: object) -> tuple[tuple[float, float], tuple[float, float]]:
         points = self._pair(given)
-        start, stop = (
-            tuple(self._length(value) for value in self._pair(point)) for point in points
-        )
+        start, stop = (tuple(map(self._length, self._pair(point))) for point in points)
         if start == stop:
             raise self.wrong("starts where it ends")
         return start, stop
@@ -76,11 +74,8 @@ Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 
 
 class ProfileSection(SceneSection):
-    """A measured profile (`file`) or a made one (`kind`).
-
-    The parameters of a made profile are those of `analytic.surface.synthetic`, which also checks
-    how they fit together.
-    """
+    """A measured profile (`file`) or a made one (`kind`), with the parameters of
+    `analytic.surface.synthetic`, which also checks how they fit together."""
 
     file: Annotated[str, Text("the path of a profile, from the scene's folder")] | None = None
     x_unit: Annotated[str, Unit(LENGTH)] | None = None
@@ -138,11 +133,9 @@ class ProfileSection(SceneSection):
         variety = VARIETIES[self.variety]
         for name in sorted(self.model_fields_set - variety.fields()):
             if getattr(self, name) is not None:
-                others = [*sorted(variety.fields() - {"kind", "file", *FILTER}), *FILTER]
-                yield (
-                    name,
-                    f"does not belong to {variety.title}; allowed there are {', '.join(others)}",
-                )
+                others = sorted(variety.fields() - {"kind", "file", *FILTER})
+                there = ", ".join([*others, *FILTER])
+                yield name, f"does not belong to {variety.title}; allowed there are {there}"
         for name in variety.needed:
             if getattr(self, name) is None:
                 words = allowed(ProfileSection, name)
@@ -165,16 +158,11 @@ class Variety:
     at_most_one_of: tuple[tuple[str, ...], ...] = ()
 
     def fields(self) -> set[str]:
-        """Every field it may have."""
-        return {
-            *self.needed,
-            *self.optional,
-            *self.defaults,
-            *FILTER,
-            *(name for names in (*self.one_of, *self.at_most_one_of) for name in names),
-        }
+        groups = (*self.one_of, *self.at_most_one_of)
+        return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
 
 
+SPECTRUM = ("shortest_wavelength", "roll_off_wavelength", "longest_wavelength")
 VARIETIES = {
     "file": Variety(
         "a measured profile",
@@ -198,15 +186,7 @@ VARIETIES = {
     ),
     "ground": Variety(
         'kind = "ground"',
-        needed=(
-            "kind",
-            "rms_height",
-            "samples",
-            "length",
-            "shortest_wavelength",
-            "roll_off_wavelength",
-            "longest_wavelength",
-        ),
+        needed=("kind", "rms_height", "samples", "length", *SPECTRUM),
         defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
     ),
     "turned": Variety(

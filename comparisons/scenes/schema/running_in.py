@@ -10,13 +10,7 @@ from analytic.running_in import SWEEPS
 from comparisons.common.errors import SceneError
 from comparisons.common.units import LENGTH, LOAD, PRESSURE
 from comparisons.scenes.scene import RunningIn
-from comparisons.scenes.schema.fields import (
-    Length,
-    Number,
-    SceneSection,
-    Several,
-    Whole,
-)
+from comparisons.scenes.schema.fields import Length, Number, SceneSection, Several, Whole
 
 PASSES = 15  # of a stroke that does not say how many
 MOST_PASSES = 1000  # of a sweep, and sweeps at most
@@ -35,10 +29,8 @@ class RunningInSection(SceneSection):
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         yield from self.unless_one_of(("positions", "stroke"), " and ")
         if self.positions is not None and self.passes is not None:
-            yield (
-                "passes",
-                "is given beside positions, which are one pass each; allowed with stroke",
-            )
+            problem = "is given beside positions, which are one pass each; allowed with stroke"
+            yield "passes", problem
 
     def missing(
         self, profile: SceneSection | None, hardness: float | None, load_kind: str
@@ -47,15 +39,11 @@ class RunningInSection(SceneSection):
         if profile is None:
             yield "running_in", "is given for a smooth surface; allowed only with [profile]"
         if self.hardness is None and hardness is None:
-            yield (
-                "running_in.hardness",
-                "is missing; allowed is a pressure above 0, here or as body.hardness",
-            )
+            where = "here or as body.hardness"
+            yield "running_in.hardness", f"is missing; allowed is a pressure above 0, {where}"
         if self.load is None and load_kind == "approach":
-            yield (
-                "running_in.load",
-                "is missing; allowed is a load per length above 0, which load.approach is not",
-            )
+            problem = "is missing; allowed is a load per length, which load.approach is not"
+            yield "running_in.load", problem
 
     def travel(self, position: float) -> float:
         """Twice the largest distance of the roller from `position` [m]: a trace must be longer by
@@ -91,10 +79,5 @@ def running_in_of(
                 room = 2.0 * min(position - first, last - position)
                 allowed = f"below {room:g} m, to stay on the trace about the roller's centre"
             raise SceneError(f"{source}: running_in.{field}: is {given:g} m; allowed is {allowed}")
-    settings = RunningIn(
-        hardness=table.hardness or hardness,
-        load=table.load,
-        positions=tuple(map(float, positions)),
-        sweeps=table.sweeps,
-    )
-    return settings, defaults
+    places = tuple(map(float, positions))
+    return RunningIn(table.hardness or hardness, table.load, places, table.sweeps), defaults

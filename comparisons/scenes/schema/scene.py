@@ -4,7 +4,7 @@ What is wrong is one line: "file: section.field: problem; allowed is …".
 """
 
 from collections.abc import Iterator
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, get_args
 
 from pydantic import ValidationError
 
@@ -48,15 +48,10 @@ class RollerSection(SceneSection):
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:
-                yield (
-                    name,
-                    "is given beside rigid = true; allowed is either, a rigid roller has none",
-                )
+                yield name, "is given beside rigid = true; allowed is one of the two"
             if not self.rigid and not given:
-                yield (
-                    name,
-                    "is missing; allowed is youngs_modulus with poissons_ratio, or rigid = true",
-                )
+                both = "youngs_modulus with poissons_ratio, or rigid = true"
+                yield name, f"is missing; allowed is {both}"
 
 
 class BodySection(SceneSection):
@@ -71,15 +66,10 @@ class BodySection(SceneSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.base is not None and self.thickness is None:
-            yield (
-                "base",
-                "is given for a half-plane, which has none; allowed only with thickness",
-            )
+            yield "base", "is given for a half-plane, which has none; allowed only with thickness"
         if self.hardening_modulus is not None and self.yield_stress is None:
-            yield (
-                "hardening_modulus",
-                "is given for a body that does not yield; allowed only with yield_stress",
-            )
+            problem = "is given for a body that does not yield; allowed only with yield_stress"
+            yield "hardening_modulus", problem
 
 
 class CoatingSection(SceneSection):
@@ -156,18 +146,13 @@ class SceneFile(SceneSection):
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         body, load, coating = self.body, self.load, self.coating
-        if load.approach is not None and body.thickness is None:
-            yield (
-                "load.approach",
-                "has no meaning on a half-plane, whose displacement has no datum; "
-                "allowed is per_length or hertz_peak_pressure, or approach with body.thickness",
-            )
-        if load.approach is not None and not self.roller.rigid:
-            yield (
-                "load.approach",
-                "has no meaning for an elastic roller, whose displacement has no datum; allowed "
-                "is per_length or hertz_peak_pressure, or approach with roller.rigid = true",
-            )
+        for there, where, needed in (
+            (body.thickness is not None, "on a half-plane", "body.thickness"),
+            (self.roller.rigid, "for an elastic roller", "roller.rigid = true"),
+        ):
+            if load.approach is not None and not there:
+                why = f"has no meaning {where}, whose displacement has no datum"
+                yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
         if self.running_in is not None:
             yield from self.running_in.missing(self.profile, body.hardness, load.kind)
         for field, problem in self.finite_element.conflicts(
@@ -175,51 +160,32 @@ class SceneFile(SceneSection):
         ):
             yield f"finite_element.{field}", problem
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
-            yield (
-                "coating.thickness",
-                f"is {coating.thickness:g} m on a body of {body.thickness:g} m; allowed is less, "
-                "the body's thickness contains it",
-            )
+            given = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
+            yield "coating.thickness", f"{given}; allowed is less, the body's thickness contains it"
         if coating and self.finite_element.plastic:
-            yield (
-                "finite_element.plastic",
-                "is true for a coated body; allowed without [coating]",
-            )
+            yield "finite_element.plastic", "is true for a coated body; allowed without [coating]"
         if body.base == "frictionless" and body.width is not None and max(load.friction) > 0.0:
-            yield (
-                "load.friction",
-                f"is {max(load.friction):g} on a body of finite width on a frictionless base, "
-                'which nothing would hold; allowed is friction = 0, base = "bonded" or no width',
-            )
+            held = 'allowed is friction = 0, base = "bonded" or no width'
+            given = f"is {max(load.friction):g} on a body of finite width on a frictionless base"
+            yield "load.friction", f"{given}, which nothing would hold; {held}"
         for name in _of_stress():
             if self.stress is None and name in self.tolerance.model_fields_set:
                 others = ", ".join(sorted(set(QUANTITIES) - set(_of_stress())))
-                yield (
-                    f"tolerance.{name}",
-                    f"needs a [stress] section; allowed is {others} without one",
-                )
+                problem = f"needs a [stress] section; allowed is {others} without one"
+                yield f"tolerance.{name}", problem
 
 
 SECTIONS: dict[str, type[SceneSection]] = {
-    "roller": RollerSection,
-    "body": BodySection,
-    "coating": CoatingSection,
-    "profile": ProfileSection,
-    "load": LoadSection,
-    "running_in": RunningInSection,
-    "stress": StressWindowSection,
-    "tolerance": ToleranceSection,
-    "finite_element": FiniteElementSection,
-    "resolution": ResolutionSection,
-    "budget": BudgetSection,
+    name: part
+    for name, info in SceneFile.model_fields.items()
+    for part in (info.annotation, *get_args(info.annotation))  # of a section, or one or None
+    if isinstance(part, type) and issubclass(part, SceneSection)
 }
 
 
 def plain_tables(scene: SceneFile) -> dict:
-    """The scene as a file would have it: defaults written out, SI numbers, no None.
-
-    Reading the result as a scene gives the same scene. JSON and TOML can hold it.
-    """
+    """The scene as a file would have it, for JSON and TOML: defaults written out, SI numbers, no
+    None; reading it gives the same scene."""
     plain = _plain(scene)
     if scene.stress is None:  # defaults that have nothing to judge
         for name in _of_stress():
@@ -261,9 +227,8 @@ def _line(problem: dict) -> str:
         section, name = location
         return f"{section}.{name}: is missing; allowed is {allowed(SECTIONS[section], name)}"
     if kind == "model_type":
-        return (
-            f"{location[0]}: is {describe(problem['input'])}; allowed is a section [{location[0]}]"
-        )
+        name = location[0]
+        return f"{name}: is {describe(problem['input'])}; allowed is a section [{name}]"
     cause = problem.get("ctx", {}).get("error")
     if isinstance(cause, FieldError):
         location = (*location, cause.field)

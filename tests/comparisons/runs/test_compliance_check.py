@@ -5,7 +5,6 @@ import json
 import pytest
 from scenes import STEEL, resolved
 
-from comparisons.assessment.refinement import CurrentBodies
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import level as finite_element
@@ -88,15 +87,6 @@ def test_it_survives_an_interrupt(outcome, tmp_path):
     cache = Cache(tmp_path, "key", kinds_of(Level))
     cache.save("level", found)
     assert cache.load("level") == found
-
-
-def test_bodies_of_a_pitch_are_kept_while_it_lasts():
-    bodies = CurrentBodies()
-    one = bodies.of(1e-6)
-    assert bodies.of(1e-6) is one
-    other = bodies.of(2e-6)
-    assert other is not one and bodies.of(2e-6) is other
-    assert bodies.of(1e-6) is not one
 
 
 def test_a_body_that_deforms_finitely_is_not_pressed_linearly_as_well(monkeypatch):

@@ -48,6 +48,19 @@ def pressed():
     return {tolerance: adapted_contact(ROLLER, tolerance) for tolerance in (1e-2, 1e-3)}
 
 
+def smooth(contact):
+    """The smooth pressure at x, zero outside the patches."""
+
+    def pressure(x):
+        total = np.zeros_like(x)
+        for patch in contact.patches:
+            inside = (x > patch.ends[0]) & (x < patch.ends[1])
+            total[inside] = patch.curve(x[inside])
+        return total
+
+    return pressure
+
+
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_error_is_met_and_foretold(pressed, tolerance):
     contact = pressed[tolerance]
@@ -60,7 +73,7 @@ def test_error_is_met_and_foretold(pressed, tolerance):
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_smooth_pressure_is_closer_and_so_are_peak_and_length(pressed, tolerance):
     contact = pressed[tolerance]
-    curve = distance(contact.pressure_at, HERTZ.pressure)
+    curve = distance(smooth(contact), HERTZ.pressure)
     assert curve < 0.9 * distance(of_hats(contact), HERTZ.pressure)
     assert contact.peak_pressure == pytest.approx(1.0, rel=0.2 * tolerance)
     assert contact.contact_length == pytest.approx(2.0, rel=0.3 * tolerance)
@@ -136,7 +149,7 @@ def test_wavy_surface_is_that_of_the_half_plane(amplitude):
     true = distance(of_hats(contact), exact)
     assert true < 1e-2
     assert 0.7 < contact.rounds[-1].estimate / true < 2.0
-    assert distance(contact.pressure_at, exact) < 5e-3
+    assert distance(smooth(contact), exact) < 5e-3
     x = np.linspace(-1.4, 1.4, 200_001)
     assert contact.peak_pressure == pytest.approx(exact(x).max(), rel=5e-3)
 
