@@ -11,7 +11,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
-from comparisons.assessment.comparison import compare, uncertainties
+from comparisons.assessment.comparison import compared, uncertainties
 from comparisons.assessment.uncertainty import DOMAIN, grid_convergence, length_resolution
 from comparisons.models.level import ModelRun
 from comparisons.results.outcome import Outcome
@@ -161,7 +161,8 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ou
             for level in pair[0].levels
         )
         scaled = replace(pair[0], levels=levels)
-        row = compare(scaled, pair[1], problem, 0.0, smooth_outcome.window)[0]
+        runs = {"half_plane": scaled, "finite_element": pair[1]}
+        row = compared(problem, runs, smooth_outcome.window)[0]
         assert row.quantity == "peak_pressure"
         assert row.difference == pytest.approx(times - 1.0, abs=0.02)
         assert row.uncertainty == pytest.approx(share * one + whole * other, rel=0.01)

@@ -241,6 +241,6 @@ def test_columns_at_once_are_columns_one_by_one():
 def test_packets_lie_where_the_mesh_is_refined():
     refined = np.zeros(400, dtype=bool)
     refined[[*range(20, 60), *range(250, 290), 390]] = True
-    packet = operator_difference._packet(refined, 8.0)
+    packet = operator_difference._packet(refined, 371, 8.0)
     assert np.flatnonzero(packet).min() >= 250 and np.flatnonzero(packet).max() < 290
     assert packet.max() == 1.0 and np.abs(packet).sum() > 4.0
