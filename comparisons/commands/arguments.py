@@ -36,7 +36,14 @@ def complete_scenes(incomplete: str) -> list[str]:
     """Names of scenes, TOML files and folders that begin so."""
     from comparisons.scenes.files import scene_names
 
-    return [*_beginning(scene_names(), incomplete), *_paths(incomplete)]
+    folder, slash, _ = incomplete.rpartition("/")
+    paths = sorted(Path(folder + slash or ".").glob("[!.]*"))
+    words = [
+        f"{folder}{slash}{path.name}{'/' * path.is_dir()}"
+        for path in paths
+        if path.is_dir() or path.suffix == ".toml"
+    ]
+    return [*_beginning(scene_names(), incomplete), *_beginning(words, incomplete)]
 
 
 def complete_maps(incomplete: str) -> list[str]:
@@ -69,14 +76,6 @@ def complete_models(incomplete: str) -> list[str]:
 
 def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
-
-
-def _paths(incomplete: str) -> list[str]:
-    folder, slash, _ = incomplete.rpartition("/")
-    paths = sorted(Path(folder + slash or ".").glob("[!.]*"))
-    words = {path: f"{folder}{slash}{path.name}{'/' * path.is_dir()}" for path in paths}
-    wanted = [path for path in paths if path.is_dir() or path.suffix == ".toml"]
-    return _beginning([words[path] for path in wanted], incomplete)
 
 
 Scene = Annotated[

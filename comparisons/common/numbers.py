@@ -30,7 +30,9 @@ class Scale:
 
     def text(self, value: float | None, digits: int = 4) -> str:
         """The figure [SI] with the unit."""
-        number = self.number(value, digits)
+        return self.named(self.number(value, digits))
+
+    def named(self, number: str) -> str:
         return f"{number} {self.name}" if self.name and number != UNKNOWN else number
 
 
@@ -55,8 +57,7 @@ def with_unit(value: float | None, unit: str, digits: int = 4) -> str:
 def given(value: float | None, unit: str) -> str:
     """A figure [SI] as a scene gives it: no digit more than it has, at most six."""
     scale = scale_of([value], unit)
-    number = plain(None if value is None else value / scale.factor)
-    return f"{number} {scale.name}" if scale.name and number != UNKNOWN else number
+    return scale.named(plain(None if value is None else value / scale.factor))
 
 
 def significant(value: float | None, digits: int = 4) -> str:

@@ -12,9 +12,8 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     listed = [_deformation(settings), _gap(settings), _boundary(settings)]
     listed.append(_roller(settings, rigid=scene.roller is None))
     if scene.coating is not None:
-        listed.append(
-            _split("the body is of one material", "a coating is bonded to the body of another")
-        )
+        coated = "a coating is bonded to the body of another"
+        listed.append(_split("the body is of one material", coated))
     if scene.running_in is not None:
         listed += running_in_assumptions(scene)
     if scene.hardness is not None:

@@ -255,10 +255,10 @@ def _check_circle(problem: Problem) -> None:
     scene, farthest = problem.scene, float(np.abs(problem.extent).max())
     circle = scene.finite_element.roller_shape == "circle"
     if circle and farthest > WIDEST_CIRCLE * scene.roller_radius:
+        reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m"
         raise SceneError(
-            f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may '
-            f"reach to {farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m;"
-            " allowed is a lighter load or a larger radius"
+            f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may reach '
+            f"to {reach}; allowed is a lighter load or a larger radius"
         )
 
 

@@ -98,24 +98,24 @@ def running_in_assumptions(scene: ResolvedScene) -> list[str]:
         f"running-in: at {given(settings.hardness, 'Pa')} asperities of a half-plane flow without "
         "friction; what flows is lost, nothing rises beside it and nothing hardens"
     ]
-    if found is not None and found.pitch > COARSE * _wanted(found.before):
+    if found is None:
+        return listed
+    if found.pitch > COARSE * _wanted(found.before):
         apart = with_unit(found.pitch, "m", 3)
         shortest = with_unit(shortest_wavelength(found.before), "m", 3)
         listed.append(
             f"running-in: its pressures stood {apart} apart, too coarse for the shortest waves of "
             f"the surface ({shortest}): asperities between them have not flowed enough"
         )
-    if found is not None and found.status != "settled":
+    if found.status != "settled":
         listed.append(
             f"running-in: the surface has not settled in {found.sweeps} sweeps over "
             f"{len(settings.positions)} positions"
         )
-    if found is not None and ended(scene):
+    if ended(scene):
         places = ", ".join(given(place, "m") for place in ended(scene))
-        listed.append(
-            f"running-in: from {places} the roller touches the end of the trace, beyond which "
-            "nothing carries it"
-        )
+        ends = "the roller touches the end of the trace, beyond which nothing carries it"
+        listed.append(f"running-in: from {places} {ends}")
     return listed
 
 

@@ -67,10 +67,9 @@ def window_of(problem: Problem) -> Window:
         round(np.log2(spacing / coarsest)), int(np.floor(np.log2(half_range / coarsest)))
     )
     if spacing < 0.5 * FINEST_SPACING * finest:
-        raise SceneError(
-            f"{scene.source}: stress.half_range: is {half_range:.3g} m; allowed is at least "
-            f"{FINEST_SPACING * finest:.3g} m, a part of a pressure element"
-        )
+        least = f"{FINEST_SPACING * finest:.3g} m, a part of a pressure element"
+        given = f"stress.half_range: is {half_range:.3g} m"
+        raise SceneError(f"{scene.source}: {given}; allowed is at least {least}")
     last = int(np.floor(half_range / spacing * (1.0 + 1e-12)))
     x = np.arange(-last, last + 1) * spacing
     first = min(FIRST_DEPTH * finest, depth / (rows - 1))

@@ -264,10 +264,8 @@ def _difference(one: list, other: list) -> float:
         return 0.0
     ends = np.unique([end for patch in [*one, *other] for end in patch])
     middle = 0.5 * (ends[1:] + ends[:-1])
-    covered = [
-        np.any([(start < middle) & (middle < stop) for start, stop in patches], axis=0)
-        if patches
-        else np.zeros(len(middle), dtype=bool)
-        for patches in (one, other)
-    ]
+    covered = np.zeros((2, len(middle)), dtype=bool)
+    for row, patches in zip(covered, (one, other), strict=True):
+        for start, stop in patches:
+            row |= (start < middle) & (middle < stop)
     return float(np.diff(ends) @ (covered[0] ^ covered[1]))

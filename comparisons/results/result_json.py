@@ -84,7 +84,9 @@ def _groups(problem: Problem, runs: dict[str, ModelRun]) -> dict[str, float | No
 def _model(
     problem: Problem, run: ModelRun, friction: float, couplings: tuple[Coupling, ...]
 ) -> dict:
-    level = run.finest
+    level, own = run.finest, {"operator": _operator(run)}
+    if run.name == "half_plane":
+        own = _coupling(problem, friction, couplings)
     return {
         "friction": friction,
         "contact": _contact(problem, run.name, level),
@@ -106,11 +108,7 @@ def _model(
             "peak_memory": _peak_memory(problem, run),
             "levels": [_cost_of(level) for level in run.levels],
         },
-        **(
-            _coupling(problem, friction, couplings)
-            if run.name == "half_plane"
-            else {"operator": _operator(run)}
-        ),
+        **own,
     }
 
 

@@ -162,11 +162,9 @@ def _filtered(trace: Profile, table: Mapping, source: str) -> tuple[Profile, dic
         raise SceneError(f"{source}: profile.{field}: {error}") from error
     account = {"cutoff": cutoff, "short_cutoff": short}
     try:
-        if cutoff is None:
-            cutoff = standard_cutoff(trace)
-        account["standard"] = standard_roughness(
-            trace, cutoff, short or standard_short_cutoff(trace, cutoff)
-        )
+        cutoff = standard_cutoff(trace) if cutoff is None else cutoff
+        short = short or standard_short_cutoff(trace, cutoff)
+        account["standard"] = standard_roughness(trace, cutoff, short)
     except ValueError as error:
         account["standard_why"] = str(error).partition(";")[0]
     return pressed, account

@@ -60,7 +60,7 @@ def resolve_tables(
         scene = SceneFile.model_validate(tables)
     except ValidationError as error:
         raise scene_error(error, source) from error
-    body, coating = _material(scene.body), scene.coating
+    body, coating, flow = _material(scene.body), scene.coating, scene.body.yield_stress
     roller = None if scene.roller.rigid else _material(scene.roller)
     kind = scene.load.kind
     load = Load(LOAD_KINDS.get(kind, kind), getattr(scene.load, kind))
@@ -99,7 +99,7 @@ def resolve_tables(
         roller=roller,
         body=body,
         hardness=scene.body.hardness,
-        yielding=_yielding(scene.body),
+        yielding=flow and Yielding(flow, scene.body.hardening_modulus or 0.0),
         coating=None if coating is None else Coated(_material(coating), coating.thickness),
         thickness=scene.body.thickness,
         width=scene.body.width,
@@ -122,12 +122,6 @@ def resolve_tables(
 
 def _material(table: BodySection | CoatingSection | RollerSection) -> Material:
     return Material(table.youngs_modulus, table.poissons_ratio)
-
-
-def _yielding(table: BodySection) -> Yielding | None:
-    if table.yield_stress is None:
-        return None
-    return Yielding(table.yield_stress, table.hardening_modulus or 0.0)
 
 
 def with_tolerance(scene: ResolvedScene, tolerance: float) -> ResolvedScene:

@@ -71,13 +71,10 @@ class ProfileInfo:
     cutoff, short_cutoff  [m] of the filter, None where there is none
     standard   parameters after ISO 21920-2 of the whole trace, whatever is pressed
     standard_why  why there are none
-    format     of the file, in words; None for a made profile
-    place      the line of a map that it is, in words
-    path       the file that was read, None for a made profile
     trace      as read or made: with its form, unfiltered, at its own positions
-    sha256     of the file's bytes, None for a made profile
-    bridged    lost samples of the file, interpolated between their neighbours
-    trimmed    lost samples at the ends of the file, dropped
+    path, sha256, format   of the file that was read, None for a made profile
+    place      the line of a map that it is, in words
+    bridged, trimmed  lost samples: interpolated between their neighbours; dropped at the ends
     """
 
     source: str
@@ -182,13 +179,9 @@ class Resolution:
 
 @dataclass(frozen=True)
 class Budget:
-    """What a run may take, and what it computes beside the two models.
-
-    time     [s] by the laws of cost, not by a clock
-    memory   [bytes]
-    effects  whether it computes effects that the scene's finite elements do not model
-    levels   of the effects at most; None: as the time allows
-    """
+    """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
+    whether it computes `effects` that the scene's finite elements do not model, on how many
+    `levels` at most (None: as the time allows)."""
 
     time: float
     memory: float

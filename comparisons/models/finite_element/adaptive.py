@@ -152,8 +152,7 @@ def adapted_contact(pressing: Pressing, tolerance: float, rounds: int = ROUNDS) 
         done.append(Round(body.unknowns, len(hats) - 2, float(error / norm), element_error))
         good = done[-1].estimate <= tolerance and solution.converged
         if good or len(done) == rounds:
-            rounds_done = tuple(done)
-            return AdaptedContact(hats, solution, patches, body, compliance, rounds_done, good)
+            return AdaptedContact(hats, solution, patches, body, compliance, tuple(done), good)
         aim = SAFETY * tolerance / np.sqrt(2.0)
         ends, edges = next_edges(patches, hats, aim * norm)
         largest /= np.clip(np.sqrt(error / (aim * norm)), 1.0, MOST_FINER)

@@ -55,13 +55,10 @@ def refuse_too_large(problem: Problem, wanted: ExpectedCost, pitch: float) -> No
         f"about {wanted.memory:.2g} bytes and {wanted.seconds:.2g} s"
     )
     if wanted.memory > allowed:
-        raise SceneError(
-            f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; allowed is a larger "
-            "budget, or coarser pressures (resolution.pitch)"
-        )
+        remedy = "allowed is a larger budget, or coarser pressures (resolution.pitch)"
+        raise SceneError(f"{source}: budget.memory: is {allowed:.3g} bytes, but {need}; {remedy}")
     there = from_first(machine_memory)
     if wanted.memory > there:
-        raise SceneError(
-            f"{source}: resolution.pitch: {need}, but this machine has {there:.2g} bytes; allowed "
-            "are coarser pressures (resolution.pitch), or a smaller finite_element.block"
-        )
+        remedy = "allowed are coarser pressures, or a smaller finite_element.block"
+        machine = f"this machine has {there:.2g} bytes"
+        raise SceneError(f"{source}: resolution.pitch: {need}, but {machine}; {remedy}")

@@ -53,11 +53,10 @@ class Segment(FieldType):
         return start, stop
 
     def _pair(self, given: object) -> list | tuple:
-        if not isinstance(given, list | tuple):
-            raise self.wrong(f"holds {describe(given)}")
-        if len(given) != 2:
-            raise self.wrong(f"holds a list of {len(given)}")
-        return given
+        if isinstance(given, list | tuple) and len(given) == 2:
+            return given
+        size = f" of {len(given)}" if isinstance(given, list | tuple) else ""
+        raise self.wrong(f"holds {describe(given)}{size}")
 
     def _length(self, given: object) -> float:
         try:
