@@ -1,7 +1,6 @@
 """The only module that depends on the version of dolfinx: 0.5, 0.9 or 0.11.
 
-Each function hides one difference and names it. The rest of this package uses these functions,
-numpy, and the parts of PETSc and UFL that all three share.
+Each function hides one difference and names it.
 """
 
 import inspect
@@ -23,10 +22,7 @@ _COMPILED: dict[tuple, tuple] = {}  # by 0.5's compiler, in this process
 
 
 def quiet_compiler() -> None:
-    """Keep the just-in-time compiler's progress off the terminal.
-
-    On 0.5 its build tools log to the root logger at level INFO; a level of WARNING silences them.
-    """
+    """Keep the compiler's progress off the terminal: on 0.5 it logs to the root logger at INFO."""
     root = logging.getLogger()
     if root.level < logging.WARNING:
         root.setLevel(logging.WARNING)
@@ -38,9 +34,9 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
     """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2.
 
     `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
-    basix element. On 0.5 the first compiled form rewrites the element as equispaced, and later
-    processes would compile again: it is declared so from the start. An adjacency list of cells
-    avoids 0.5's slow conversion from an array.
+    basix element. On 0.5 the first compiled form rewrites the element as equispaced; unless it is
+    declared so, later processes compile again. An adjacency list of cells avoids 0.5's slow
+    conversion from an array.
     """
     from dolfinx.mesh import create_mesh
 
@@ -111,32 +107,14 @@ def cell_nodes(space: "FunctionSpace") -> np.ndarray:
     return np.asarray(nodes)
 
 
-def node_order(degree: int) -> np.ndarray:
-    """Barycentric coordinates (k, 3), times the degree, of the nodes of a cell in dolfinx's order.
-
-    The vertices, then the edges opposite to each, from the lower local vertex to the other, then
-    the inside, in all releases. gmsh has another order.
-    """
-    vertices = np.eye(3, dtype=int)
-    edges = [
-        (degree - i) * vertices[a] + i * vertices[b]
-        for a, b in ((1, 2), (0, 2), (0, 1))
-        for i in range(1, degree)
-    ]
-    inside = [[1, 1, 1]] if degree == 3 else []
-    return np.array([*(degree * vertices), *edges, *inside])
-
-
 def input_cells(mesh: "Mesh") -> np.ndarray:
     """Number in the arrays given to `triangle_mesh` of each cell, ghosts included."""
     return np.asarray(mesh.topology.original_cell_index, dtype=np.int64)
 
 
 def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
-    """Function of a form that is `value` (m,) on the cells, ghosts included, in their order.
-
-    0.5 has a class of spaces, later ones a function.
-    """
+    """Function of a form that is `value` (m,) on the cells, ghosts included, in their order. 0.5
+    has a class of spaces, later ones a function."""
     from dolfinx import fem
 
     make = getattr(fem, "functionspace", None) or fem.FunctionSpace
@@ -146,10 +124,8 @@ def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
 
 
 def cell_points(mesh: "Mesh") -> np.ndarray:
-    """Coordinate numbers (m, k) of the mesh's cells.
-
-    0.5 has an adjacency list, 0.9 an array, 0.11 a list of arrays, one a cell type.
-    """
+    """Coordinate numbers (m, k) of the mesh's cells. 0.5 has an adjacency list, 0.9 an array, 0.11
+    a list of arrays, one a cell type."""
     geometry = mesh.geometry
     count = mesh.topology.index_map(mesh.topology.dim)
     count = count.size_local + count.num_ghosts
@@ -161,10 +137,8 @@ def cell_points(mesh: "Mesh") -> np.ndarray:
 
 
 def input_points(mesh: "Mesh") -> np.ndarray:
-    """Number in the arrays given to `triangle_mesh` of each of the mesh's coordinates.
-
-    A list on 0.5, an array later; a method or a property.
-    """
+    """Number in the arrays given to `triangle_mesh` of each of the mesh's coordinates. A list on
+    0.5, an array later; a method or a property."""
     indices = mesh.geometry.input_global_indices
     return np.asarray(indices() if callable(indices) else indices, dtype=np.int64)
 
@@ -214,10 +188,8 @@ def compile_bilinear(
 
 
 def conditioned(space: "FunctionSpace") -> object:
-    """A space as boundary conditions take it.
-
-    0.5 tries the Python space first, and prints all nodes into the error.
-    """
+    """A space as boundary conditions take it. 0.5 tries the Python space first, and prints all
+    nodes into the error."""
     from dolfinx import fem
 
     return space._cpp_object if hasattr(fem, "VectorFunctionSpace") else space
@@ -240,10 +212,7 @@ def real_number(value: float) -> np.floating:
 
 
 def assembled_vector(linear: "Form") -> np.ndarray:
-    """Values of a compiled linear form at the components that this process knows.
-
-    All releases' vectors have an array, which dolfinx frees with the vector.
-    """
+    """Values of a compiled linear form at this process's components: dolfinx frees its vector."""
     from dolfinx import fem
 
     return fem.assemble_vector(linear).array.copy()

@@ -4,7 +4,6 @@ The block occupies |x| <= half_width, 0 <= z <= depth, z into the body. Its top 
 the mean line; a rough boundary is the top side moved to z = -height(x).
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -96,6 +95,7 @@ def check_spec(spec: BlockSpec) -> None:
         if not holds:
             raise MeshError(f"block: {what}")
 
+    half, depth = spec.half_width, spec.depth
     for name in ("half_width", "depth", "surface_size"):
         value = getattr(spec, name)
         demand(0.0 < value < np.inf, f"{name} is {value}: a positive length in m")
@@ -106,22 +106,15 @@ def check_spec(spec: BlockSpec) -> None:
         f"intervals have the shape {intervals.shape}: at least one row of two ends is needed",
     )
     flat, slack = intervals.ravel(), 1e-9 * spec.surface_size
-    demand(
-        np.isfinite(flat).all()
-        and (np.diff(flat) >= -slack).all()
-        and (np.diff(intervals, axis=1) > 0.0).all(),
-        "intervals must be finite, ascending and disjoint",
-    )
-    demand(
-        np.abs(flat[[0, -1]]).max() <= spec.half_width + slack,
-        f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {spec.half_width:g} m",
-    )
+    ascend = (np.diff(flat) >= -slack).all() and (np.diff(intervals, axis=1) > 0.0).all()
+    wanted = "intervals must be finite, ascending and disjoint"
+    demand(np.isfinite(flat).all() and ascend, wanted)
+    reach = f"intervals reach from {flat[0]:g} to {flat[-1]:g} m, the block to {half:g} m"
+    demand(np.abs(flat[[0, -1]]).max() <= half + slack, reach)
     if spec.window is not None:
         x0, x1, z1, size = spec.window
-        demand(
-            np.isfinite(spec.window).all() and x0 < x1 and z1 > 0.0 and size > 0.0,
-            f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed",
-        )
+        holds = np.isfinite(spec.window).all() and x0 < x1 and z1 > 0.0 and size > 0.0
+        demand(holds, f"window is {spec.window}: x0 < x1, z1 > 0 and size > 0 are needed")
     if spec.vertices is not None:
         vertices = np.asarray(spec.vertices, dtype=float)
         demand(
@@ -133,36 +126,23 @@ def check_spec(spec: BlockSpec) -> None:
             "last one's end",
         )
     if spec.interface is not None:
-        demand(
-            0.0 < spec.interface < spec.depth,
-            f"interface is {spec.interface}: between 0 and the depth, {spec.depth:g} m",
-        )
+        allowed = f"interface is {spec.interface}: between 0 and the depth, {depth:g} m"
+        demand(0.0 < spec.interface < depth, allowed)
 
 
-def structured(
-    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
-) -> BlockMesh:
-    """Two triangles to each cell of the grid x (ascending) by z (from 0 to the depth) [m].
-
-    `height` moves the top by -height(x), decreasing linearly to the bottom; `seed` moves the inner
-    vertices by up to a fifth of a cell, against symmetries that hide a mistake.
-    """
-    grid_x, grid_z = np.meshgrid(x, z, indexing="ij")
-    if seed is not None:
-        random = np.random.default_rng(seed)
-        for grid, line, axis in ((grid_x, x, 0), (grid_z, z, 1)):
-            cell = np.gradient(line)[1:-1]
-            cell = cell[:, None] if axis == 0 else cell[None, :]
-            grid[1:-1, 1:-1] += 0.2 * cell * random.uniform(-1, 1, grid[1:-1, 1:-1].shape)
-    vertices = np.column_stack([grid_x.ravel(), grid_z.ravel()])
-    number = np.arange(len(vertices)).reshape(grid_x.shape)
+def cells(number: np.ndarray) -> np.ndarray:
+    """Two triangles (2c, 3) to each of the c cells of a grid of vertex numbers (i, j)."""
     a, b, c, d = (
         n.ravel() for n in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:])
     )
-    corners = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
-    points, triangles = add_midpoints(vertices, corners)
-    shift = np.zeros_like(points)
-    if height is not None:
-        shift[:, 1] = -height(points[:, 0]) * (1.0 - points[:, 1] / z[-1])
+    return np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+
+
+def structured(x: np.ndarray, z: np.ndarray) -> BlockMesh:
+    """Two triangles to each cell of the grid x (ascending) by z (from 0 to the depth) [m]."""
+    grid_x, grid_z = np.meshgrid(x, z, indexing="ij")
+    vertices = np.column_stack([grid_x.ravel(), grid_z.ravel()])
+    number = np.arange(len(vertices)).reshape(grid_x.shape)
+    points, triangles = add_midpoints(vertices, cells(number))
     spec = BlockSpec(0.5 * (x[-1] - x[0]), z[-1], np.array([[x[0], x[-1]]]), float(x[1] - x[0]))
-    return BlockMesh(points, triangles, shift, spec)
+    return BlockMesh(points, triangles, np.zeros_like(points), spec)

@@ -1,7 +1,4 @@
-"""Vertices on the sides of the block and on the interface of a coating.
-
-Edges are equal on the refined ranges and graded elsewhere.
-"""
+"""Vertices on the sides of the block and on a coating's interface, graded off refined ranges."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -43,10 +40,8 @@ def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarra
 
 
 def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
-    """Number of equal edges on the refined range [start, end] [m].
-
-    Raises MeshError if its length is not a whole number of surface_size.
-    """
+    """Number of equal edges on the refined range [start, end] [m]. Raises MeshError if its length
+    is not a whole number of surface_size."""
     lengths = (end - start) / spec.surface_size
     whole = max(1, round(lengths))
     if abs(lengths - whole) > WHOLE_EDGES_TOLERANCE + 1e-9 * whole:
@@ -120,51 +115,42 @@ def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
 class Outline:
     """Straight lines of vertices, and the regions between them that gmsh fills.
 
-    points   (n, 2) [m]
-    lines    numbers of the points on each line, both ends included
-    regions  lines around each region, in the positive sense of rotation in (x, z): k + 1 for line
-             k in its own direction, -(k + 1) against it
-    beside   x [m] of the columns of a coating's stretched layers, from each end of its core
-             outwards
+    A region is given by the lines around it, in the positive sense of rotation in (x, z): k + 1 for
+    line k in its own direction, -(k + 1) against it.
     """
 
-    points: np.ndarray
-    lines: tuple[np.ndarray, ...]
+    points: np.ndarray  # (n, 2) [m]
+    lines: tuple[np.ndarray, ...]  # numbers of the points on each line, both ends included
     regions: tuple[tuple[int, ...], ...]
-    beside: tuple[np.ndarray, ...] = ()
+    beside: tuple[np.ndarray, ...] = ()  # x [m] of the columns of a coating's stretched layers
 
 
 def outline(spec: BlockSpec, sizes: SizeField | None = None) -> Outline:
     """The four sides of the block; with a coating its core and the rest of the block below it.
+    Outside the refined ranges `sizes` prevail where they are smaller than the size law's."""
 
-    Outside the refined ranges `sizes` prevail where they are smaller than the size law's.
-    """
-
-    def flat(x: np.ndarray, z: float) -> np.ndarray:
-        return np.column_stack([x, np.full_like(x, z)])
-
-    def upright(x: float, z: np.ndarray) -> np.ndarray:
-        return np.column_stack([np.full_like(z, x), z])
+    def line(x: np.ndarray | float, z: np.ndarray | float) -> np.ndarray:
+        return np.column_stack(np.broadcast_arrays(x, z))
 
     def down(x: float, start: float, stop: float) -> np.ndarray:
-        return upright(x, graded_line(start, stop, sizes_on(spec, sizes, 0, x)))
+        return line(x, graded_line(start, stop, sizes_on(spec, sizes, 0, x)))
 
     def across(start: float, stop: float, z: float) -> np.ndarray:
-        return flat(graded_line(start, stop, sizes_on(spec, sizes, 1, z)), z)
+        return line(graded_line(start, stop, sizes_on(spec, sizes, 1, z)), z)
 
     half, depth, top = spec.half_width, spec.depth, top_nodes(spec, sizes)
     bottom = across(-half, half, depth)[::-1]
     if spec.interface is None:
-        sides = [flat(top, 0.0), down(half, 0.0, depth), bottom, down(-half, 0.0, depth)[::-1]]
+        sides = [line(top, 0.0), down(half, 0.0, depth), bottom, down(-half, 0.0, depth)[::-1]]
         return joined(sides, ((1, 2, 3, 4),))
 
     at, (low, high) = spec.interface, core(spec)
     layers = np.linspace(0.0, at, LAYERS + 1)
     lines = [
-        flat(top[(low <= top) & (top <= high)], 0.0),
-        upright(high, layers) if high < half else down(half, 0.0, at),
+        line(top[(low <= top) & (top <= high)], 0.0),
+        line(high, layers) if high < half else down(half, 0.0, at),
         across(low, high, at)[::-1],
-        (upright(low, layers) if low > -half else down(-half, 0.0, at))[::-1],
+        (line(low, layers) if low > -half else down(-half, 0.0, at))[::-1],
         down(half, at, depth),
         bottom,
         down(-half, at, depth)[::-1],
@@ -173,11 +159,11 @@ def outline(spec: BlockSpec, sizes: SizeField | None = None) -> Outline:
     before, after = top[top <= low], top[top >= high]
     below = [5, 6, 7]
     if low > -half:
-        lines.append(flat(before, at))
+        lines.append(line(before, at))
         below.append(len(lines))
     below.append(-3)
     if high < half:
-        lines.append(flat(after, at))
+        lines.append(line(after, at))
         below.append(len(lines))
     beside = tuple(x for x in (before[::-1], after) if len(x) > 1)
     return replace(joined(lines, ((1, 2, 3, 4), tuple(below))), beside=beside)
@@ -189,10 +175,8 @@ def joined(lines: list[np.ndarray], regions: tuple[tuple[int, ...], ...]) -> Out
     for line in lines:
         number = np.empty(len(line), dtype=np.int64)
         for k, point in enumerate(map(tuple, line.tolist())):
-            if 0 < k < len(line) - 1:
-                number[k] = len(points)
-            else:
-                number[k] = ends.setdefault(point, len(points))
+            inner = 0 < k < len(line) - 1
+            number[k] = len(points) if inner else ends.setdefault(point, len(points))
             if number[k] == len(points):
                 points.append(point)
         numbers.append(number)

@@ -21,8 +21,7 @@ from meshes.size_field import SizeField
 WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
 # Without these variables of mpirun, gmsh does not start MPI as one more rank.
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
-# Decimals of lengths in units of surface_size: the same block in other units gives the same mesh,
-# whatever the last bit of a quotient.
+# Decimals of lengths in units of surface_size: the same block in other units gives the same mesh.
 UNIT_DECIMALS = 9
 
 
@@ -40,11 +39,8 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
 
 def field_in_units(sizes: SizeField, unit: float) -> SizeField:
     """sizes with all lengths divided by unit [m] and rounded to UNIT_DECIMALS."""
-    return replace(
-        sizes,
-        vertices=np.round(sizes.vertices / unit, UNIT_DECIMALS),
-        size=np.round(sizes.size / unit, UNIT_DECIMALS),
-    )
+    vertices, size = (np.round(each / unit, UNIT_DECIMALS) for each in (sizes.vertices, sizes.size))
+    return replace(sizes, vertices=vertices, size=size)
 
 
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
@@ -57,13 +53,8 @@ def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     root = str(Path(__file__).resolve().parents[1])
     paths = [root, *filter(None, [environment.get("PYTHONPATH")])]
     environment["PYTHONPATH"] = os.pathsep.join(paths)
-    with subprocess.Popen(
-        WORKER,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        env=environment,
-    ) as process:
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    with subprocess.Popen(WORKER, env=environment, **pipes) as process:
         try:
             output, complaint = process.communicate(pickle.dumps(task), timeout=timeout)
         except subprocess.TimeoutExpired as error:
@@ -121,8 +112,8 @@ def build_block(
               them where they are smaller than the size law's
     timeout   of gmsh [s]
 
-    Raises MeshError if spec cannot be meshed, if gmsh fails, crashes or runs out of time, or if the
-    elements are not fit to solve on.
+    Raises MeshError if spec cannot be meshed, if gmsh fails or runs out of time, or if the elements
+    are not fit to solve on.
     """
     began = time.perf_counter()
     check_spec(spec)

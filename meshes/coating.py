@@ -1,17 +1,14 @@
 """The elements of a coating: small ones under the contact, stretched layers beside it.
 
-Under the refined ranges the coating is filled like the rest of the block, with elements no larger
-than t / LAYERS. Beside this core, where the size law asks for larger ones, LAYERS layers of
-stretched elements go on to the sides of the block. They cost next to nothing, and displacements
-there change over lengths that the size law resolves.
-
-    t       spec.interface, thickness of the coating [m]
-    core    range of x [m] that is filled freely; stretched layers lie on both sides of it
+The core of the coating, the range of x under the refined ranges, is filled like the rest of the
+block, with elements no larger than t / LAYERS, where t = spec.interface is the thickness [m].
+Beside it, where the size law asks for larger ones, LAYERS layers of stretched elements go on to the
+sides of the block. They cost next to nothing, and the size law resolves the displacements there.
 """
 
 import numpy as np
 
-from meshes.block import BlockMesh, BlockSpec, MeshError
+from meshes.block import BlockMesh, BlockSpec, MeshError, cells
 
 # Quadratic elements across the coating under the contact. Displacements differ from those with six
 # by at most 5e-5 of their range, for moduli 0.1 to 100 times the body's; with two by 2e-4.
@@ -27,10 +24,8 @@ def layer_size(spec: BlockSpec) -> float:
 
 
 def core(spec: BlockSpec) -> tuple[float, float]:
-    """Ends [m] of the core, beyond which the size law alone asks for t / LAYERS or more.
-
-    An end is the block's side where the law does not grow or less than an edge would be left.
-    """
+    """Ends [m] of the core, beyond which the size law alone asks for t / LAYERS or more. An end is
+    the block's side where the law does not grow or less than an edge would be left."""
     half, size = spec.half_width, layer_size(spec)
     if spec.growth * 2.0 * half <= size:
         return -half, half
@@ -52,10 +47,7 @@ def stretched(mesh: BlockMesh) -> np.ndarray:
 
 
 def with_layers(
-    vertices: np.ndarray,
-    triangles: np.ndarray,
-    interface: float | None,
-    beside: tuple[np.ndarray, ...],
+    vertices: np.ndarray, triangles: np.ndarray, interface: float | None, beside: tuple
 ) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) [m] and triangles (m, 3) with the stretched layers added.
 
@@ -70,12 +62,9 @@ def with_layers(
         new = number < 0
         number[new] = len(vertices) + np.arange(np.count_nonzero(new))
         vertices = np.concatenate([vertices, np.column_stack([columns[new], depths[new]])])
-        inner, outer = number[:-1], number[1:]
-        a, b, c, d = (n.ravel() for n in (inner[:, :-1], outer[:, :-1], outer[:, 1:], inner[:, 1:]))
-        cells = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+        added = cells(number)
         # On the left the columns run towards -x, which turns the sense of rotation.
-        cells = cells if x[-1] > x[0] else cells[:, ::-1]
-        triangles = np.concatenate([triangles, cells])
+        triangles = np.concatenate([triangles, added if x[-1] > x[0] else added[:, ::-1]])
     return vertices, triangles
 
 

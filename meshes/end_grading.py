@@ -15,8 +15,8 @@ import numpy as np
 
 from meshes.boundary import graded_line
 
-# Outside the gap opens as d^(3/2). With a steeper law the outer elements are too coarse for the
-# stress beside the contact; a flatter one costs hats without contact.
+# Outside the gap opens as d^(3/2). A steeper law is too coarse for the stress beside the contact; a
+# flatter one costs hats without contact.
 OUTWARD = 0.35
 # Range beyond the outermost ends, in half-patches: the solved end still lies in it.
 BEYOND = 0.25

@@ -23,8 +23,8 @@ OPTIONS = {
     "Mesh.MaxNumThreads1D": 1,
     "Mesh.MaxNumThreads2D": 1,
     "Mesh.RandomSeed": 1,
-    # The default random shift is relative to the whole block: with depth/h beyond 5e4 it can move
-    # points by as much as the shortest edges and leave triangles without area on straight sides.
+    # The default random shift is relative to the whole block: with depth/h beyond 5e4 it can leave
+    # triangles without area on straight sides.
     "Mesh.RandomFactor": 1e-12,
     # Delaunay: half the time of the frontal variant, the same least angle.
     "Mesh.Algorithm": 5,
@@ -42,8 +42,7 @@ OPTIONS = {
 def die_with_parent() -> None:
     """Have the kernel stop this process when its parent ends (Linux)."""
     if sys.platform == "linux":
-        pr_set_pdeathsig = 1
-        ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 def fill(
@@ -53,10 +52,8 @@ def fill(
     spec: BlockSpec,
     sizes: SizeField | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 2), the given points first, and triangles (m, 3) that fill all regions.
-
-    points (k, 2), lines and regions as in `meshes.boundary.Outline`.
-    """
+    """Vertices (n, 2), the given points first, and triangles (m, 3) that fill all regions. points
+    (k, 2), lines and regions as in `meshes.boundary.Outline`."""
     import gmsh
 
     # The mesh must not depend on a user's configuration files of gmsh.

@@ -1,7 +1,6 @@
 """The real body's mesh as a gmsh file (MSH 2.2, binary), and back.
 
-meshio, gmsh and programs that use them all read format 2.2 with its named sides; meshio writes 4.1
-with empty extents of the entities.
+All readers know format 2.2 with its named sides; meshio writes 4.1 with empty entities.
 """
 
 import json
@@ -33,33 +32,25 @@ def side_lines(mesh: BlockMesh) -> dict[str, np.ndarray]:
 
 
 def write_msh(mesh: BlockMesh, path: str | Path) -> None:
-    """Saves the real body, its named sides and its BlockSpec.
-
-    Coordinates are x, z, 0 [m], z into the body.
-    """
+    """Saves the real body in x, z, 0 [m], z into the body, its named sides and its BlockSpec."""
     import meshio
 
     lines = side_lines(mesh)
     cells = [("line3", lines[name]) for name in SIDES] + [("triangle6", mesh.triangles)]
-    tags = [
-        np.full(len(block), tag)
-        for (_, block), tag in zip(cells, [*SIDES.values(), BODY[1]], strict=True)
-    ]
+    numbers = [*SIDES.values(), BODY[1]]
+    tags = [np.full(len(block), tag) for (_, block), tag in zip(cells, numbers, strict=True)]
+    names = {name: np.array([tag, 1]) for name, tag in SIDES.items()}
     content = meshio.Mesh(
         np.pad(real_points(mesh), ((0, 0), (0, 1))),
         cells,
         point_data={SHIFT: np.pad(mesh.shift, ((0, 0), (0, 1)))},
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
-        field_data={name: np.array([tag, 1]) for name, tag in SIDES.items()}
-        | {BODY[0]: np.array([BODY[1], 2])},
+        field_data=names | {BODY[0]: np.array([BODY[1], 2])},
     )
-    spec = {
-        name: value.tolist() if isinstance(value, np.ndarray) else value
-        for name, value in asdict(mesh.spec).items()
-    }
     meshio.write(path, content, file_format="gmsh22", binary=True)
     with Path(path).open("a") as file:
-        file.write(f"${SPEC_SECTION}\n{json.dumps(spec, default=float)}\n$End{SPEC_SECTION}\n")
+        spec = json.dumps(asdict(mesh.spec), default=lambda array: np.asarray(array).tolist())
+        file.write(f"${SPEC_SECTION}\n{spec}\n$End{SPEC_SECTION}\n")
 
 
 def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
@@ -72,8 +63,7 @@ def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
 def read_msh(path: str | Path) -> BlockMesh:
     """The mesh that write_msh saved, with points of the flat block to rounding.
 
-    A shift of one component, from files of former versions, is one in z. Raises MeshError if
-    write_msh did not write the file.
+    Files of former versions have a shift of one component, z. Raises MeshError for other files.
     """
     import meshio
 
@@ -96,9 +86,9 @@ def read_spec(path: Path) -> BlockSpec:
     if at < 0:
         raise MeshError(f"{path} holds no block mesh of this program")
     values = json.loads(content[at + len(start) :].split(b"\n", 1)[0])
-    window = None if values["window"] is None else tuple(values["window"])
-    intervals = np.array(values["intervals"], dtype=float).reshape(-1, 2)
-    vertices = values.get("vertices")
-    vertices = None if vertices is None else np.array(vertices, dtype=float)
-    values |= {"intervals": intervals, "window": window, "vertices": vertices}
+    values["intervals"] = np.array(values["intervals"], dtype=float).reshape(-1, 2)
+    if values["window"] is not None:
+        values["window"] = tuple(values["window"])
+    if values.get("vertices") is not None:
+        values["vertices"] = np.array(values["vertices"], dtype=float)
     return BlockSpec(**values)

@@ -1,14 +1,12 @@
 """Whether a mesh is fit to solve on.
 
-Nomenclature
-
-    least_angle_degrees   smallest angle between straight edges of any triangle; 60 is best
-    least_jacobian        smallest scaled Jacobian at any corner,
-                          2/sqrt(3) * det(t1, t2) / (|t1| |t2|) with t1, t2 the tangents of the
-                          (curved) edges there; 1 for an equilateral triangle, <= 0 when inverted
-    mean_jacobian         mean over the triangles of each one's smallest
-    least_gamma           smallest 2 * inradius / circumradius; 1 for an equilateral triangle
-    size_jump             largest ratio of the sizes (square root of area) of two neighbours
+least_angle_degrees   smallest angle between straight edges of any triangle; 60 is best
+least_jacobian        smallest scaled Jacobian at any corner,
+                      2/sqrt(3) * det(t1, t2) / (|t1| |t2|) with t1, t2 the tangents of the
+                      (curved) edges there; 1 for an equilateral triangle, <= 0 when inverted
+mean_jacobian         mean over the triangles of each one's smallest
+least_gamma           smallest 2 * inradius / circumradius; 1 for an equilateral triangle
+size_jump             largest ratio of the sizes (square root of area) of two neighbours
 """
 
 import numpy as np
@@ -50,10 +48,8 @@ def scaled_jacobians(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def measure(points: np.ndarray, triangles: np.ndarray) -> dict:
-    """Quality figures of six-node triangles (m, 6) on points (n, 2) [m]; names as above.
-
-    Also elements, nodes and unknowns (two displacements a node, before any is fixed).
-    """
+    """Quality figures of six-node triangles (m, 6) on points (n, 2) [m]; names as above. Also
+    elements, nodes and unknowns (two displacements a node, before any is fixed)."""
     scaled = scaled_jacobians(points, triangles)
     corner = points[triangles[:, :3]]
     side = corner[:, EDGES[:, 1]] - corner[:, EDGES[:, 0]]

@@ -5,15 +5,15 @@ Rough body: the shift of the top side continues into the depth as the solution w
     d2w/dx2 + STRETCH^2 d2w/dz2 = 0,   w = -height on top, w = 0 at the base, free on the sides,
 
 by linear elements on the same triangles. A component of wavelength L decays over the depth
-STRETCH L / (2 pi), where the elements still resolve it, and compresses them by its slope / STRETCH
-only, so that profiles steeper than one are possible.
+STRETCH L / (2 pi) and compresses elements by its slope / STRETCH only, so that profiles steeper
+than one are possible.
 
 Disc of radius R [m], z into the roller as for every body, with the sagitta s(x) [m]:
 
     (x, z)  ->  (x (1 - z/R), s(x) + (R - s(x)) z/R),     s(x) = R - sqrt(R^2 - x^2).
 
 The surface goes to the roller's circle without moving along x, lines of equal depth to circles
-about the centre (0, R), upright lines to the rays to the centre.
+about the centre (0, R), upright lines to rays.
 """
 
 import time
@@ -38,10 +38,9 @@ STRETCH = 3.0
 def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> BlockMesh:
     """Mesh of the body bounded by z = -height(x), from the mesh of the flat block.
 
-    height takes x (n,) [m] on the top side and gives (n,) [m], positive out of the body. All nodes
-    of the top side lie on the profile: its edges are parabolas, the two other edges of their
-    triangles curve a little with them, the rest stay straight. No point moves along x; the base and
-    the sides stay in place.
+    height takes x (n,) [m] on the top side and gives (n,) [m], positive out of the body. The edges
+    of the top side are parabolas through the profile, the two other edges of their triangles curve
+    a little with them, the rest stay straight. No point moves along x; base and sides stay.
 
     Raises MeshError if height is not finite, if an element is inverted (with the place and the
     slope there), or if the elements are not fit to solve on.
@@ -61,9 +60,10 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
     shift[:vertices] = carried_down(flat[:vertices], triangles[:, :3], shift[:vertices])
     edges, _ = unique_edges(triangles[:, :3])
     straight = shift[edges].mean(axis=1)
-    bulge = np.where(flat[vertices:, 1] == 0.0, shift[vertices:] - straight, 0.0)
+    on_top = flat[vertices:, 1] == 0.0
+    bulge = np.where(on_top, shift[vertices:] - straight, 0.0)
     spread = straight + spread_bulges(bulge, triangles[:, 3:] - vertices)
-    shift[vertices:] = np.where(flat[vertices:, 1] == 0.0, shift[vertices:], spread)
+    shift[vertices:] = np.where(on_top, shift[vertices:], spread)
 
     rough = replace(mesh, shift=np.column_stack([np.zeros_like(shift), shift]))
     points = real_points(rough)
@@ -80,19 +80,14 @@ def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -
     area = 0.5 * (edge[:, 0, 0] * edge[:, 1, 1] - edge[:, 0, 1] * edge[:, 1, 0])
     gradient = np.stack([-edge[..., 1], STRETCH * edge[..., 0]], axis=-1)
     stiffness = np.einsum("eid,ejd->eij", gradient, gradient) / (4.0 * area)[:, None, None]
-    rows = np.repeat(triangles, 3, axis=1).ravel()
-    columns = np.tile(triangles, 3).ravel()
-    matrix = coo_matrix((stiffness.ravel(), (rows, columns)), shape=(len(points),) * 2).tocsc()
+    place = (np.repeat(triangles, 3, axis=1).ravel(), np.tile(triangles, 3).ravel())
+    matrix = coo_matrix((stiffness.ravel(), place), shape=(len(points),) * 2).tocsc()
 
     held = (points[:, 1] == 0.0) | (points[:, 1] == points[:, 1].max())
     free = np.flatnonzero(~held)
     known = np.where(held, shift, 0.0)
-    factor = splu(
-        matrix[free][:, free].tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
+    inner, options = matrix[free][:, free].tocsc(), {"SymmetricMode": True}
+    factor = splu(inner, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
     known[free] = factor.solve(-(matrix @ known)[free])
     return known
 
@@ -100,9 +95,9 @@ def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -
 def spread_bulges(bulge: np.ndarray, edge_of: np.ndarray) -> np.ndarray:
     """Extra shift (e,) [m] of the midpoints of inner edges beside top edges that bulge (e,) [m].
 
-    A bulge b of a top edge of length s changes the determinant at its two ends by 2 b s, and not at
-    the third corner. With the fraction f of b on the other two edges these changes are (1 - 2 f)
-    and 2 f of it. They are equal at f = 1/4, which allows twice the bulge before inversion.
+    A bulge b of a top edge of length s changes the determinant at its ends by 2 b s, not at the
+    third corner; with the fraction f of b on the other two edges by (1 - 2 f) and 2 f of that.
+    These are equal at f = 1/4, which allows twice the bulge before inversion.
     """
     extra = np.zeros(len(bulge))
     for k in range(3):
@@ -142,10 +137,8 @@ def bent(mesh: BlockMesh, radius: float) -> BlockMesh:
     """Mesh of the sector of a disc of `radius` [m], from the mesh of a flat block.
 
     Its base is the inner arc and its sides are rays; a support holds them like the block's. All
-    nodes are mapped exactly: edges are parabolas through three points of their true curves.
-
-    Raises MeshError if the block is not flat, has a half-width above WIDEST or a depth above
-    DEEPEST of the radius, or if the elements are not fit to solve on.
+    nodes are mapped exactly. Raises MeshError if the block is not flat, has a half-width above
+    WIDEST or a depth above DEEPEST of the radius, or if the elements are not fit to solve on.
     """
     half, depth = mesh.spec.half_width, mesh.spec.depth
     if mesh.shift.any():

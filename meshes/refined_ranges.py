@@ -1,8 +1,7 @@
 """Ranges of the surface to refine, from the patches of predicted contact.
 
-Their ends lie on the grid n * surface_size, so that a pressure grid finds mesh vertices there.
-Where the finite-element contact reaches beyond them, that contact is added to the patches, and the
-body is meshed and solved again.
+Their ends lie on the grid n * surface_size, where a pressure grid finds mesh vertices. If the
+solved contact reaches beyond them, it is added to the patches, and the body meshed again.
 """
 
 import numpy as np
@@ -30,11 +29,7 @@ def merge(ranges: np.ndarray, gap: float = 0.0) -> np.ndarray:
 
 
 def refined_ranges(
-    patches: np.ndarray,
-    surface_size: float,
-    *,
-    margin: float,
-    half_width: float,
+    patches: np.ndarray, surface_size: float, *, margin: float, half_width: float
 ) -> np.ndarray:
     """Ranges (k, 2) of the surface [m] to refine, for a BlockSpec of that surface_size.
 

@@ -11,8 +11,7 @@ import numpy as np
 from meshes.block import BlockMesh, double_areas, unique_edges
 from meshes.coating import stretched
 
-# An element shrinks or grows at most by this factor from one mesh to the next: estimates from far
-# off the wanted size are not trusted beyond it.
+# An element shrinks or grows at most by this factor from one mesh to the next.
 MOST_CHANGE = 4.0
 
 
@@ -26,9 +25,7 @@ class SizeField:
 
     def along(self, axis: int, at: float, place: np.ndarray) -> np.ndarray:
         """Sizes (k,) [m] on the line of edges x = at (axis 0) or z = at (axis 1), at z or x [m].
-
-        Raises ValueError if the mesh has no edge on that line.
-        """
+        Raises ValueError if the mesh has no edge on that line."""
         on = self.vertices[:, axis] == at
         if np.count_nonzero(on) < 2:
             raise ValueError(f"the mesh has no edges along {'xz'[axis]} = {at:g} m")
@@ -38,19 +35,15 @@ class SizeField:
 
 def triangle_sizes(mesh: BlockMesh) -> np.ndarray:
     """Edge (m,) [m] of the equilateral triangle with the area of each element of the flat block.
-
-    For a coating's stretched layers their length along the surface.
-    """
+    For a coating's stretched layers their length along the surface."""
     size = np.sqrt(2.0 / np.sqrt(3.0) * double_areas(mesh.points, mesh.triangles))
     length = np.ptp(mesh.points[mesh.triangles[:, :3], 0], axis=1)
     return np.where(stretched(mesh), length, size)
 
 
 def size_field(mesh: BlockMesh, factor: np.ndarray, growth: float) -> SizeField:
-    """Sizes for the next mesh: each element's size times its `factor` (m,), within MOST_CHANGE.
-
-    A vertex takes the geometric mean of its elements, limited to grow by `growth` along edges.
-    """
+    """Sizes for the next mesh: each element's size times its `factor` (m,), within MOST_CHANGE. A
+    vertex takes the geometric mean of its elements, limited to grow by `growth` along edges."""
     wanted = triangle_sizes(mesh) * np.clip(factor, 1.0 / MOST_CHANGE, MOST_CHANGE)
     number, corner = np.unique(mesh.triangles[:, :3], return_inverse=True)
     corner = corner.reshape(-1, 3)

@@ -5,9 +5,8 @@ stress field, and leaves a few elements across a thin block:
 
     s(x, z) = min(h + g d,  s_w + g d_w,  s_max)
 
-Under given vertices the size follows the local edge, min(e(x) + g z, s_max); beyond them it grows
-with the distance to the last one. A coating adds the bounds c + g d_c in its core and l + g d_l,
-which limits the length of its stretched elements.
+Under given vertices the size follows the local edge, min(e(x) + g z, s_max). A coating adds the
+bounds c + g d_c in its core and l + g d_l, which limits the length of its stretched elements.
 
 Nomenclature (lengths in m)
     s       wanted edge of the elements
@@ -46,9 +45,9 @@ def boxes(spec: BlockSpec) -> list[tuple[float, float, float, float]]:
     """Boxes x0, x1, z1, size [m] with z <= z1 in which no element is larger than size."""
     found = [] if spec.window is None else [spec.window]
     if spec.interface is not None:
-        size, everywhere = layer_size(spec), (-spec.half_width, spec.half_width)
+        size, half = layer_size(spec), spec.half_width
         found.append((*core(spec), spec.interface, size))
-        found.append((*everywhere, spec.interface, LONGEST * size))
+        found.append((-half, half, spec.interface, LONGEST * size))
     return found
 
 
@@ -75,12 +74,9 @@ def surface_edge(spec: BlockSpec) -> float:
 def own_vertices(spec: BlockSpec) -> np.ndarray:
     """spec.vertices [m], their edges cut where `finest_size` is smaller."""
     given = np.asarray(spec.vertices, dtype=float)
-    pieces = [
-        np.linspace(start, end, parts, endpoint=False)
-        for start, end, parts in zip(
-            given[:-1], given[1:], parts_of(np.diff(given), spec), strict=True
-        )
-    ]
+    parts = parts_of(np.diff(given), spec)
+    edges = zip(given[:-1], given[1:], parts, strict=True)
+    pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in edges]
     return np.concatenate([*pieces, given[-1:]])
 
 
@@ -107,8 +103,7 @@ def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     along = np.maximum(0.0, np.minimum(past, before))
     size = edge + spec.growth * np.hypot(along, z)
     for x0, x1, z1, most in boxes(spec):
-        aside = np.maximum(0.0, np.maximum(x0 - x, x - x1))
-        below = np.maximum(0.0, z - z1)
+        aside, below = np.maximum(0.0, np.maximum(x0 - x, x - x1)), np.maximum(0.0, z - z1)
         size = np.minimum(size, most + spec.growth * np.hypot(aside, below))
     return size
 
@@ -119,10 +114,8 @@ def wanted_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def point_size(spec: BlockSpec) -> Callable[[float, float], float]:
-    """`wanted_size` for one point at a time, without numpy: 1 us a call.
-
-    gmsh calls it for each vertex that it tries; `wanted_size` would take longer than the meshing.
-    """
+    """`wanted_size` for one point at a time, without numpy: 1 us a call. gmsh calls it for each
+    vertex that it tries; `wanted_size` would take longer than the meshing."""
     surface = own_vertices_size(spec) if spec.vertices is not None else interval_size(spec)
     growth, largest, limits, hypot = spec.growth, largest_size(spec), boxes(spec), math.hypot
 
@@ -130,8 +123,7 @@ def point_size(spec: BlockSpec) -> Callable[[float, float], float]:
         edge, along = surface(x)
         s = min(largest, edge + growth * hypot(along, z))
         for x0, x1, z1, most in limits:
-            outside = hypot(max(0.0, x0 - x, x - x1), max(0.0, z - z1))
-            s = min(s, most + growth * outside)
+            s = min(s, most + growth * hypot(max(0.0, x0 - x, x - x1), max(0.0, z - z1)))
         return s
 
     return size
@@ -139,18 +131,12 @@ def point_size(spec: BlockSpec) -> Callable[[float, float], float]:
 
 def interval_size(spec: BlockSpec) -> Callable[[float], tuple[float, float]]:
     """Function of x [m]: the edge of the nearest refined range and the distance to it [m]."""
-    flat_ends = [float(end) for interval in spec.intervals for end in interval]
-    count, h = len(flat_ends), surface_edge(spec)
+    ends = [-math.inf, *(float(end) for interval in spec.intervals for end in interval), math.inf]
+    h = surface_edge(spec)
 
     def surface(x: float) -> tuple[float, float]:
-        i = bisect_left(flat_ends, x)
-        if i % 2 == 1:
-            return h, 0.0
-        if i == 0:
-            return h, flat_ends[0] - x
-        if i == count:
-            return h, x - flat_ends[-1]
-        return h, min(x - flat_ends[i - 1], flat_ends[i] - x)
+        i = bisect_left(ends, x)
+        return h, 0.0 if i % 2 == 0 else min(x - ends[i - 1], ends[i] - x)
 
     return surface
 
@@ -198,13 +184,9 @@ def estimate_unknowns(spec: BlockSpec) -> int:
         layered = 2.0 * LAYERS * columns
     inside = sum(integral_of_power(spec, box, -2.0) for box in filled)
     triangles = layered + TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0) * inside
-    sides = [
-        [-half, half, 0.0, 0.0],
-        [-half, half, depth, depth],
-        [-half, -half, 0.0, depth],
-        [half, half, 0.0, depth],
-    ]
-    outer_edges = sum(integral_of_power(spec, side, -1.0) for side in sides)
+    across = [[-half, half, z, z] for z in (0.0, depth)]
+    upright = [[x, x, 0.0, depth] for x in (-half, half)]
+    outer_edges = sum(integral_of_power(spec, side, -1.0) for side in across + upright)
     # Euler: v - e + m = 1 and 2 e = 3 m + b give v + e = 1 + 2 m + b.
     return round(2.0 * (1.0 + 2.0 * triangles + outer_edges))
 
@@ -229,10 +211,8 @@ def integral_of_power(spec: BlockSpec, box: list[float], power: float) -> float:
         z = centre_z[done, None, None] + half_z[done, None, None] * nodes
         x, z = np.broadcast_arrays(x, z)
         mean = np.einsum("nij,i,j->n", wanted_size(spec, x, z) ** power, weights, weights) / 4.0
-        extent = np.where(half_x > 0.0, 2.0 * half_x, 1.0) * np.where(
-            half_z > 0.0, 2.0 * half_z, 1.0
-        )
-        total += float((mean * extent[done]).sum())
+        width, height = (np.where(h > 0.0, 2.0 * h, 1.0) for h in (half_x, half_z))
+        total += float((mean * (width * height)[done]).sum())
 
         left, right = boxes[~done].copy(), boxes[~done].copy()
         wide = half_x[~done] >= half_z[~done]

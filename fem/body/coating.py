@@ -40,14 +40,8 @@ def relative_constants(
     material: Material, coating: Coating | None, coated: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Lame's constants mu and lambda (m,) of each triangle over Young's modulus of the body."""
-    constants = np.tile(np.reshape(_lame(material, 1.0), (2, 1)), len(coated))
-    if coating is not None:
-        ratio = coating.material.youngs_modulus / material.youngs_modulus
-        constants[:, coated] = np.reshape(_lame(coating.material, ratio), (2, 1))
-    return constants[0], constants[1]
-
-
-def _lame(material: Material, modulus: float) -> tuple[float, float]:
-    """mu and lambda of a material with Young's modulus replaced by `modulus`."""
-    nu = material.poissons_ratio
+    surface = coating.material if coating else material
+    ratio = surface.youngs_modulus / material.youngs_modulus
+    modulus = np.where(coated, ratio, 1.0)
+    nu = np.where(coated, surface.poissons_ratio, material.poissons_ratio)
     return modulus * 0.5 / (1.0 + nu), modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))

@@ -15,17 +15,16 @@ contact four times as wide as it is thick, n square cells of two triangles acros
     0.49       4    0.11      6e-4        6e-7      3e-5
     0.4999     4    0.92      6e-3        4e-6      5e-5
     0.499999   4    1.0       7e-3        5e-6      5e-5
-    0.499999   8    1.0       2e-3        3e-7      4e-6
     0.499999   16   1.0       4e-4        2e-8      6e-7
 
 In a large block with 16 edges to a half-width the errors of the surface's slopes are 4e-2, 7e-4 and
-2e-4 with nu = 0.3 and degrees 1, 2, 3; 1, 6e-3 and 5e-4 with nu = 0.499999. On the same mesh cubic
-displacements have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the memory
-and 2.2 to 3.3 times the time.
+2e-4 with nu = 0.3 and degrees 1, 2, 3; 1, 6e-3 and 5e-4 with nu = 0.499999. Cubic displacements
+have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the memory and 2.2 to
+3.3 times the time.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -57,11 +56,15 @@ HORIZONTAL_BALANCE = 1e-6
 class ElasticBody:
     """An assembled body; factored at the first solution. Make one by `elastic_body`.
 
-    coated             (m,) whether a triangle belongs to the coating
-    held               (n, 2) components that the support holds
-    space              dolfinx's space of displacements
-    owned              our number of each node of it that this process owns
-    matrix             PETSc stiffness for Young's modulus 1; held rows are those of the identity
+    coated     (m,) whether a triangle belongs to the coating
+    held       (n, 2) components that the support holds
+    owned      our number of each node of `space`, of displacements, that this process owns
+    matrix     PETSc stiffness for Young's modulus 1; held rows are those of the identity
+    degree     of the displacement's polynomials
+    nodes      (n, 2) [m] of the displacement, in the real body
+    elements   (m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`
+    unknowns   displacement components, the held ones included
+    curved     whether elements have curved edges
     """
 
     mesh: BlockMesh
@@ -78,31 +81,9 @@ class ElasticBody:
 
     def __post_init__(self) -> None:
         release_with(self, self.matrix)
-
-    @property
-    def degree(self) -> int:
-        """Degree of the displacement's polynomials."""
-        return self.numbering.degree
-
-    @property
-    def nodes(self) -> np.ndarray:
-        """(n, 2) [m] of the displacement, in the real body."""
-        return self.numbering.real
-
-    @property
-    def elements(self) -> np.ndarray:
-        """(m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`."""
-        return self.numbering.elements
-
-    @property
-    def unknowns(self) -> int:
-        """Displacement components, the held ones included."""
-        return 2 * len(self.nodes)
-
-    @property
-    def curved(self) -> bool:
-        """Whether elements have curved edges."""
-        return bool(np.any(self.mesh.shift))
+        self.degree, self.elements = self.numbering.degree, self.numbering.elements
+        self.nodes, self.unknowns = self.numbering.real, 2 * len(self.numbering.real)
+        self.curved = bool(np.any(self.mesh.shift))
 
     @property
     def surface_material(self) -> Material:
@@ -177,10 +158,8 @@ class ElasticBody:
         return at_points(self.numbering, self.mesh, displacement)
 
     def stiffness(self) -> csr_matrix:
-        """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only.
-
-        Rows and columns of held components are those of the identity times Young's modulus.
-        """
+        """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
+        columns of held components are those of the identity times Young's modulus."""
         if self.matrix.comm.size > 1:
             raise FemError("the stiffness as one matrix is available on one process only")
         start, column, value = self.matrix.getValuesCSR()
@@ -211,10 +190,8 @@ def elastic_body(
 ) -> ElasticBody:
     """Assemble the stiffness of a block, with displacements of `degree` 1, 2 or 3.
 
-    Elements of a mesh with a `shift` have quadratic edges, whatever the degree. Edges must follow
-    the lower side of a `coating`.
-
-    Raises FemError if an element is inverted, ValueError if one crosses the interface.
+    Elements of a mesh with a `shift` have quadratic edges. Edges must follow the lower side of a
+    `coating`. Raises FemError if an element is inverted, ValueError if one crosses the interface.
     """
     load_dolfinx()
     from dolfinx import fem
@@ -238,17 +215,13 @@ def elastic_body(
         shear, lame = (compat.cell_values(domain, value[cell]) for value in constants)
     quadrature = quadrature_degree(degree, curved)
     name = ("stiffness", degree, curved, quadrature, coating is not None)
-    form = compiled(
-        lambda: compat.compile_bilinear(
-            name, lambda: _work(space, shear, lame, quadrature), space, [shear, lame]
-        )
-    )
+    make = partial(_work, space, shear, lame, quadrature)
+    form = compiled(lambda: compat.compile_bilinear(name, make, space, [shear, lame]))
     matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
 
     owned = node[: space.dofmap.index_map.size_local]
-    return ElasticBody(
-        mesh, material, support, coating, coated, numbering, held, owned, matrix, space
-    )
+    given = (mesh, material, support, coating)
+    return ElasticBody(*given, coated, numbering, held, owned, matrix, space)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
@@ -265,8 +238,7 @@ def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
 def quadrature_degree(degree: int, curved: bool) -> int:
     """Degree of the polynomials that the stiffness's quadrature integrates exactly.
 
-    On straight triangles the product of two strains: exact. On curved ones its product with the
-    slopes of the element's map: exact for a constant stress, and of the same order. Two degrees
-    less keep the order, but add 1 to 5 % of error where the boundary has slope 0.8.
+    Exact on straight triangles; on curved ones for a constant stress, and of the same order. Two
+    degrees less keep the order, but add 1 to 5 % of error where the boundary has slope 0.8.
     """
     return max(1, 2 * degree if curved else 2 * degree - 2)

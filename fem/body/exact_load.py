@@ -9,7 +9,7 @@ import numpy as np
 
 from fem.body.nodes import nodes_of
 from fem.body.triangle import edge_shapes, jacobians, shapes
-from meshes.block import BlockMesh
+from meshes.block import BlockMesh, double_areas, real_points
 
 # Degree 8 on the square, collapsed onto the triangle: far more than what is tested.
 LINE, LINE_WEIGHT = np.polynomial.legendre.leggauss(5)
@@ -18,11 +18,6 @@ AREA = np.array([[r, s * (1.0 - r)] for r in LINE for s in LINE])
 AREA_WEIGHT = np.array(
     [w * v * (1.0 - r) for r, w in zip(LINE, LINE_WEIGHT, strict=True) for v in LINE_WEIGHT]
 )
-
-
-def quadratic(t: np.ndarray) -> np.ndarray:
-    """Shape functions (3, q) on an edge: start, middle, end."""
-    return np.stack([(1 - t) * (1 - 2 * t), 4 * t * (1 - t), t * (2 * t - 1)])
 
 
 def forces_of(
@@ -34,10 +29,8 @@ def forces_of(
     that of the displacement.
     """
     elements = nodes_of(mesh, degree).elements
-    points = mesh.points + mesh.shift
-    corner = points[mesh.triangles[:, :3]]
-    side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
-    turn = np.sign(side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0])
+    points = real_points(mesh)
+    turn = np.sign(double_areas(points, mesh.triangles))
     load = np.zeros((elements.max() + 1, 2))
     inner = [range(3 + k * (degree - 1), 3 + (k + 1) * (degree - 1)) for k in range(3)]
     own = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
@@ -45,8 +38,9 @@ def forces_of(
     turn = np.repeat(turn, 3)
     outer = np.bincount(edges[:, 1], minlength=len(points))[edges[:, 1]] == 1
     edges, own, turn = edges[outer], own[outer], turn[outer]
+    shape = np.stack([(1 - LINE) * (1 - 2 * LINE), 4 * LINE * (1 - LINE), LINE * (2 * LINE - 1)])
     slope = np.stack([4 * LINE - 3, 4 - 8 * LINE, 4 * LINE - 1])
-    place = np.einsum("eac,aq->eqc", points[edges], quadratic(LINE))
+    place = np.einsum("eac,aq->eqc", points[edges], shape)
     tangent = np.einsum("eac,aq->eqc", points[edges], slope) * turn[:, None, None]
     sx, sz, txz = np.broadcast_arrays(*stress(place[..., 0], place[..., 1]))
     along, down = tangent[..., 1], -tangent[..., 0]

@@ -21,21 +21,18 @@ if TYPE_CHECKING:
 
 # dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
 GMSH_TO_DOLFINX = [0, 1, 2, 4, 5, 3]
+# Edges of a cell in all releases of dolfinx, each from the lower local vertex to the other.
+DOLFINX_EDGES = ((1, 2), (0, 2), (0, 1))
 
 
 @dataclass(frozen=True)
 class Nodes:
-    """Nodes of displacements of a degree 1, 2 or 3.
-
-    elements   (m, 3, 6 or 10) numbers of each triangle's nodes, in the order of `fem.body.triangle`
-    flat       (n, 2) [m] places in the flat block
-    real       (n, 2) [m] places in the real body
-    """
+    """Nodes of displacements of a degree 1, 2 or 3."""
 
     degree: int
-    elements: np.ndarray
-    flat: np.ndarray
-    real: np.ndarray
+    elements: np.ndarray  # (m, 3, 6 or 10) of each triangle, in the order of `fem.body.triangle`
+    flat: np.ndarray  # (n, 2) [m] places in the flat block
+    real: np.ndarray  # (n, 2) [m] places in the real body
 
 
 def nodes_of(mesh: BlockMesh, degree: int) -> Nodes:
@@ -59,10 +56,8 @@ def nodes_of(mesh: BlockMesh, degree: int) -> Nodes:
 
 
 def _cubic(corner: np.ndarray, vertices: int, middle: np.ndarray) -> np.ndarray:
-    """Nodes (m, 10) of cubic triangles, from their vertices and their edges' midpoints (m, 3).
-
-    The two nodes of an edge are numbered from its vertex of lower number to the other one.
-    """
+    """Nodes (m, 10) of cubic triangles, from their vertices and their edges' midpoints (m, 3). The
+    two nodes of an edge are numbered from its vertex of lower number to the other one."""
     edges, edge = np.unique(middle, return_inverse=True)
     start = corner[:, EDGES]
     backward = start[..., 0] > start[..., 1]
@@ -79,9 +74,8 @@ def at_points(nodes: Nodes, mesh: BlockMesh, value: np.ndarray) -> np.ndarray:
         return value
     result = np.empty((*value.shape[:-2], *mesh.points.shape))
     share = shapes(reference_nodes(2), nodes.degree)
-    result[..., mesh.triangles, :] = np.einsum(
-        "...mac,qa->...mqc", value[..., nodes.elements, :], share
-    )
+    own = value[..., nodes.elements, :]
+    result[..., mesh.triangles, :] = np.einsum("...mac,qa->...mqc", own, share)
     return result
 
 
@@ -100,8 +94,8 @@ def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray
 def domain_of(comm: "Comm", mesh: BlockMesh, degree: int) -> tuple["Mesh", np.ndarray]:
     """dolfinx mesh, and the number of our mesh point (k,) for each of its input points.
 
-    `degree` is that of the elements' edges: 1, from the vertices alone, or 2. The first process
-    has the whole mesh; dolfinx distributes it.
+    `degree` 1, from the vertices alone, or 2 is that of the elements' edges. The first process has
+    the whole mesh; dolfinx distributes it.
     """
     if degree == 2:
         cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(mesh.points))
@@ -125,7 +119,8 @@ def own_numbers(
     cell = compat.input_cells(domain)
     corner = number[compat.input_points(domain)[compat.cell_points(domain)[:, :3]]]
     vertices = np.argmax(corner[:, :, None] == mesh.triangles[cell, None, :3], axis=2)
-    order = in_order(numbering.degree, compat.node_order(numbering.degree), vertices)
+    order = lattice(numbering.degree, DOLFINX_EDGES)
+    order = in_order(numbering.degree, order, vertices)
     index_map = space.dofmap.index_map
     node = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
     node[compat.cell_nodes(space)] = np.take_along_axis(numbering.elements[cell], order, axis=1)
@@ -140,11 +135,9 @@ def conditions_of(space: "FunctionSpace", held: np.ndarray) -> list["DirichletBC
         return np.flatnonzero(which).astype(np.int32)
 
     zero, whole = compat.real_number(0.0), held.all(axis=1)
-    both = fem.dirichletbc(np.full(2, zero), nodes(whole), compat.conditioned(space))
-    conditions = [both]
+    conditions = [fem.dirichletbc(np.full(2, zero), nodes(whole), compat.conditioned(space))]
     for axis in (0, 1):
         alone = 2 * nodes(held[:, axis] & ~whole) + axis
         if len(alone):  # the space of one component is slow to build
-            part = compat.conditioned(space.sub(axis))
-            conditions.append(fem.dirichletbc(zero, alone, part))
+            conditions.append(fem.dirichletbc(zero, alone, compat.conditioned(space.sub(axis))))
     return conditions

@@ -32,18 +32,12 @@ Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @dataclass(frozen=True)
 class Surface:
-    """Nodes of the top side in order: vertices at every `degree`-th place, inner nodes between.
+    """Nodes of the top side in order: vertices at every `degree`-th place, inner nodes between."""
 
-    x        (k,) [m] of the real body, ascending
-    point    (k,) numbers among the body's nodes
-    edges    (e, 3) x [m] of each edge's start, middle and end
-    degree   of the displacement
-    """
-
-    x: np.ndarray
-    point: np.ndarray
-    edges: np.ndarray
-    degree: int
+    x: np.ndarray  # (k,) [m] of the real body, ascending
+    point: np.ndarray  # (k,) numbers among the body's nodes
+    edges: np.ndarray  # (e, 3) x [m] of each edge's start, middle and end
+    degree: int  # of the displacement
 
 
 @dataclass(frozen=True)
@@ -64,19 +58,16 @@ def boundary_points(flat: np.ndarray, spec: BlockSpec) -> BoundaryPoints:
         return np.flatnonzero(np.abs(distance) <= SAME_POINT * extent)
 
     return BoundaryPoints(
-        top=side(z, spec.depth),
-        bottom=side(z - spec.depth, spec.depth),
-        left=side(x + spec.half_width, spec.half_width),
-        right=side(x - spec.half_width, spec.half_width),
+        side(z, spec.depth),
+        side(z - spec.depth, spec.depth),
+        side(x + spec.half_width, spec.half_width),
+        side(x - spec.half_width, spec.half_width),
     )
 
 
 def surface_of(mesh: BlockMesh, nodes: Nodes) -> Surface:
-    """Nodes on the top side, ordered along the flat block.
-
-    Raises ValueError if the mesh's points there are not vertices and their midpoints in turn, or
-    if the real surface overhangs.
-    """
+    """Nodes on the top side, ordered along the flat block. Raises ValueError if the mesh's points
+    there are not vertices and their midpoints in turn, or if the real surface overhangs."""
     top = _ordered(mesh.points, mesh.spec)
     flat, real = mesh.points[top, 0], (mesh.points + mesh.shift)[top, 0]
     if len(flat) < 5 or len(flat) % 2 == 0:
@@ -109,43 +100,31 @@ def tangent_of(direction: Direction) -> Direction:
 
 @dataclass(frozen=True)
 class HatPoints:
-    """Gauss points under hats, five on each piece between element vertices and hat nodes.
+    """Gauss points under hats, five on each piece between element vertices and hat nodes."""
 
-    x         (e, g) [m]
-    weight    (e, g) [m]
-    shape     (a, e, g) shape functions of the piece's edge, and `node` (a, e) their surface nodes
-    hat       (2, e, g) the two hats over the piece, and `column` (2, e) their numbers, where -1 and
-              count are the outer feet, without pressure
-    """
-
-    x: np.ndarray
-    weight: np.ndarray
-    shape: np.ndarray
-    node: np.ndarray
-    hat: np.ndarray
-    column: np.ndarray
+    x: np.ndarray  # (e, g) [m]
+    weight: np.ndarray  # (e, g) [m]
+    shape: np.ndarray  # (a, e, g) shape functions of the piece's edge
+    node: np.ndarray  # (a, e) their surface nodes
+    hat: np.ndarray  # (2, e, g) the two hats over the piece
+    column: np.ndarray  # (2, e) their numbers; -1 and count are the outer feet, without pressure
 
 
 def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
-    """Gauss points under `hats` (count + 2,) [m], with their outer feet.
-
-    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
-    """
+    """Gauss points under `hats` (count + 2,) [m], with their outer feet. Raises ValueError if the
+    hats' nodes do not ascend or a hat sticks out of the surface."""
     hats = np.asarray(hats, dtype=float)
     if hats.ndim != 1 or len(hats) < 3 or not np.all(np.diff(hats) > 0.0):
         raise ValueError("the hats' nodes must be three or more numbers that ascend")
     vertex = np.append(surface.edges[:, 0], surface.edges[-1, 2])
     count, pitch = len(hats) - 2, np.diff(hats)
-    if (
-        hats[0] < vertex[0] - SAME_POINT * pitch[0]
-        or hats[-1] > vertex[-1] + SAME_POINT * pitch[-1]
-    ):
+    low, high = SAME_POINT * pitch[[0, -1]]
+    if hats[0] < vertex[0] - low or hats[-1] > vertex[-1] + high:
         raise ValueError(
             f"the pressures reach from {hats[0]:g} m to {hats[-1]:g} m, "
             f"but the surface only from {vertex[0]:g} m to {vertex[-1]:g} m"
         )
-    within = vertex[(vertex > hats[0]) & (vertex < hats[-1])]
-    cut = np.union1d(hats, within)
+    cut = np.union1d(hats, vertex[(vertex > hats[0]) & (vertex < hats[-1])])
     middle = 0.5 * (cut[:-1] + cut[1:])
     element = np.clip(np.searchsorted(vertex, middle) - 1, 0, len(vertex) - 2)
     interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
@@ -172,10 +151,9 @@ def hat_forces(
     """Nodal forces B (2k, count) [m] of unit hat pressures.
 
     `hats` (count + 2,) [m] are the hats' nodes, ascending, with the outer feet. A pressure is a
-    force per length of x, not of arc. Rows 2a and 2a+1 are the x and z force at surface node a. The
-    integrals are exact for a `direction` linear on each piece between vertices and hat nodes.
-
-    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
+    force per length of x, not of arc. Rows 2a and 2a+1 are the x and z force at surface node a.
+    Exact for a `direction` linear on each piece between vertices and hat nodes. Errors as of
+    `hat_points`.
     """
     points, count = hat_points(surface, hats), len(hats) - 2
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
@@ -184,9 +162,8 @@ def hat_forces(
     row = 2 * points.node[:, None, None, :] + np.arange(2)[None, :, None, None]
     row, column = np.broadcast_arrays(row, points.column[None, None, :, :])
     inside = (column >= 0) & (column < count) & (value != 0.0)
-    return csr_matrix(
-        (value[inside], (row[inside], column[inside])), shape=(2 * len(surface.x), count)
-    )
+    place = (row[inside], column[inside])
+    return csr_matrix((value[inside], place), shape=(2 * len(surface.x), count))
 
 
 def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:

@@ -13,8 +13,7 @@ from scipy.spatial import cKDTree
 
 # A point this far outside an element, in reference coordinates, still belongs to it.
 ROUNDING = 1e-9
-NEWTON_STEPS = 4
-WALK_STEPS = 40
+NEWTON_STEPS, WALK_STEPS = 4, 40
 
 # Degree of a triangle by its number of nodes.
 DEGREE = {3: 1, 6: 2, 10: 3}
@@ -25,16 +24,12 @@ GAUSS = np.array([[1, 1], [4, 1], [1, 4]]) / 6.0
 
 
 @cache
-def lattice(degree: int) -> np.ndarray:
-    """Whole numbers (k, 3), of sum `degree`: the nodes' barycentric coordinates times it."""
-    vertices = degree * np.eye(3, dtype=int)
-    edges = [
-        ((degree - i) * vertices[a] + i * vertices[b]) // degree
-        for a, b in ((0, 1), (1, 2), (2, 0))
-        for i in range(1, degree)
-    ]
-    inside = [[1, 1, 1]] if degree == 3 else np.empty((0, 3), dtype=int)
-    return np.concatenate([vertices, np.reshape(edges, (-1, 3)).astype(int), inside])
+def lattice(degree: int, sides: tuple = ((0, 1), (1, 2), (2, 0))) -> np.ndarray:
+    """Whole numbers (k, 3), of sum `degree`: the nodes' barycentric coordinates times it. Vertices,
+    then the inner nodes of the `sides`, each from one vertex to another, then the inside."""
+    corner = np.eye(3, dtype=int)
+    edges = [(degree - i) * corner[a] + i * corner[b] for a, b in sides for i in range(1, degree)]
+    return np.array([*(degree * corner), *edges, *([[1, 1, 1]] if degree == 3 else [])])
 
 
 def reference_nodes(degree: int) -> np.ndarray:
@@ -73,20 +68,16 @@ def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """d values / d(x, z) (m, q, c, 2) of nodal values (m, k, c) at reference points (q, 2).
-
-    `nodes` (m, 6, 2) are the coordinates of the element's nodes; `values` may have another degree.
-    """
+    """d values / d(x, z) (m, q, c, 2) of nodal values (m, k, c) at reference points (q, 2). `nodes`
+    (m, 6, 2) are the coordinates of the element's nodes; `values` may have another degree."""
     slope = slopes(at, DEGREE[values.shape[1]])
     reference = np.einsum("mak,qad->mqkd", values, slope, optimize=True)
     return reference @ np.linalg.inv(jacobians(nodes, at))
 
 
 def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Reference points (q, 2) and weights (q,) of a rule on the triangle, q = count^2.
-
-    Gauss's rule on the square, collapsed: exact for degree 2 count - 2.
-    """
+    """Reference points (q, 2) and weights (q,) of a rule on the triangle, q = count^2. Gauss's rule
+    on the square, collapsed: exact for degree 2 count - 2."""
     line, weight = np.polynomial.legendre.leggauss(count)
     line, weight = 0.5 * (1.0 + line), 0.5 * weight
     r, s = (value.ravel() for value in np.meshgrid(line, line))
@@ -99,10 +90,8 @@ def _barycentric(at: np.ndarray) -> np.ndarray:
 
 
 def _factors(part: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
-    """Factors (..., degree + 1) of a coordinate L (...), and their derivatives.
-
-    The m-th is 1 at L = m / degree and 0 at smaller multiples of 1 / degree.
-    """
+    """Factors (..., degree + 1) of a coordinate L (...), and their derivatives. The m-th is 1 at L
+    = m / degree and 0 at smaller multiples of 1 / degree."""
     value, slope = [np.ones_like(part)], [np.zeros_like(part)]
     for m in range(degree):
         rest = degree * part - m

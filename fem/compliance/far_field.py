@@ -1,8 +1,8 @@
 """A block that reproduces the half-plane: its outer boundary gets the half-plane's displacement.
 
 Far from tractions on a short range of a half-plane's surface the displacement is a series in their
-moments. Prescribed on the sides and the bottom of a block of any size, it leaves the discretisation
-as the only error. With K0 the stiffness of the block held all round
+moments. Prescribed on the sides and the bottom of a block, it leaves the discretisation as the only
+error. With K0 the stiffness of the block held all round
 
     u = K0^-1 (b - K_g g) + g,   g = sum over the moments m_k of b of their displacements.
 
@@ -32,7 +32,6 @@ from fem.body.triangle import collapsed_gauss, jacobians, slopes
 # First neglected power of reach over distance of the boundary. The compliance's error is 3e-8 for
 # blocks of 4 to 40 half-widths, with 4 to 9 moments each of pressure and traction.
 TRUNCATION = 1e-5
-
 # Largest reach of the tractions over the distance of the boundary, with 17 moments of each.
 MOST_REACH = 0.5
 
@@ -49,10 +48,8 @@ class FarField:
               back-substitution each
 
     The displacement `lifted @ moments` that the boundary adds is symmetric up to the discretisation
-    error. A contact solver that minimises an energy needs `symmetric`, the mean with its transpose.
-
-    Raises ValueError if the body is held otherwise or coated, or if its boundary is nearer than
-    reach / MOST_REACH.
+    error; a contact solver that minimises an energy needs `symmetric`. Raises ValueError if the
+    body is held otherwise or coated, or if its boundary is nearer than reach / MOST_REACH.
     """
 
     def __init__(self, body: ElasticBody, start: float, stop: float) -> None:
@@ -138,10 +135,8 @@ def multipoles(s: np.ndarray, terms: int, datum: float, poissons_ratio: float) -
 
 
 def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
-    """Stiffness (2n, 2h) [Pa] between all nodes and the h of them that are `held` (n,).
-
-    Summed over elements with both held and free nodes: rows of held nodes are incomplete.
-    """
+    """Stiffness (2n, 2h) [Pa] between all nodes and the h of them that are `held` (n,). Summed over
+    elements with both held and free nodes: rows of held nodes are incomplete."""
     touching = held[body.elements]
     fringe = touching.any(axis=1) & ~touching.all(axis=1)
     element = body.elements[fringe]
@@ -152,8 +147,7 @@ def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
     # [m, a, i, b, j]: integral of (dN_a / dx_i) (dN_b / dx_j)
     product = np.einsum("mq,mqai,mqbj->maibj", area, slope, slope, optimize=True)
     same_component = np.einsum("maibi->mab", product)[:, :, None, :, None] * np.eye(2)[:, None, :]
-    shear, nu = body.material.shear_modulus, body.material.poissons_ratio
-    lame = 2.0 * shear * nu / (1.0 - 2.0 * nu)
+    shear, lame = body.material.shear_modulus, body.lame[0]
     stiffness = lame * product + shear * (product.swapaxes(2, 4) + same_component)
 
     def whole(number: np.ndarray) -> np.ndarray:
@@ -163,7 +157,6 @@ def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
     place = 2 * (np.cumsum(held) - 1)[element][..., None] + np.arange(2)
     of_held = whole(held[element][:, None, None, :, None])
     row, column = whole(component[..., None, None]), whole(place[:, None, None])
-    return csr_matrix(
-        (stiffness[of_held], (row[of_held], column[of_held])),
-        shape=(2 * len(held), 2 * np.count_nonzero(held)),
-    )
+    place = (row[of_held], column[of_held])
+    shape = (2 * len(held), 2 * np.count_nonzero(held))
+    return csr_matrix((stiffness[of_held], place), shape=shape)

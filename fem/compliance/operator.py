@@ -24,8 +24,7 @@ class FiniteElementCompliance:
 
     hats        (count + 2,) [m] the hats' nodes, ascending, with the outer feet
     direction   function of x [m] that gives the force (d_x, d_z) per length of x of a unit
-                pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller, since
-                the traction acts along the roller's normal
+                pressure; None: (0, 1). On a rough boundary (slope, 1) of the smooth roller
     far         gives the body's boundary the half-plane's displacement; None: the support holds it
     normal      B of the pressure, (2k, count)
     tangential  B of a sliding traction towards +x, (2k, count)
@@ -80,9 +79,8 @@ class FiniteElementCompliance:
     def matrix(self, friction: float = 0.0) -> np.ndarray:
         """C dense (count, count) [m^2/Pa]: one back-substitution a hat."""
         forces = self.normal + friction * self.tangential if friction else self.normal
-        return np.vstack(
-            [self._columns(forces[:, i : i + BATCH].toarray()) for i in range(0, self.count, BATCH)]
-        ).T
+        starts = range(0, self.count, BATCH)
+        return np.vstack([self._columns(forces[:, i : i + BATCH].toarray()) for i in starts]).T
 
     def _columns(self, force: np.ndarray) -> np.ndarray:
         """Columns of C, as rows, for a batch of columns of surface forces (2k, m) [N/m]."""

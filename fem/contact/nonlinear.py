@@ -34,23 +34,19 @@ MOST_ITERATIONS = 30
 # A step is bisected if it multiplies the residual by more or inverts an element.
 GROWTH = 10.0
 MOST_BISECTIONS = 6
-# Smallest increment, as a part of the way from the start to the load.
-LEAST_INCREMENT = 1e-3
-# Factor on the next increment after a successful one.
-LONGER = 2.0
+LEAST_INCREMENT = 1e-3  # as a part of the way from the start to the load
+LONGER = 2.0  # factor on the next increment after a successful one
 
-# States of a hat.
-OPEN, CONTACT, CAPPED = -1, 0, 1
-# HatStates without fewer violations before fewer hats change at a time.
-PATIENCE = 3
+OPEN, CONTACT, CAPPED = -1, 0, 1  # states of a hat
+PATIENCE = 3  # exchanges without fewer violations before fewer hats change at a time
 
 
 class HatStates:
     """The states (count,) of the hats: OPEN, CONTACT or CAPPED (at the hardness).
 
-    All hats that violate their inequality change at once, which is fastest but may cycle with a
-    hardness. Whenever the number of violations has not fallen for PATIENCE exchanges, the part of
-    them that change, the worst ones, is halved.
+    All hats that violate their inequality change at once, which may cycle with a hardness. Whenever
+    the number of violations has not fallen for PATIENCE exchanges, the part of them that change,
+    the worst ones, is halved.
 
     pressure   guessed (count,) [Pa]: hats are open where it is zero, else in contact
     load       P [N/m]; None if the approach is prescribed
@@ -64,10 +60,8 @@ class HatStates:
         self._fewest, self._patience, self._share = len(pressure) + 1, PATIENCE, 1.0
 
     def exchange(self, pressure: np.ndarray, gap: np.ndarray, stiff: float) -> None:
-        """Change the states after a step to a pressure (count,) [Pa] and a mean gap [m].
-
-        `stiff` [Pa/m] makes violations by gaps comparable with those by pressures.
-        """
+        """Change the states after a step to a pressure (count,) [Pa] and a mean gap [m]. `stiff`
+        [Pa/m] makes violations by gaps comparable with those by pressures."""
         joins = (self.states == OPEN) & (gap < 0.0)
         leaves = (self.states == CAPPED) & (gap > 0.0)
         lifts = (self.states == CONTACT) & (pressure < 0.0)
@@ -113,6 +107,16 @@ class ContactState:
     approach: float
     load: float = 0.0
 
+    def moved(self, part: float, change: "ContactState") -> "ContactState":
+        """The state after a `part` of a `change` of displacements, pressure and approach."""
+        pairs = zip(self.displacements, change.displacements, strict=True)
+        return ContactState(
+            tuple(u + part * du for u, du in pairs),
+            self.pressure + part * change.pressure,
+            self.approach + part * change.approach,
+            self.load,
+        )
+
 
 @dataclass(frozen=True)
 class ContactPoint:
@@ -141,11 +145,10 @@ class ContactProblem:
     @cached_property
     def stiffness(self) -> float:
         """k of the bodies in series, each with the mean diagonal of its tangent at rest."""
-        diagonals = [
-            body.linearised(np.zeros(body.held.shape))[1].diagonal()[free].mean()
-            for (body, _), free in zip(self.bodies, self.free, strict=True)
-        ]
-        return 1.0 / sum(1.0 / diagonal for diagonal in diagonals)
+        soft = 0.0
+        for (body, _), free in zip(self.bodies, self.free, strict=True):
+            soft += 1.0 / body.linearised(np.zeros(body.held.shape))[1].diagonal()[free].mean()
+        return 1.0 / soft
 
     @cached_property
     def stiff(self) -> float:
@@ -184,18 +187,14 @@ class ContactProblem:
 
 def _ratio(left: np.ndarray, whole: np.ndarray) -> float:
     """Norm of `left` over that of `whole`, or over one if the latter is zero."""
-    size = float(np.linalg.norm(whole))
-    return float(np.linalg.norm(left)) / (size if size > 0.0 else 1.0)
+    return float(np.linalg.norm(left)) / (float(np.linalg.norm(whole)) or 1.0)
 
 
 def newton(
     problem: ContactProblem, guess: ContactState, load: float | None
 ) -> tuple[ContactState, np.ndarray, list[float]]:
     """Equilibrium at the load, or at the guess's approach, its mean gaps (count,) [m], and the
-    residuals of the iterations.
-
-    Raises FemError if it does not converge.
-    """
+    residuals of the iterations. Raises FemError if it does not converge."""
     point = problem.at(guess)
     states = HatStates(guess.pressure, problem.hardness, load, problem.weights)
     history = [problem.residual(point, load)]
@@ -222,20 +221,11 @@ def _moved(
     load: float | None,
     before: float,
 ) -> tuple[ContactPoint, float]:
-    """The state after the step, bisected until its end is acceptable, and the residual there."""
-    state, why = point.state, "the residual grows"
+    """The point after the step, bisected until it is acceptable, and the residual there."""
+    why = "the residual grows"
     for bisection in range(MOST_BISECTIONS + 1):
-        part = 0.5**bisection
-        there = ContactState(
-            tuple(
-                u + part * du for u, du in zip(state.displacements, move.displacements, strict=True)
-            ),
-            state.pressure + part * move.pressure,
-            state.approach + part * move.approach,
-            state.load,
-        )
         try:
-            reached = problem.at(there)
+            reached = problem.at(point.state.moved(0.5**bisection, move))
         except FemError as error:
             why = str(error)
             continue
@@ -248,10 +238,8 @@ def _moved(
 def _step(
     problem: ContactProblem, point: ContactPoint, states: np.ndarray, load: float | None
 ) -> ContactState:
-    """Newton's change of the state with given states (count,) of the hats.
-
-    The unknowns are the lengths u, p w / k and d; the equations are divided by k or w.
-    """
+    """Newton's change of the state with given states (count,) of the hats. The unknowns are the
+    lengths u, p w / k and d; the equations are divided by k or w."""
     weights, stiff, width = problem.weights, problem.stiffness, problem.weights.mean()
     gap, pressure = problem.weighted_gap(point), point.state.pressure
     hats = np.flatnonzero(states == CONTACT)
@@ -293,18 +281,12 @@ def _step(
 
 @dataclass(frozen=True)
 class NonlinearSolution:
-    """A converged contact.
-
-    state       displacements, pressure, approach and load
-    gap         (count,) [m] mean opening under each hat
-    residuals   dimensionless residuals of the iterations of each accepted increment
-    cuts        increments that failed and were bisected
-    """
+    """A converged contact."""
 
     state: ContactState
-    gap: np.ndarray
-    residuals: tuple[tuple[float, ...], ...]
-    cuts: int
+    gap: np.ndarray  # (count,) [m] mean opening under each hat
+    residuals: tuple[tuple[float, ...], ...]  # of the iterations of each accepted increment
+    cuts: int  # increments that failed and were bisected
 
     @property
     def iterations(self) -> int:
@@ -352,13 +334,14 @@ def solve_nonlinear_contact(
         # the last increment ends exactly on the goal
         part = 1.0 if done + step > 1.0 - LEAST_INCREMENT else done + step
         target = goal if part == 1.0 else first + part * (goal - first)
-        guess = _scaled(start, part) if at_rest and not histories else state
+        guess = state
+        if at_rest and not histories:
+            moved = tuple(part * u for u in start.displacements)
+            guess = replace(start, displacements=moved, pressure=part * start.pressure)
+        if load is None:
+            guess = replace(guess, approach=target)
         try:
-            found, opening, history = newton(
-                problem,
-                replace(guess, approach=target) if load is None else guess,
-                target if load is not None else None,
-            )
+            found, opening, history = newton(problem, guess, None if load is None else target)
         except FemError as error:
             cuts += 1
             step *= 0.5
@@ -373,9 +356,3 @@ def solve_nonlinear_contact(
         state, done = found, part
         step = min(1.0, LONGER * step)
     return NonlinearSolution(state, opening, tuple(histories), cuts)
-
-
-def _scaled(start: ContactState, part: float) -> ContactState:
-    """A guessed state scaled to a part of its load or approach."""
-    moved = tuple(part * displacement for displacement in start.displacements)
-    return replace(start, displacements=moved, pressure=part * start.pressure)

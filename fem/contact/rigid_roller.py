@@ -4,9 +4,8 @@
     T p = integral N p ((s', 1) + friction (1, -s')) dX
 
 The roller's normal at the current place of a surface point is (s', 1) up to its length, so that the
-force is the gap's derivative: frictionless contact has an energy. p is the vertical force per
-undeformed length of x: integral p dX is the load, and p / (dx/dX) the pressure on the deformed
-surface.
+force is the gap's derivative. p is the vertical force per undeformed length of x: integral p dX is
+the load, and p / (dx/dX) the pressure on the deformed surface.
 
 Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
 above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions.
@@ -52,11 +51,8 @@ def parabola(radius: float) -> Roller:
 
 
 class CurrentContact:
-    """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m].
-
-    The hats belong to places of the undeformed body. Raises ValueError if one sticks out of the
-    surface.
-    """
+    """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m]. The hats
+    belong to places of the undeformed body. Raises ValueError if one sticks out of the surface."""
 
     def __init__(
         self, body: ElasticBody, hats: np.ndarray, roller: Roller, friction: float = 0.0
@@ -76,9 +72,8 @@ class CurrentContact:
         column = np.broadcast_to(points.column[..., None], points.hat.shape)
         row = np.broadcast_to(number, points.hat.shape)
         among = (column >= 0) & (column < count)
-        self._hats = csr_matrix(
-            (points.hat[among], (row[among], column[among])), (number.size, count)
-        )
+        place = (row[among], column[among])
+        self._hats = csr_matrix((points.hat[among], place), (number.size, count))
         self._undeformed = body.nodes
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
@@ -89,11 +84,11 @@ class CurrentContact:
         weighted = diags(self._weight) @ self._hats
         along, down = self._x.T @ diags(slope) @ weighted, self._z.T @ weighted
         gradient = (along + down).tocsr()
-        turning = self._x.T @ diags(bend * self._weight * (self._hats @ pressure)) @ self._x
+        bend = diags(bend * self._weight * (self._hats @ pressure))
+        turning = self._x.T @ bend @ self._x
         if self.frictionless:
             return ContactTerms(gap, gradient, gradient, turning.tocsr())
-        force = gradient + self._friction * (
-            self._x.T @ weighted - self._z.T @ diags(slope) @ weighted
-        )
-        bent = self._z.T @ diags(bend * self._weight * (self._hats @ pressure)) @ self._x
-        return ContactTerms(gap, gradient, force.tocsr(), (turning - self._friction * bent).tocsr())
+        sliding = self._x.T @ weighted - self._z.T @ diags(slope) @ weighted
+        force = (gradient + self._friction * sliding).tocsr()
+        stiffness = (turning - self._friction * (self._z.T @ bend @ self._x)).tocsr()
+        return ContactTerms(gap, gradient, force, stiffness)

@@ -31,11 +31,9 @@ class Response(Protocol):
         Rows of held components are not used. Raises FemError if the body cannot deform so, for
         example if an element is inverted; the solver then tries a shorter step.
         """
-        ...
 
     def accept(self, displacement: np.ndarray) -> None:
         """Add the displacement (n, 2) [m] at the end of an increment to the history."""
-        ...
 
 
 class LinearResponse:
@@ -56,18 +54,12 @@ class LinearResponse:
 
 @dataclass(frozen=True)
 class ContactTerms:
-    """One body's part of the contact at a displacement and a pressure.
+    """One body's part of the contact at a displacement and a pressure."""
 
-    gap        (count,) [m^2] integral phi_i (opening) dx due to this body, without the approach
-    gradient   (2n, count) [m] its derivative with respect to u
-    force      (2n, count) [m] nodal forces of unit hats; `gradient` without friction
-    stiffness  (2n, 2n) [Pa] derivative of force @ pressure with respect to u; None: zero
-    """
-
-    gap: np.ndarray
-    gradient: csr_matrix
-    force: csr_matrix
-    stiffness: csr_matrix | None = None
+    gap: np.ndarray  # (count,) [m^2] integral phi_i (opening) dx of this body, without the approach
+    gradient: csr_matrix  # (2n, count) [m] its derivative with respect to u
+    force: csr_matrix  # (2n, count) [m] nodal forces of unit hats; `gradient` without friction
+    stiffness: csr_matrix | None = None  # (2n, 2n) [Pa] derivative of force @ pressure; None: zero
 
 
 class Contact(Protocol):
@@ -77,19 +69,15 @@ class Contact(Protocol):
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms at a displacement (n, 2) [m] and a pressure (count,) [Pa]."""
-        ...
 
 
 class LinearContact:
-    """Contact on the undeformed surface: gap B'u, forces B p + friction T p.
-
-    B and T are the `normal` and `tangential` forces of the compliance's hats.
-    """
+    """Contact on the undeformed surface: gap B'u, forces B p + friction T p. B and T are the
+    `normal` and `tangential` forces of the compliance's hats."""
 
     def __init__(self, compliance: FiniteElementCompliance, friction: float = 0.0) -> None:
         self.frictionless = not friction
-        self._gradient = on_all_nodes(compliance.body, compliance.normal)
-        self._force = self._gradient
+        self._gradient = self._force = on_all_nodes(compliance.body, compliance.normal)
         if friction:
             tangential = on_all_nodes(compliance.body, compliance.tangential)
             self._force = self._gradient + friction * tangential

@@ -9,8 +9,7 @@ An independent solver: it shares the mesh, the stiffness and the nodal forces of
 
 Nomenclature: u displacement [m], p hat pressures [Pa], d approach [m], K stiffness [Pa],
 B nodal forces of unit hats [m], G weighted initial gap [m^2], w weights [m], P load [N/m],
-H hardness [Pa]. PETSc's convention: at a lower bound the function is >= 0, at an upper one <= 0
-(SNESVISetVariableBounds).
+H hardness [Pa]. PETSc wants the function >= 0 at a lower bound and <= 0 at an upper one.
 """
 
 from collections.abc import Sequence
@@ -25,9 +24,8 @@ from fem.solver.mumps import ORDERING, SPARE_ROOM, FemError
 
 PREFIX = "crosscheck_inequality_"
 
-# Norm of the residual, forces in units of mean pressure times pitch and lengths in units of the
-# corresponding displacement. The method ends in a finite number of steps: the residual is above
-# 1e-3 before the last one and 1e-10, rounding, after it.
+# Norm of the residual, in units of mean pressure times pitch and of the corresponding displacement.
+# The method ends in a finite number of steps: above 1e-3 before the last one, 1e-10 after it.
 RESIDUAL = 1e-8
 MOST_ITERATIONS = 200
 
@@ -69,17 +67,16 @@ def solve_variational_inequality(
     length_unit = pressure_unit * pitch * compliances.sum()
     system = _scaled_system(bodies, compliances / compliances.sum(), weights, pitch)
     constant = np.zeros(system.shape[0])
-    constant[-1 - count : -1] = gap / (pitch * length_unit)
+    pressures = slice(-1 - count, -1)
+    constant[pressures] = gap / (pitch * length_unit)
     constant[-1] = load / (pitch * pressure_unit)
 
-    matrix = PETSc.Mat().createAIJ(
-        system.shape, csr=(system.indptr, system.indices, system.data), comm=PETSc.COMM_SELF
-    )
+    csr = (system.indptr, system.indices, system.data)
+    matrix = PETSc.Mat().createAIJ(system.shape, csr=csr, comm=PETSc.COMM_SELF)
     x = matrix.createVecRight()
     lower, upper = x.duplicate(), x.duplicate()
     lower.set(PETSc.NINFINITY)
     upper.set(PETSc.INFINITY)
-    pressures = slice(-1 - count, -1)
     lower.array[pressures] = 0.0
     if np.isfinite(hardness):
         upper.array[pressures] = hardness / pressure_unit
@@ -109,11 +106,8 @@ def solve_variational_inequality(
     reason = snes.getConvergedReason()
     if reason < 0:
         raise FemError(f"PETSc's variational inequality did not converge: reason {reason}")
-    return VariationalSolution(
-        x.array[pressures] * pressure_unit,
-        float(x.array[-1]) * length_unit,
-        snes.getIterationNumber(),
-    )
+    pressure, approach = x.array[pressures] * pressure_unit, float(x.array[-1]) * length_unit
+    return VariationalSolution(pressure, approach, snes.getIterationNumber())
 
 
 def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: float) -> csr_matrix:

@@ -4,10 +4,7 @@ Response and kinematics can be exchanged, to separate the effects that the linea
 linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
 (`fem.nonlinear.hyperelastic.NeoHookeanBody`), contact on the undeformed surface
 (`fem.contact.terms.LinearContact`) or on the deformed one
-(`fem.contact.rigid_roller.CurrentContact`).
-
-Elastic rollers are not modelled: linearising their displacement would neglect as much as the other
-terms add.
+(`fem.contact.rigid_roller.CurrentContact`). Elastic rollers are not modelled.
 """
 
 from dataclasses import dataclass
@@ -30,9 +27,15 @@ from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad
 
 
-@dataclass(frozen=True)
+@dataclass
 class FiniteDeformation:
-    """A body in contact with a rigid roller, in its deformed state."""
+    """A body in contact with a rigid roller, in its deformed state.
+
+    pressure       (count,) [Pa] vertical force per undeformed length of x, as in the linear theory
+    displacement   (n, 2) [m] at the body's nodes
+    approach       depth [m] of the roller's lowest point below z = 0 of the undeformed body
+    gap            (count,) [m] mean opening under each hat, along z
+    """
 
     body: ElasticBody
     hats: np.ndarray
@@ -40,25 +43,10 @@ class FiniteDeformation:
     friction: float
     solution: NonlinearSolution
 
-    @property
-    def pressure(self) -> np.ndarray:
-        """(count,) [Pa] vertical force per undeformed length of x, as in the linear theory."""
-        return self.solution.state.pressure
-
-    @property
-    def displacement(self) -> np.ndarray:
-        """(n, 2) [m] at the body's nodes."""
-        return self.solution.state.displacements[0]
-
-    @property
-    def approach(self) -> float:
-        """Depth [m] of the roller's lowest point below z = 0 of the undeformed body."""
-        return self.solution.state.approach
-
-    @property
-    def gap(self) -> np.ndarray:
-        """(count,) [m] mean opening under each hat, along z."""
-        return self.solution.gap
+    def __post_init__(self) -> None:
+        state = self.solution.state
+        self.pressure, self.approach, self.gap = state.pressure, state.approach, self.solution.gap
+        (self.displacement,) = state.displacements
 
     @cached_property
     def place(self) -> np.ndarray:
@@ -73,10 +61,8 @@ class FiniteDeformation:
 
     @cached_property
     def stress(self) -> NodalStress:
-        """Cauchy's stresses at the deformed mesh points.
-
-        The stress across the plane is `stress_across`, nu (sx + sz) for small strains only.
-        """
+        """Cauchy's stresses at the deformed mesh points. The stress across the plane is
+        `stress_across`, nu (sx + sz) for small strains only."""
 
         def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             return self.roller(x)[1], np.ones_like(x)
@@ -142,9 +128,7 @@ def press(
     gap: np.ndarray | None = None,
 ) -> NonlinearSolution:
     """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
-
-    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only.
-    """
+    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only."""
     weights = 0.5 * (hats[2:] - hats[:-2])
     moved = FiniteElementCompliance(body, hats).displacement(start, friction)
     state = ContactState((np.where(body.held, 0.0, moved),), start, approach=0.0)

@@ -6,14 +6,14 @@ For small strains it is the linear body of the same Young's modulus and Poisson'
 Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27). Other laws of
 the same limit differ: with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2 as the last term the
 peak pressure under a flat on a sinusoid (slope 0.025, p0/E = 0.015) is 0.29 and 0.22 % above the
-linear one, here 0.42 %. The bulk modulus rises by 0.4 and -0.3 times the pressure, here by 1.8
-times (nu = 0.3), that of steel by about five times.
+linear one, here 0.42 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 times the pressure
+(nu = 0.3), that of steel by about five times.
 
 Nomenclature: u displacement [m], F = I + grad u, J = det F, W energy [J/m^3], mu and lambda Lame's
 constants [Pa], sigma Cauchy's stress [Pa].
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -30,10 +30,7 @@ from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 
 class NeoHookeanBody:
-    """The response of `body` at finite strains.
-
-    Raises FemError on more than one process.
-    """
+    """The response of `body` at finite strains. Raises FemError on more than one process."""
 
     symmetric = True
 
@@ -47,10 +44,8 @@ class NeoHookeanBody:
         self._unit = body.material.youngs_modulus
         space = body.space
         cell = compat.input_cells(space.mesh)
-        mu, lame = (
-            compat.cell_values(space.mesh, value[cell] / self._unit)
-            for value in (body.shear_modulus, body.lame)
-        )
+        constants = (value[cell] / self._unit for value in (body.shear_modulus, body.lame))
+        mu, lame = (compat.cell_values(space.mesh, value) for value in constants)
         self._moved = fem.Function(space)
         v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
         deformed = ufl.Identity(2) + ufl.grad(self._moved)
@@ -61,15 +56,14 @@ class NeoHookeanBody:
         work = ufl.derivative(energy * ufl.dx(metadata=points), self._moved, v)
         self._work = compiled(lambda: compat.compile_form(work))
         tangent = ufl.derivative(work, self._moved, w)
+        self._work = compiled(lambda: compat.compile_form(work))
         self._tangent = compiled(lambda: compat.compile_form(tangent))
         self._component = (2 * body.owned[:, None] + np.arange(2)).ravel()
         self._pattern: csr_matrix | None = None
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric.
-
-        Raises FemError if the displacement inverts an element.
-        """
+        """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric. Raises FemError if the
+        displacement inverts an element."""
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
         force[self._component] = compat.assembled_vector(self._work)
@@ -86,16 +80,13 @@ class NeoHookeanBody:
         start, column, value = matrix.getValuesCSR()
         matrix.destroy()
         if self._pattern is None:
-            row = np.repeat(self._component, np.diff(start))
-            place = (row, self._component[column])
+            place = (np.repeat(self._component, np.diff(start)), self._component[column])
             size = (len(self._component),) * 2
             # the place of each value is found once, by numbers in place of values
             self._pattern = csr_matrix((np.arange(len(value), dtype=float), place), shape=size)
             self._order = self._pattern.data.astype(np.int64)
-        return csr_matrix(
-            (value[self._order], self._pattern.indices, self._pattern.indptr),
-            shape=self._pattern.shape,
-        )
+        data = (value[self._order], self._pattern.indices, self._pattern.indptr)
+        return csr_matrix(data, shape=self._pattern.shape)
 
 
 def cauchy_stress(gradient: np.ndarray, mu: np.ndarray, lame: np.ndarray) -> np.ndarray:
@@ -105,16 +96,12 @@ def cauchy_stress(gradient: np.ndarray, mu: np.ndarray, lame: np.ndarray) -> np.
     b = deformed @ np.swapaxes(deformed, -1, -2)
     mean = (lame * np.log(volume) - mu) / volume
     shear = mu / volume
-    return np.stack(
-        [shear * b[..., 0, 0] + mean, shear * b[..., 1, 1] + mean, shear * b[..., 0, 1]], axis=-1
-    )
+    parts = [shear * b[..., 0, 0] + mean, shear * b[..., 1, 1] + mean, shear * b[..., 0, 1]]
+    return np.stack(parts, axis=-1)
 
 
 def nodal_cauchy_stress(
-    body: ElasticBody,
-    displacement: np.ndarray,
-    load: SurfaceLoad,
-    pressure: np.ndarray,
+    body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
 ) -> NodalStress:
     """Cauchy's stresses [Pa] at the deformed mesh points of a body without a coating.
 
@@ -125,19 +112,21 @@ def nodal_cauchy_stress(
     """
     if body.coated.any():
         raise FemError("stresses at finite deformations are not computed for a coated body")
-    second_order = _averaged(body, _second_order_stress(body, displacement))
+    at = reference_nodes(2)
+    gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
+    cauchy = cauchy_stress(gradient, body.shear_modulus[:, None], body.lame[:, None])
+    second_order = _averaged(body, cauchy - element_stress(body, displacement, at))
     top = body.top.point
-    place = body.points[top] + body.at_points(displacement)[top]
-    along = along_surface(body.top.x, place)
+    along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
+    t = along / np.linalg.norm(along, axis=1)[:, None]
 
     def on_surface(stress: np.ndarray) -> np.ndarray:
-        return _surface_stress(stress[top], along, pressure, load.friction)
+        s_tt, _, _ = to_surface(t, stress[top])
+        return from_surface(t, s_tt, -pressure, load.friction * pressure)
 
-    without_load = recovered_stress(body, displacement) + second_order
-    linear = on_surface(without_load) - second_order[top]
-    matched = _MatchedLoad(
-        load.body, load.hats, load.pressure, load.friction, load.direction, linear
-    )
+    linear = on_surface(recovered_stress(body, displacement) + second_order) - second_order[top]
+    tractions = (load.pressure, load.friction, load.direction)
+    matched = _MatchedLoad(body, load.hats, *tractions, linear)
     stress = recovered_stress(body, displacement, matched) + second_order
     stress[top] = on_surface(stress)
     nodal = at_mesh_points(body, StressState(*stress.T))
@@ -157,7 +146,7 @@ class _MatchedLoad(SurfaceLoad):
     """A load whose tractions on the undeformed surface are those of the linear stress of a finite
     displacement: `known` (t, 3) sx, sz, txz at the top's points."""
 
-    known: np.ndarray = field(default_factory=lambda: np.zeros((0, 3)))
+    known: np.ndarray
 
     def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
@@ -166,32 +155,13 @@ class _MatchedLoad(SurfaceLoad):
         return s_nn, s_nt
 
 
-def _second_order_stress(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Cauchy's minus the linear stress (m, 6, 3) [Pa] at the six points of each element."""
-    at = reference_nodes(2)
-    gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
-    mu, lame = body.shear_modulus[:, None], body.lame[:, None]
-    return cauchy_stress(gradient, mu, lame) - element_stress(body, displacement, at)
-
-
 def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
     """Means (k, c) at the mesh points of values (m, 6, c) of the elements around them."""
     point = body.mesh.triangles.ravel()
     number = np.bincount(point, minlength=len(body.points))
-    columns = [
-        np.bincount(point, column, len(body.points)) for column in value.reshape(len(point), -1).T
-    ]
+    values = value.reshape(len(point), -1).T
+    columns = [np.bincount(point, column, len(body.points)) for column in values]
     return np.column_stack(columns) / number[:, None]
-
-
-def _surface_stress(
-    stress: np.ndarray, along: np.ndarray, pressure: np.ndarray, friction: float
-) -> np.ndarray:
-    """sx, sz, txz (t, 3) at the surface: s_tt of `stress` (t, 3) along the tangents `along` (t, 2),
-    the rest from the tractions."""
-    t = along / np.linalg.norm(along, axis=1)[:, None]
-    s_tt, _, _ = to_surface(t, stress)
-    return from_surface(t, s_tt, -pressure, friction * pressure)
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:

@@ -7,13 +7,10 @@ deviator, in closed form for linear hardening (Simo and Hughes 1998, Computation
     f(u) = K u - sum_q w_q B_q' 2 G ep_q        K_t(u) = K - sum_q w_q B_q' (C - C_ep) B_q
 
 dolfinx assembles the elastic stiffness K; numpy adds the plastic terms at three points to an
-element, where there is flow. dolfinx with quadrature functions gives the same force and tangent to
-rounding (a test compares them), but its interfaces for them differ between releases, and it takes
-1.4 us an unknown at each step instead of 0.6 where a sixth of the points flow and 1.4 where half of
-them do (a factorisation: 6).
-
-Three points an element are as many isochoric conditions as a quadratic triangle can fulfil: the
-limit load of a flat punch is right.
+element, where there is flow. dolfinx's quadrature functions give the same to rounding (a test
+compares them) in the same time or longer, but their interfaces differ between releases. Three
+points an element are as many isochoric conditions as a quadratic triangle can fulfil: the limit
+load of a flat punch is right.
 
 Nomenclature
     e, g       strains exx, ezz and gxz = 2 exz; eyy = 0
@@ -36,8 +33,7 @@ from fem.body.triangle import GAUSS, jacobians, shapes, slopes
 
 # Maps (exx, ezz, gxz) to the deviator (exx', ezz', exz).
 DEVIATOR = np.array([[2.0, -1.0, 0.0], [-1.0, 2.0, 0.0], [0.0, 0.0, 1.5]]) / 3.0
-# Weight of each of the three points on the reference triangle, whose area is 1/2.
-GAUSS_WEIGHT = 1.0 / 6.0
+GAUSS_WEIGHT = 1.0 / 6.0  # of each of the three points on the reference triangle, of area 1/2
 
 
 @dataclass(frozen=True)
@@ -53,24 +49,19 @@ class ElasticPlastic:
     hardening_modulus: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.yield_stress) and self.yield_stress > 0.0):
+        if not 0.0 < self.yield_stress < np.inf:
             raise ValueError(f"the yield stress must be positive, not {self.yield_stress:g} Pa")
-        if not (np.isfinite(self.hardening_modulus) and self.hardening_modulus >= 0.0):
-            raise ValueError(
-                f"the hardening modulus must not be negative, not {self.hardening_modulus:g} Pa"
-            )
+        hardening = self.hardening_modulus
+        if not 0.0 <= hardening < np.inf:
+            raise ValueError(f"the hardening modulus must not be negative, not {hardening:g} Pa")
 
 
 @dataclass(frozen=True)
 class PlasticState:
-    """Internal variables of a metal at k points.
+    """Internal variables of a metal at k points."""
 
-    strain       (k, 3) plastic exx, ezz, exz; eyy is minus the sum of the first two
-    equivalent   (k,) equivalent plastic strain
-    """
-
-    strain: np.ndarray
-    equivalent: np.ndarray
+    strain: np.ndarray  # (k, 3) plastic exx, ezz, exz; eyy is minus the sum of the first two
+    equivalent: np.ndarray  # (k,) equivalent plastic strain
 
     @classmethod
     def virgin(cls, count: int) -> "PlasticState":
@@ -210,12 +201,10 @@ class PlasticBody:
         strain[:, :, 0, :, 0] = strain[:, :, 2, :, 1] = slope[..., 0]
         strain[:, :, 1, :, 1] = strain[:, :, 2, :, 0] = slope[..., 1]
         strain = strain.reshape(-1, 3, 3, 12)
-        free = ~self.held[self.body.elements[element]].reshape(-1, 1, 1, 12)
-        strain *= free
+        strain *= ~self.held[self.body.elements[element]].reshape(-1, 1, 1, 12)
         rows = (softening @ strain).reshape(-1, 9, 12)
         block = strain.reshape(-1, 9, 12).transpose(0, 2, 1) @ rows
-        component = 2 * self.body.elements[element][:, :, None] + np.arange(2)
-        component = component.reshape(-1, 12)
-        row, column = np.repeat(component, 12, axis=1), np.tile(component, (1, 12))
-        place = (row.ravel(), column.ravel())
+        nodes = self.body.elements[element]
+        component = (2 * nodes[:, :, None] + np.arange(2)).reshape(-1, 12)
+        place = (np.repeat(component, 12, axis=1).ravel(), np.tile(component, (1, 12)).ravel())
         return csr_matrix((block.ravel(), place), shape=self._stiffness.shape)

@@ -1,10 +1,8 @@
 """A roller pressed on an elastic-plastic body, released, and pressed again.
 
 Each load is reached in increments from the body's last state. The contact is on the undeformed
-surface, as in the linear theory; the roller is rigid or elastic. Under a load of zero the body has
-its residual stresses only.
-
-Each increment is solved by Newton's method for the body,
+surface, as in the linear theory; the roller is rigid or elastic. Each increment is solved by
+Newton's method for the body,
 
     F(u_k) + K_t (u - u_k) - T p = 0   with   g >= 0, p >= 0, complementary, w'p = P,
 
@@ -18,13 +16,7 @@ the linear contact,
 rises from a negative value. If it is far above zero at the end, the step goes to its zero. With
 friction the slope includes the work of the tractions.
 
-Fields at a mesh point are area-weighted means of the linear fields through the three points of each
-element around it. Patches of higher degree (`fem.stress.recovery`) would overshoot at the kinks on
-the boundary of the plastic zone.
-
-Nomenclature: u displacement [m], p hat pressures [Pa], F internal nodal forces [N/m], K_t tangent
-[Pa], T nodal forces of unit hats [m], g weighted gap [m^2], w weights [m], P load [N/m],
-d approach [m].
+Nomenclature as of `fem.contact.nonlinear`, K_t tangent of the body [Pa].
 """
 
 from collections.abc import Sequence
@@ -42,24 +34,21 @@ from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
 
-# Residual forces over the contact's forces.
-RESIDUAL = 1e-9
+RESIDUAL = 1e-9  # forces over the contact's forces
 MOST_LINEAR_CONTACTS = 40
 # The line search ends where the energy's slope is below this part of the first one.
 SLACK = 0.5
 MOST_TRIALS = 12
 
-# Equal increments from one load to the next. A smooth roller pressed to five times the load of
-# first yield: peak pressure 1.6 % high with 8, 0.8 % with 16, 0.4 % with 32; approach 0.1 % with
-# 16.
+# Equal increments from one load to the next. A smooth roller at five times the load of first yield:
+# peak pressure 1.6, 0.8, 0.4 % high with 8, 16, 32; approach 0.1 % with 16.
 INCREMENTS = 16
 
-# Part of the largest load from which the roller is removed, and at which it touches again. Below it
-# rounding of the residual stresses would show.
+# Part of the largest load from which the roller is removed, and at which it touches again: less
+# would show the rounding of the residual stresses.
 LAST_TOUCH = 0.01
 
-# Residual forces of the released body over the largest nodal force of its stresses.
-BALANCE = 1e-10
+BALANCE = 1e-10  # residual forces of the released body over the largest of its stresses
 MOST_RELEASE_STEPS = 30
 
 # Values at the six nodes from those at the three points, linear.
@@ -68,20 +57,17 @@ EXTRAPOLATION = np.column_stack([np.ones(6), reference_nodes(2)]) @ np.linalg.in
 )
 
 
-class _LinearisedBody:
+class _Linearised(LinearResponse):
     """A body's response linearised at a displacement, without history."""
 
     def __init__(self, body: Response, displacement: np.ndarray) -> None:
         self.held, self.symmetric = body.held, body.symmetric
-        self.force, self.matrix = body.linearised(displacement)
+        self.force, self._matrix = body.linearised(displacement)
         self._there = displacement
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         move = (displacement - self._there).ravel()
-        return self.force + (self.matrix @ move).reshape(-1, 2), self.matrix
-
-    def accept(self, displacement: np.ndarray) -> None:
-        """No history."""
+        return self.force + (self._matrix @ move).reshape(-1, 2), self._matrix
 
 
 def newton_by_contacts(
@@ -101,10 +87,8 @@ def newton_by_contacts(
     state, history = start, []
     free = [~body.held for body, _ in bodies]
     while len(history) < MOST_LINEAR_CONTACTS:
-        tangents = [
-            _LinearisedBody(body, u)
-            for (body, _), u in zip(bodies, state.displacements, strict=True)
-        ]
+        starts = zip(bodies, state.displacements, strict=True)
+        tangents = [_Linearised(body, u) for (body, _), u in starts]
         linear = [(near, contact) for near, (_, contact) in zip(tangents, bodies, strict=True)]
         goal = solve_nonlinear_contact(linear, gap, weights, state, load, approach).state
         applied = [
@@ -113,12 +97,10 @@ def newton_by_contacts(
         ]
         moves = [u - v for u, v in zip(goal.displacements, state.displacements, strict=True)]
         part, forces = _length(bodies, state, moves, applied, tangents)
-        state = ContactState(
-            tuple(u + part * du for u, du in zip(state.displacements, moves, strict=True)),
-            state.pressure + part * (goal.pressure - state.pressure),
-            state.approach + part * (goal.approach - state.approach),
-            goal.load,
+        change = ContactState(
+            tuple(moves), goal.pressure - state.pressure, goal.approach - state.approach
         )
+        state = replace(state.moved(part, change), load=goal.load)
         rest = [np.linalg.norm((f - a)[ok]) for f, a, ok in zip(forces, applied, free, strict=True)]
         size = [np.linalg.norm(a[ok]) for a, ok in zip(applied, free, strict=True)]
         history.append(max(r / s for r, s in zip(rest, size, strict=True)))
@@ -132,7 +114,7 @@ def _length(
     state: ContactState,
     moves: Sequence[np.ndarray],
     applied: Sequence[np.ndarray],
-    tangents: Sequence[_LinearisedBody],
+    tangents: Sequence[_Linearised],
 ) -> tuple[float, list[np.ndarray]]:
     """Line search: part of the step to take, and the bodies' forces at its end."""
 
@@ -151,11 +133,8 @@ def _length(
     if at_high <= SLACK * abs(first):
         return part, forces
     for _ in range(MOST_TRIALS):
-        part = np.clip(
-            low - at_low * (high - low) / (at_high - at_low),
-            0.1 * high + 0.9 * low,
-            0.9 * high + 0.1 * low,
-        )
+        zero = low - at_low * (high - low) / (at_high - at_low)
+        part = np.clip(zero, 0.1 * high + 0.9 * low, 0.9 * high + 0.1 * low)
         forces = forces_at(part)
         here = slope(forces)
         if abs(here) <= SLACK * abs(first):
@@ -229,15 +208,12 @@ def press_plastically(
                 raise FemError(f"the load of {stage:g} N/m was not reached: {error}") from error
             body.accept(state.displacements[0])
             iterations += len(residuals)
-        pressure = state.pressure
         if load == 0.0:
-            pressure = np.zeros_like(pressure)
             free = _released(body, state.displacements[0])
             state = replace(state, displacements=(free, *state.displacements[1:]))
-        displacement = state.displacements[0]
-        history.append(
-            PlasticContact(load, pressure, state.approach, displacement, body.state, iterations)
-        )
+        pressure = state.pressure if load else np.zeros_like(state.pressure)
+        reached = (state.approach, state.displacements[0], body.state, iterations)
+        history.append(PlasticContact(load, pressure, *reached))
     return body, tuple(history)
 
 
@@ -259,16 +235,11 @@ def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class PlasticFields:
-    """Fields at the mesh's n points under one load.
+    """Fields at the mesh's n points under one load."""
 
-    stress               in the plane (n,) [Pa]
-    sy                   across the plane (n,) [Pa], nu (sx + sz) only without plastic strain
-    equivalent_strain    equivalent plastic strain (n,)
-    """
-
-    stress: StressState
-    sy: np.ndarray
-    equivalent_strain: np.ndarray
+    stress: StressState  # (n,) [Pa] in the plane
+    sy: np.ndarray  # (n,) [Pa] across the plane, nu (sx + sz) only without plastic strain
+    equivalent_strain: np.ndarray  # equivalent plastic strain (n,)
 
     @cached_property
     def von_mises(self) -> np.ndarray:
@@ -277,20 +248,20 @@ class PlasticFields:
 
 
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
-    """Stresses and plastic strain of a body under a contact of its history."""
+    """Stresses and plastic strain of a body under a contact of its history.
+
+    Area-weighted means of the linear fields through the three points of each element around a mesh
+    point. Patches of higher degree (`fem.stress.recovery`) would overshoot at the kinks on the
+    boundary of the plastic zone.
+    """
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
-    sx, sz, txz, sy, strain = _at_points(body, sampled).T
-    return PlasticFields(StressState(sx, sz, txz), sy, np.maximum(strain, 0.0))
-
-
-def _at_points(body: PlasticBody, sampled: np.ndarray) -> np.ndarray:
-    """Means (n, k) at the mesh points of values (3m, k) at the elements' three points."""
     elements, areas = body.body.elements, body.areas.sum(axis=1)
     values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[:, None, None]
-    count = len(body.body.nodes)
-    total = np.bincount(elements.ravel(), np.repeat(areas, 6), minlength=count)
-    columns = [
-        np.bincount(elements.ravel(), v.ravel(), minlength=count) for v in values.T.swapaxes(1, 2)
-    ]
-    return np.column_stack(columns) / total[:, None]
+
+    def summed(weights: np.ndarray) -> np.ndarray:
+        return np.bincount(elements.ravel(), weights, minlength=len(body.body.nodes))
+
+    total = summed(np.repeat(areas, 6))
+    sx, sz, txz, sy, strain = (summed(v.ravel()) / total for v in values.T.swapaxes(1, 2))
+    return PlasticFields(StressState(sx, sz, txz), sy, np.maximum(strain, 0.0))

@@ -56,10 +56,8 @@ def load_dolfinx() -> None:
 
 
 def compiled(make: Callable[[], Result]) -> Result:
-    """What `make` returns, which may compile forms.
-
-    Raises TimeoutError if another process compiles the same for over a minute.
-    """
+    """What `make` returns, which may compile forms. Raises TimeoutError if another process compiles
+    the same for over a minute."""
     from mpi4py import MPI
 
     waits, clear = 0, _clear_once
@@ -75,12 +73,6 @@ def compiled(make: Callable[[], Result]) -> Result:
                 raise
 
 
-@cache
-def _clear_once(folder: Path) -> None:
-    """`remove_leftovers` at a process's first form; later leftovers cause a timeout first."""
-    remove_leftovers(folder)
-
-
 def remove_leftovers(folder: Path) -> None:
     """Remove the sources that stopped processes left in `folder`."""
     for source in folder.glob("libffcx_*.c"):
@@ -88,3 +80,7 @@ def remove_leftovers(folder: Path) -> None:
             age = time.time() - source.stat().st_mtime
             if age > STALE_SECONDS and not source.with_suffix(".c.cached").exists():
                 source.unlink()
+
+
+# At a process's first form; later leftovers cause a timeout first.
+_clear_once = cache(remove_leftovers)

@@ -10,13 +10,12 @@ if TYPE_CHECKING:
     from petsc4py.PETSc import KSP, Mat, Object
 
 # Extra room for fill that pivoting and unsymmetric trees need, per cent (MUMPS ICNTL(14), default
-# 20). Graded meshes of high contrast overflow the default; each failure doubles it.
+# 20, too little for graded meshes of high contrast); each failure doubles it.
 SPARE_ROOM = 60
 MOST_SPARE_ROOM = 1000
 
-# Approximate minimum fill (MUMPS ICNTL(7)). On graded triangles it gives the same fill as PORD,
-# the default where METIS and SCOTCH are absent, and orders in a sixth of the time: a third less
-# for the whole factorisation.
+# Approximate minimum fill (MUMPS ICNTL(7)): on graded triangles the fill of PORD, the default
+# without METIS and SCOTCH, in a sixth of the time.
 ORDERING = 2
 
 # Only options reach ICNTL(7) in all PETSc releases; the prefix keeps them apart from others'.
@@ -33,10 +32,9 @@ REASONS = {
 }
 
 
-# Time of a factorisation on one core (Debian 12, MUMPS 5.5 on the reference BLAS, minimum-fill
-# ordering, 10 000 to 500 000 unknowns). Elements that grow from a refined surface cost 3 to 4 us an
-# unknown. Many equal elements, as in a stress window, cost more: 4.8 us at 34 000 unknowns, 8.3 us
-# at 100 000, 15 us at 350 000. The law follows the latter.
+# Time of a factorisation on one core (MUMPS 5.5 on the reference BLAS, 10 000 to 500 000 unknowns).
+# Elements that grow from a refined surface cost 3 to 4 us an unknown, many equal ones, as in a
+# stress window, more: 4.8 us at 34 000 unknowns, 15 us at 350 000. The law follows the latter.
 SECONDS_LINEAR = 2.4e-6  # an unknown: reading, ordering, small fronts
 SECONDS_FRONTS = 2.1e-8  # an unknown to the power 1.5: large fronts in two dimensions
 
@@ -57,9 +55,8 @@ def release_with(owner: object, *objects: "Object") -> None:
 
 
 class SymmetricFactor:
-    """LDL^T of an assembled symmetric positive definite PETSc matrix.
+    """LDL^T of an assembled symmetric positive definite PETSc matrix, both triangles stored.
 
-    matrix      PETSc Mat, both triangles stored
     bytes       memory that MUMPS holds for the factor, over all processes
     solves      right-hand sides so far
 
@@ -104,9 +101,7 @@ class SymmetricFactor:
 
 def factorised(matrix: "Mat", symmetric: bool = True) -> "tuple[KSP, Mat]":
     """KSP that owns MUMPS' factor of a PETSc matrix, and the factor: LDL^T, or LU without symmetry.
-
-    Raises FemError if MUMPS cannot factor it.
-    """
+    Raises FemError if MUMPS cannot factor it."""
     spare = SPARE_ROOM
     while True:
         ksp, factor, info = _attempt(matrix, symmetric, spare)
@@ -152,17 +147,13 @@ def _attempt(matrix: "Mat", symmetric: bool, spare: int) -> "tuple[KSP, Mat, int
 
 
 def solve_once(matrix: csr_matrix, right: np.ndarray, symmetric: bool) -> np.ndarray:
-    """x (n,) of matrix x = right, on one process.
-
-    `symmetric` matrices, definite or not, are factored as LDL^T, which holds half of what LU
-    does. Raises FemError if MUMPS cannot factor it or the solution is not finite.
-    """
+    """x (n,) of matrix x = right, on one process. `symmetric` matrices, definite or not, are
+    factored as LDL^T. Raises FemError if MUMPS cannot factor it or the solution is not finite."""
     from petsc4py import PETSc
 
     matrix.sort_indices()
-    system = PETSc.Mat().createAIJ(
-        matrix.shape, csr=(matrix.indptr, matrix.indices, matrix.data), comm=PETSc.COMM_SELF
-    )
+    csr = (matrix.indptr, matrix.indices, matrix.data)
+    system = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
     if symmetric:
         system.setOption(PETSc.Mat.Option.SYMMETRIC, True)
     load, found = system.createVecs()

@@ -1,10 +1,9 @@
 """The exact stress around kinks in a traction, which polynomials cannot follow.
 
-A piecewise-linear pressure has a kink at every node. Near it the stress varies as w ln w, whose
-second derivative is unbounded, in every body with a smooth boundary. The fields here have such a
-kink and no other load nearby. A displacement minus these fields is smooth, so that its stresses can
-be recovered (`fem.stress.recovery`) and interpolated (`fem.stress.stress`). Weights that decrease
-with the distance limit each kink to the elements around it.
+A piecewise-linear pressure has a kink at every node, near which the stress varies as w ln w, with
+an unbounded second derivative. The fields here have such a kink and no other load nearby, so that a
+displacement minus these fields is smooth: its stresses can be recovered (`fem.stress.recovery`) and
+interpolated (`fem.stress.stress`). Weights limit each kink to the elements around it.
 
 Nomenclature
     w            place relative to the kink, along the surface + i times into the body [m]
@@ -24,10 +23,9 @@ the Mathematical Theory of Elasticity, 1953, section 32)
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-
-from analytic.material import Material
 
 # Reach of the weights in root mean square radii of a patch or an element. At 5 the errors in the
 # first layers of elements are within a fifth of those with unlimited reach.
@@ -39,13 +37,10 @@ Field = Callable[[np.ndarray, np.ndarray], list[np.ndarray]]
 
 @dataclass(frozen=True)
 class Weights:
-    """Weights of the kinks near n patches, each a run of neighbouring kinks.
+    """Weights of the kinks near n patches, each a run of neighbouring kinks."""
 
-    first  (n,) number of a patch's first kink; start (n + 1,) where in `value` its weights begin
-    """
-
-    first: np.ndarray
-    start: np.ndarray
+    first: np.ndarray  # (n,) number of a patch's first kink
+    start: np.ndarray  # (n + 1,) where in `value` the weights of a patch begin
     value: np.ndarray
 
     @property
@@ -63,10 +58,8 @@ class Kinks:
     jump: np.ndarray
 
     def weights(self, centre: np.ndarray, radius: np.ndarray, seen: np.ndarray) -> Weights:
-        """Weights for patches around `centre` (n, 2) [m] of a `radius` (n,) [m].
-
-        `seen` (n,) marks the patches that kinks can reach: those of the material at the surface.
-        """
+        """Weights for patches around `centre` (n, 2) [m] of a `radius` (n,) [m]. `seen` (n,) marks
+        the patches that kinks can reach: those of the material at the surface."""
         centre, reach = centre[:, 0] + 1j * centre[:, 1], REACH * radius * seen
         below = np.maximum(0.0, centre.imag - self.place.imag.max(initial=-np.inf))
         across = np.sqrt(np.maximum(0.0, reach**2 - below**2))
@@ -103,38 +96,26 @@ class Kinks:
     def stress(
         self, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
     ) -> np.ndarray:
-        """sx, sz, txz (r, q, 3) [Pa] of the kinks, weighted as for each `patch`.
-
-        patch (r,) rows of the weights, place (n, 2) [m], point (r, q) numbers of places.
-        """
+        """sx, sz, txz (r, q, 3) [Pa] of the kinks, weighted as for each `patch`. patch (r,) rows of
+        the weights, place (n, 2) [m], point (r, q) numbers of places."""
         total, turned = _weighted(self._stress, weights, patch, place, point)
         total, turned = 0.5 * total.real, 0.5 * turned
         return np.stack([total - turned.real, total + turned.real, turned.imag], axis=-1)
 
     def displacement(
-        self,
-        weights: Weights,
-        patch: np.ndarray,
-        place: np.ndarray,
-        point: np.ndarray,
-        material: Material,
+        self, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray, nu: float
     ) -> np.ndarray:
-        """u_x, u_z (r, q, 2) [m] of the kinks, with arguments as of `stress`."""
-
-        def field(kink: np.ndarray, where: np.ndarray) -> list[np.ndarray]:
-            return self._displacement(kink, where, material.poissons_ratio)
-
+        """G (u_x, u_z) (r, q, 2) [N/m] of the kinks, with other arguments as of `stress`."""
+        field = partial(self._displacement, nu=nu)
         (moved,) = _weighted(field, weights, patch, place, point)
-        return np.stack([moved.real, moved.imag], axis=-1) / material.shear_modulus
+        return np.stack([moved.real, moved.imag], axis=-1)
 
 
 def _weighted(
     field: Field, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
 ) -> list[np.ndarray]:
-    """Sums (r, q) over the kinks of the values of a field at `place`[point], weighted by patch.
-
-    The field is computed once for each pair of a place and a kink.
-    """
+    """Sums (r, q) over the kinks of the values of a field at `place`[point], weighted by patch. The
+    field is computed once for each pair of a place and a kink."""
     near = np.flatnonzero(weights.count[patch])
     first, count = weights.first[patch[near]], weights.count[patch[near]]
     point, start = point[near], weights.start[patch[near]]

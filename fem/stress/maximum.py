@@ -1,9 +1,9 @@
 """The largest value of a stress quantity in a body, and its place.
 
 Nodes alone miss the place of a flat maximum by half an element. Elements with a high node are
-sampled, the best of them finely. Away from the surface, where stresses are smooth, a cubic fitted
-to the stresses around the best sample gives the maximum. Hertz's largest shear stress at 10 to 80
-edges a half-width: value within 1e-3, depth within 6e-3 (the best sample: 1.5e-2).
+sampled, the best of them finely. Away from the surface a cubic fitted to the stresses around the
+best sample gives the maximum. Hertz's largest shear stress at 10 to 80 edges a half-width: value
+within 1e-3, depth within 6e-3 (the best sample: 1.5e-2).
 """
 
 from collections.abc import Callable
@@ -23,10 +23,9 @@ UNSEEN = 0.25  # largest excess over an element's highest node, as a part of the
 COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
 BEST = 16  # elements sampled finely
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
-# the cubic: it uses those around all of them. The next sample is lower by about 1e-5.
+# the cubic: it uses those around all of them.
 ALIKE = 1e-8
-# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it stresses are not
-# smooth on the elements' scale, and the sample is better.
+# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it the sample is better.
 MISFIT = 0.01
 
 
@@ -83,9 +82,7 @@ def _lattice(count: int) -> np.ndarray:
 
 def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
     """Whether places (..., 2) lie in the window."""
-    if window is None:
-        return np.ones(place.shape[:-1], dtype=bool)
-    x0, x1, z1 = window
+    x0, x1, z1 = window or (-np.inf, np.inf, np.inf)
     return (place[..., 0] >= x0) & (place[..., 0] <= x1) & (place[..., 1] <= z1)
 
 
@@ -113,8 +110,8 @@ def _smooth_maximum(
         return -float(of(_cubic(at[None]) @ fit)[0]) / abs(start.value)
 
     low, high = offset.min(axis=0), offset.max(axis=0)
-    # to 1e-9 of the patch: independent of rounding of the stresses
     bounds = list(zip(low, high, strict=True))
+    # to 1e-9 of the patch: independent of rounding of the stresses
     top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
     if not top.success or np.any((top.x <= low) | (top.x >= high)):
         return None

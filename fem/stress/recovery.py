@@ -3,18 +3,16 @@
 The stresses of quadratic displacements are most accurate at the three inner Gauss points of an
 element. A quadratic polynomial is fitted to those of the elements around each vertex; its value is
 the vertex's stress, and the mean of two vertices' polynomials the stress at the midpoint of their
-edge (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng. 33, 1331-1364). For linear displacements
-the polynomial is linear, for cubic ones cubic. Patches hold elements of one material.
+edge (Zienkiewicz and Zhu 1992, Int. J. Numer. Methods Eng. 33, 1331-1364). For displacements of
+degree 1 or 3 the polynomial has that degree. Patches hold elements of one material.
 
-Polynomials do not follow the kinks of a pressure. The displacement due to the kinks near a patch,
-interpolated on the same elements, is therefore subtracted before the fit, and their exact stress is
-added after it (`fem.stress.kinks`). Patches at the surface have samples on its edges too: the load
-gives the stress across the surface, its stretch the stress along it.
-
-Against the exact stresses of hat pressures on a flat surface (edges as long as the pitch, 10 to
-80 to a half-width, Hertz and random, friction 0 to 0.3) the error in the first layer of elements is
-1.2 to 1.8 times that in the third; without treatment of kinks it is three to six times larger. On
-a wavy surface of slope 0.1, ten elements to a wave, it is twice that in the third layer.
+Polynomials do not follow the kinks of a pressure: the displacement due to the kinks near a patch,
+interpolated on the same elements, is subtracted before the fit, and their exact stress added after
+it (`fem.stress.kinks`). Patches at the surface have samples on its edges too: the load gives the
+stress across the surface, its stretch the stress along it. With hat pressures on a flat surface the
+error in the first layer of elements is 1.2 to 1.8 times that in the third (edges as long as the
+pitch, 10 to 80 to a half-width, friction 0 to 0.3), without treatment of kinks three to six times
+more; on waves of slope 0.1, ten elements long, it is twice that in the third layer.
 
 The difference between recovered and element stresses estimates the error of the latter (same
 source), in the energy norm E^2 = integral (s* - s) : strain of (s* - s).
@@ -28,12 +26,11 @@ from scipy.sparse import csr_matrix, diags
 from analytic.stress_state import StressState
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import GAUSS, collapsed_gauss, edge_shapes, gradients, jacobians, shapes
-from fem.stress.kinks import Kinks
+from fem.stress.kinks import Kinks, Weights
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 from meshes.block import EDGES
 
-# Fewest elements of a patch: their samples overdetermine a polynomial. Smaller patches take in the
-# elements around their vertices.
+# Fewest elements of a patch; smaller patches take in the elements around their vertices.
 LEAST_ELEMENTS = 5
 
 # Points of an element at which stresses are sampled, by the degree of the displacement: Gauss
@@ -42,18 +39,14 @@ NEAR_EDGE, NEAR_VERTEX = 0.445948490915965, 0.091576213509771
 SAMPLED = {
     1: np.array([[1.0, 1.0]]) / 3.0,
     2: GAUSS,
-    3: np.array(
-        [
-            place
-            for a in (NEAR_EDGE, NEAR_VERTEX)
-            for place in ([a, a], [1.0 - 2.0 * a, a], [a, 1.0 - 2.0 * a])
-        ]
+    3: np.concatenate(
+        [[[a, a], [1.0 - 2.0 * a, a], [a, 1.0 - 2.0 * a]] for a in (NEAR_EDGE, NEAR_VERTEX)]
     ),
 }
 
-# Weight of a sample on the surface's edges against one in an element. With 16 instead of 4 the
-# error in the first layer changes by -30 % where the surface bends within a few elements and by
-# +25 % where it is flat and the pressure kinked, with 1 by +40 % and -5 %.
+# Weight of a sample on the surface's edges against one in an element. The error in the first layer
+# where the surface bends within a few elements, and where it is flat and the pressure kinked,
+# changes by -30 and +25 % with 16, by +40 and -5 % with 1.
 SURFACE_WEIGHT = 4.0
 
 # Weight of a small curvature against the fit: decides only where samples leave it open.
@@ -66,9 +59,7 @@ LINE_POINTS = 3
 @dataclass(frozen=True)
 class StressNodes:
     """Nodes of the stresses: mesh points, on the interface of a coating one for each material.
-
-    point (k,) is the mesh point of each node; triangles (m, 6) are the nodes of each triangle.
-    """
+    point (k,) is the mesh point of each node; triangles (m, 6) are the nodes of each triangle."""
 
     point: np.ndarray
     triangles: np.ndarray
@@ -100,26 +91,18 @@ def stress_nodes(body: ElasticBody) -> StressNodes:
 class Patches:
     """The elements around each vertex, and the edges between vertices.
 
-    vertex    (v,) the stress node in the middle of each patch
-    coated    (v,) whether it belongs to the coating
-    start     (v + 1,) where the elements of each patch begin in `element`
-    element   (p,) elements of all patches in turn
-    patch     (p,) their patches
-    beside    (s, 2) pairs of a patch and an edge of the surface that touch
-    ends      (e, 2) patches at the ends of each edge
-    middle    (e,) the stress node in the middle of each edge
-    shares    (e, 2) weights of the two ends at the middle: an end on a side of the block, with half
-              a patch, has weight 0 if the other end has a whole one
+    An end of an edge on a side of the block, with half a patch, has no share of the stress in the
+    middle if the other end has a whole one.
     """
 
-    vertex: np.ndarray
-    coated: np.ndarray
-    start: np.ndarray
-    element: np.ndarray
-    beside: np.ndarray
-    ends: np.ndarray
-    middle: np.ndarray
-    shares: np.ndarray
+    vertex: np.ndarray  # (v,) the stress node in the middle of each patch
+    coated: np.ndarray  # (v,) whether it belongs to the coating
+    start: np.ndarray  # (v + 1,) where the elements of each patch begin in `element`
+    element: np.ndarray  # (p,) elements of all patches in turn
+    beside: np.ndarray  # (s, 2) pairs of a patch and an edge of the surface that touch
+    ends: np.ndarray  # (e, 2) patches at the ends of each edge
+    middle: np.ndarray  # (e,) the stress node in the middle of each edge
+    shares: np.ndarray  # (e, 2) weights of the two ends at the middle
 
     @property
     def patch(self) -> np.ndarray:
@@ -127,7 +110,6 @@ class Patches:
 
 
 def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
-    """Patches of a body with stresses at `nodes`."""
     vertex = np.unique(nodes.triangles[:, :3])
     position = np.zeros(len(nodes.point), dtype=np.int64)
     position[vertex] = np.arange(len(vertex))
@@ -138,10 +120,12 @@ def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
     edge = np.arange(len(top) - 1)
     beside = np.column_stack([np.concatenate([top[:-1], top[1:]]), np.tile(edge, 2)])
     start, element = _around(corner, len(vertex))
+    sides, outer = body.sides, np.zeros(len(body.points), dtype=bool)
+    outer[np.concatenate([sides.top, sides.bottom, sides.left, sides.right])] = True
 
     middle, first = np.unique(nodes.triangles[:, 3:].ravel(), return_index=True)
     ends = corner[:, EDGES].reshape(-1, 2)[first]
-    inner = ~_outer(body, nodes)[vertex][ends]
+    inner = ~outer[nodes.point[vertex]][ends]
     equal = inner[:, :1] == inner[:, 1:]
     shares = np.where(equal, 0.5, inner.astype(float))
     return Patches(vertex, coated, start, element, beside, ends, middle, shares)
@@ -153,22 +137,12 @@ def _around(corner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     touch = csr_matrix((np.ones(corner.size), (corner.ravel(), element)), (count, len(corner)))
     few = np.diff(touch.indptr) < LEAST_ELEMENTS
     around = touch[few] @ touch.T @ touch
-    spread = csr_matrix(
-        (np.ones(few.sum()), (np.flatnonzero(few), np.arange(few.sum()))), (count, few.sum())
-    )
-    patch = diags((~few).astype(float)) @ touch + spread @ around
-    patch = patch.tocsr()
+    place = (np.flatnonzero(few), np.arange(few.sum()))
+    spread = csr_matrix((np.ones(few.sum()), place), (count, few.sum()))
+    patch = (diags((~few).astype(float)) @ touch + spread @ around).tocsr()
     patch.eliminate_zeros()
     patch.sort_indices()
     return patch.indptr, patch.indices
-
-
-def _outer(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
-    """(k,) whether a stress node is on a side of the block."""
-    sides = body.sides
-    outer = np.zeros(len(body.points), dtype=bool)
-    outer[np.concatenate([sides.top, sides.bottom, sides.left, sides.right])] = True
-    return outer[nodes.point]
 
 
 def element_stress(body: ElasticBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
@@ -179,23 +153,22 @@ def element_stress(body: ElasticBody, displacement: np.ndarray, at: np.ndarray) 
 def recovered_stress(
     body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad | None = None
 ) -> np.ndarray:
-    """sx, sz, txz (k, 3) [Pa] at the body's `stress_nodes` of a displacement (n, 2) [m].
-
-    `load` gives the tractions on the surface; None: no samples there.
-    """
+    """sx, sz, txz (k, 3) [Pa] at the body's `stress_nodes` of a displacement (n, 2) [m]. `load`
+    gives the tractions on the surface; None: no samples there."""
     nodes = stress_nodes(body)
     points, patches = body.points[nodes.point], patches_of(body, nodes)
     sampled = SAMPLED[body.degree]
-    place = np.einsum(
-        "mac,qa->mqc", body.points[body.mesh.triangles], shapes(sampled), optimize=True
-    )
+    corner = body.points[body.mesh.triangles]
+    place = np.einsum("mac,qa->mqc", corner, shapes(sampled), optimize=True)
     centre, patch, first = points[patches.vertex], patches.patch, patches.start[:-1]
     offset = place[patches.element] - centre[patch][:, None]
     count = np.diff(patches.start) * len(sampled)
     radius = np.sqrt(np.add.reduceat((offset**2).sum(axis=(1, 2)), first) / count)
     stress = element_stress(body, displacement, sampled)[patches.element]
     if load is not None:
-        near = _NearKinks(body, load.kinks, patches, points, radius)
+        seen = patches.coated == body.coated.any()
+        weights = load.kinks.weights(centre, radius, seen)
+        near = _NearKinks(body, load.kinks, weights, patches, points)
         stress -= near.samples(sampled)
 
     terms = _terms(offset / radius[patch][:, None, None], body.degree)
@@ -215,27 +188,24 @@ def recovered_stress(
     terms = _terms(offset / radius[patches.ends][..., None], body.degree)
     at_vertex, at_middle = fit[:, 0], np.einsum("eki,ekic->ekc", terms, fit[patches.ends])
     if load is not None:
-        at_vertex, at_middle = at_vertex + near.at_vertices(), at_middle + near.at_middles()
+        at_vertex = at_vertex + near.at(np.arange(len(centre)), patches.vertex)
+        ends, middle = patches.ends.ravel(), np.repeat(patches.middle, 2)
+        at_middle = at_middle + near.at(ends, middle).reshape(-1, 2, 3)
     result = np.empty((len(points), 3))
     result[patches.vertex] = at_vertex
     result[patches.middle] = np.einsum("ek,ekc->ec", patches.shares, at_middle)
     return result
 
 
+@dataclass(frozen=True)
 class _NearKinks:
     """The kinks near each patch: stresses to subtract from its samples and to add to its fit."""
 
-    def __init__(
-        self,
-        body: ElasticBody,
-        kinks: Kinks,
-        patches: Patches,
-        points: np.ndarray,
-        radius: np.ndarray,
-    ) -> None:
-        self.body, self.kinks, self.patches, self.points = body, kinks, patches, points
-        seen = patches.coated == body.coated.any()
-        self.weights = kinks.weights(points[patches.vertex], radius, seen)
+    body: ElasticBody
+    kinks: Kinks
+    weights: Weights
+    patches: Patches
+    points: np.ndarray
 
     def samples(self, sampled: np.ndarray) -> np.ndarray:
         """sx, sz, txz (p, q, 3) of the kinks' displacement interpolated on the elements."""
@@ -273,34 +243,25 @@ class _NearKinks:
         s_tt = material.plane_strain_modulus * e_tt + nu / (1.0 - nu) * s_nn
         return patch, place, from_surface(t, s_tt, s_nn, s_nt)
 
-    def at_vertices(self) -> np.ndarray:
-        """sx, sz, txz (v, 3) of the kinks at the patches' vertices."""
-        every, vertex = np.arange(len(self.patches.vertex)), self.patches.vertex[:, None]
-        return self.kinks.stress(self.weights, every, self.points, vertex)[:, 0]
-
-    def at_middles(self) -> np.ndarray:
-        """sx, sz, txz (e, 2, 3) at the edges' middles, of the kinks near each end's patch."""
-        middle = np.repeat(self.patches.middle, 2)[:, None]
-        ends = self.patches.ends.ravel()
-        return self.kinks.stress(self.weights, ends, self.points, middle).reshape(-1, 2, 3)
+    def at(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
+        """sx, sz, txz (r, 3) at stress nodes (r,), of the kinks near the patches (r,)."""
+        return self.kinks.stress(self.weights, patch, self.points, node[:, None])[:, 0]
 
     def _displacement(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
         """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body."""
         body, count = self.body, len(self.body.nodes)
         pair, which = np.unique(patch[:, None] * count + node, return_inverse=True)
         patch, point = np.divmod(pair, count)
-        moved = self.kinks.displacement(
-            self.weights, patch, body.nodes, point[:, None], body.surface_material
-        )
-        return moved[which.reshape(node.shape), 0]
+        nu, shear = body.surface_material.poissons_ratio, body.surface_material.shear_modulus
+        moved = self.kinks.displacement(self.weights, patch, body.nodes, point[:, None], nu)
+        return moved[which.reshape(node.shape), 0] / shear
 
 
 def _edge_slopes(at: np.ndarray, degree: int) -> np.ndarray:
     """d shape / dt (q, degree + 1) of an edge's nodes in turn, at places t (q,) from 0 to 1."""
     power = np.arange(degree + 1)
-    nodes = (power[:, None] / degree) ** power
     slope = power * at[:, None] ** np.maximum(power - 1, 0)
-    return slope @ np.linalg.inv(nodes)
+    return slope @ np.linalg.inv((power[:, None] / degree) ** power)
 
 
 def _stress(

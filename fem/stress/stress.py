@@ -16,16 +16,11 @@ from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 @dataclass(frozen=True)
 class NodalStress:
-    """Stresses at the nodes of a body, and what interpolates them.
+    """Stresses at the nodes of a body, and what interpolates them."""
 
-    stress  (k,) at the nodes [Pa], with Poisson's ratio there
-    nodes   their mesh points, and the nodes of each triangle
-    kinks   of the pressure; None: stresses are quadratic in every element
-    """
-
-    stress: MaterialStress
-    nodes: StressNodes
-    kinks: Kinks | None = None
+    stress: MaterialStress  # (k,) at the nodes [Pa], with Poisson's ratio there
+    nodes: StressNodes  # their mesh points, and the nodes of each triangle
+    kinks: Kinks | None = None  # of the pressure; None: stresses are quadratic in every element
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -55,17 +50,14 @@ def nodal_stress(
     t = load.tangent(x)
     s_tt, _, _ = to_surface(t, values[top])
     values[top] = from_surface(t, s_tt, *load.across(x))
-    stress = MaterialStress(*values.T, _poissons_ratio(body, nodes))
-    return NodalStress(stress, nodes, load.kinks)
+    return _nodal(body, StressState(*values.T), load.kinks)
 
 
 def at_mesh_points(body: ElasticBody, stress: StressState) -> NodalStress:
     """Stresses of a plain body from those at the mesh's points (n,), quadratic between them."""
     if body.coated.any():
         raise ValueError("a coated body has two stresses at the points of its interface")
-    nodes = stress_nodes(body)
-    nu = _poissons_ratio(body, nodes)
-    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes)
+    return _nodal(body, stress)
 
 
 def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> StressState:
@@ -104,8 +96,9 @@ def within(
     return share @ value[which] + nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
 
 
-def _poissons_ratio(body: ElasticBody, nodes: StressNodes) -> np.ndarray:
-    """(k,) of the material at each node."""
+def _nodal(body: ElasticBody, stress: StressState, kinks: Kinks | None = None) -> NodalStress:
+    """Stresses with Poisson's ratio of the material at each node."""
+    nodes = stress_nodes(body)
     nu = np.empty(len(nodes.point))
     nu[nodes.triangles] = body.poissons_ratio[:, None]
-    return nu
+    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes, kinks)

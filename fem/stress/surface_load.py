@@ -12,25 +12,19 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import Direction, straight_down, tangent_of
+from fem.body.surface import Direction, tangent_of
 from fem.stress.kinks import Kinks
 
 
 @dataclass(frozen=True)
 class SurfaceLoad:
-    """Hat pressures on a body and the sliding traction that goes with them.
-
-    hats       (count + 2,) [m] nodes of the hats, with the feet of the outer two
-    pressure   (count,) [Pa]
-    friction   times the pressure is the sliding traction towards +x
-    direction  of the pressure, as in `fem.compliance.operator`
-    """
+    """Hat pressures on a body and the sliding traction that goes with them."""
 
     body: ElasticBody
-    hats: np.ndarray
-    pressure: np.ndarray
-    friction: float = 0.0
-    direction: Direction = straight_down
+    hats: np.ndarray  # (count + 2,) [m] nodes of the hats, with the feet of the outer two
+    pressure: np.ndarray  # (count,) [Pa]
+    friction: float  # times the pressure is the sliding traction towards +x
+    direction: Direction  # of the pressure, as in `fem.compliance.operator`
 
     @cached_property
     def kinks(self) -> Kinks:

@@ -1,6 +1,7 @@
 """Bodies to test on: structured blocks with exact control of the nodes; a pressed half-plane."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -14,7 +15,7 @@ from fem.body.elasticity import ElasticBody, Support, elastic_body
 from fem.body.exact_load import forces_of
 from fem.compliance.operator import FiniteElementCompliance
 from fem.stress.stress import NodalStress, nodal_stress
-from meshes.block import BlockMesh, BlockSpec, structured
+from meshes.block import BlockMesh, BlockSpec, add_midpoints, structured
 from meshes.build import build_block
 
 
@@ -25,9 +26,31 @@ def graded_grid(extent: float, first: float, ratio: float) -> np.ndarray:
     return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * extent
 
 
+def moved_block(
+    x: np.ndarray, z: np.ndarray, height: Callable | None = None, seed: int | None = None
+) -> BlockMesh:
+    """A structured block with its top at -height(x) and, by `seed`, random inner vertices.
+
+    The shift decreases linearly to the bottom; inner vertices move by up to a fifth of a cell,
+    against symmetries that hide a mistake.
+    """
+    mesh = structured(x, z)
+    if seed is not None:
+        vertices = mesh.points[: len(x) * len(z)].reshape(len(x), len(z), 2)
+        random = np.random.default_rng(seed)
+        for axis, cell in ((0, np.gradient(x)[1:-1, None]), (1, np.gradient(z)[None, 1:-1])):
+            inner = vertices[1:-1, 1:-1, axis]
+            inner += 0.2 * cell * random.uniform(-1, 1, inner.shape)
+        points, _ = add_midpoints(vertices.reshape(-1, 2), mesh.triangles[:, :3])
+        mesh = replace(mesh, points=points)
+    if height is not None:
+        mesh.shift[:, 1] = -height(mesh.points[:, 0]) * (1.0 - mesh.points[:, 1] / z[-1])
+    return mesh
+
+
 @pytest.fixture(scope="session")
 def structured_block() -> Callable[..., BlockMesh]:
-    return structured
+    return moved_block
 
 
 @pytest.fixture(scope="session")
@@ -153,7 +176,7 @@ class HatGrid:
     def body(self, modulus=1.0, poisson=0.3, height=None, support=None) -> ElasticBody:
         outer = graded_grid(10.0, 0.1, 1.6)
         x = np.concatenate([-1.5 - outer[:0:-1], np.linspace(-1.5, 1.5, 31), 1.5 + outer[1:]])
-        mesh = structured(x, outer, height)
+        mesh = moved_block(x, outer, height)
         return elastic_body(mesh, Material(modulus, poisson), support or Support())
 
     def compliance(self, body: ElasticBody) -> FiniteElementCompliance:

@@ -5,6 +5,7 @@ import pytest
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.surface import straight_down
 from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.nonlinear.hyperelastic import (
     NeoHookeanBody,
@@ -97,7 +98,7 @@ def test_rigid_motions_give_no_stress(body, response):
     moved = deformed_by(body, [[c - 1.0, s], [-s, c - 1.0]]) + np.array([0.3, -0.2])
     force, _ = response.linearised(moved)
     assert np.abs(force).max() < 1e-13 * MU
-    nothing = SurfaceLoad(body, body.top.x[[0, 2, -1]], np.zeros(1))
+    nothing = SurfaceLoad(body, body.top.x[[0, 2, -1]], np.zeros(1), 0.0, straight_down)
     found = nodal_cauchy_stress(body, moved, nothing, np.zeros(len(body.top.x)))
     linear = recovered_stress(body, moved)
     assert np.abs(linear).max() > 0.1 * MU  # the linear stress takes it for a strain

@@ -40,7 +40,8 @@ def stress(kinks, place):
 def displacement(kinks, place):
     every = np.arange(len(place))
     weights = all_of(kinks, len(place))
-    return kinks.displacement(weights, every, place, every[:, None], MATERIAL)[:, 0]
+    moved = kinks.displacement(weights, every, place, every[:, None], MATERIAL.poissons_ratio)
+    return moved[:, 0] / MATERIAL.shear_modulus
 
 
 def hat(friction, tangent=1.0):
