@@ -1,1 +1,1 @@
-"""Contact on finite elements beside CalculiX."""
+"""Contact on finite elements beside CalculiX and scikit-fem."""

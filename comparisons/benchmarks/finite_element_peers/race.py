@@ -1,9 +1,9 @@
-"""Contact on finite elements beside CalculiX, on one thread, at equal error.
+"""Contact on finite elements beside other codes, on one thread, at equal error.
 
     python -m comparisons.benchmarks.finite_element_peers
 
-A cylinder, waves and roughness on it, pressed on the same blocks with the same meshes by CalculiX,
-in the way of its users, and by this project. Processor time of a solution,
+A cylinder, waves and roughness on it, pressed on the same blocks with the same meshes by CalculiX
+and scikit-fem, each in the way of its users, and by this project. Processor time of a solution,
 from the mesh in memory to the pressures, in a process that has solved the same before (CalculiX:
 without start and reading). On each mesh all codes run in turn, several times, so that disturbances
 by other processes are shared. A code that fails on a mesh, or exceeds the limit there, is not run
@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 from comparisons.benchmarks.finite_element_peers import cases
 from comparisons.benchmarks.finite_element_peers.calculix import calculix
+from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
 from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table, timed
 
 CASES = ("cylinder", "waves", "rough")
@@ -64,7 +65,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--rounds", type=int, default=3, help="timed solutions on a mesh")
     parser.add_argument("--limit", type=float, default=60.0, help="processor seconds for one")
     options = parser.parse_args(arguments)
-    ours, peers = cases.crosscheck(), installed(calculix)
+    ours, peers = cases.crosscheck(), installed(calculix, scikit_fem)
     found, rows = [], []
     for name in options.cases:
         case = getattr(cases, name)()

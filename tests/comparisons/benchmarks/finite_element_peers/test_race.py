@@ -17,6 +17,7 @@ from comparisons.benchmarks.finite_element_peers.race import (
     time_at,
     times_at_errors,
 )
+from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
 from comparisons.benchmarks.harness import AbsentError
 
 
@@ -101,18 +102,20 @@ def test_absent_peers_are_named(cylinder, monkeypatch, capsys):
     def absent():
         raise AbsentError("Some is not installed")
 
-    monkeypatch.setattr(race, "calculix", absent)
+    for name in ("calculix", "scikit_fem"):
+        monkeypatch.setattr(race, name, absent)
     monkeypatch.setattr(cases, "cylinder", lambda: replace(cylinder, edges=(5,)))
     assert race.main(["--cases", "cylinder", "--rounds", "1"]) == 1
     shown = capsys.readouterr().out
-    assert shown.count("skipped: Some is not installed") == 1
+    assert shown.count("skipped: Some is not installed") == 2
     assert "no peer is installed" in shown
     assert shown.count("a hat an edge") == 1
 
 
-def test_the_peer_finds_the_same_pressures(cylinder):
+@pytest.mark.parametrize("peer", [calculix, scikit_fem])
+def test_peers_find_the_same_pressures(peer, cylinder):
     try:
-        (code,) = calculix()
+        (code,) = peer()
     except AbsentError as absent:
         pytest.skip(str(absent))
     answer = code.solve(cylinder.task(10))
