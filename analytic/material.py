@@ -50,10 +50,9 @@ def combined_modulus(first: Material | None, second: Material | None) -> float:
 def dundurs_constants(body: Material, roller: Material | None) -> tuple[float, float]:
     """Dundurs' (alpha, beta) in plane strain, `roller` as the first body (Barber 2018, ch. 4).
 
-    alpha = (1/E'_body - 1/E'_roller) / (1/E'_body + 1/E'_roller); beta weighs the two
-    (1-2nu)/G in the same way and vanishes for equal materials, so that a tangential
-    traction then moves the two surfaces alike and leaves the normal problem untouched.
-    A rigid roller gives alpha = 1 and beta = (1-2nu)/(2(1-nu)) of the body.
+    alpha = (1/E'_body - 1/E'_roller) / (1/E'_body + 1/E'_roller); beta weighs the two (1-2nu)/G in
+    the same way. It vanishes for equal materials, whose surfaces a tangential traction moves by the
+    same amount. A rigid roller gives alpha = 1 and beta = (1-2nu)/(2(1-nu)) of the body.
     """
 
     def compliances(material: Material | None) -> tuple[float, float]:

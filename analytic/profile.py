@@ -46,10 +46,7 @@ class Profile:
         return float(np.median(np.diff(self.x)))
 
     def spline(self) -> CubicSpline:
-        """C2 cubic spline through the samples (not-a-knot ends): height(x) [m].
-
-        It extrapolates without a word; `surface` does not.
-        """
+        """C2 cubic spline through the samples: height(x) [m]. Unlike `surface` it extrapolates."""
         return CubicSpline(self.x, self.height)
 
     def shifted(self, position: float) -> "Profile":

@@ -19,7 +19,7 @@ from scipy.special import ellipe, ellipk, roots_jacobi
 from analytic.exact.flattened_cylinder import FlattenedCylinder
 from analytic.exact.sliding import SlidingContact
 from analytic.exact.westergaard import WestergaardContact
-from analytic.layers.layered import LayeredBody, WaveStress, added_stress
+from analytic.layers.layered import LayeredBody, added_stress
 from analytic.numerics import points_below
 from analytic.operators.elements import _EVEN, _Far, _joined, _scaled_difference
 from analytic.stress.elements import FrictionStress, strip_between
@@ -219,7 +219,7 @@ def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStres
 
 def wave_stress(
     body: LayeredBody, wavenumber: ArrayLike, z: ArrayLike
-) -> tuple[WaveStress, WaveStress]:
+) -> tuple[StressState, StressState]:
     """Stresses under p cos kx alone and under q sin kx alone, at depths 0 <= z <= t [m].
 
     k [1/m], k > 0, and z are broadcast together. Raises ValueError for a depth outside the layer.
@@ -228,12 +228,12 @@ def wave_stress(
     normal, traction = added_stress(body, k, z)
     depth, decay = k * z, np.exp(-k * z)
     return (
-        WaveStress(
+        StressState(
             normal.sx - (1.0 - depth) * decay,
             normal.sz - (1.0 + depth) * decay,
             normal.txz - depth * decay,
         ),
-        WaveStress(
+        StressState(
             traction.sx + (2.0 - depth) * decay,
             traction.sz + depth * decay,
             traction.txz - (1.0 - depth) * decay,

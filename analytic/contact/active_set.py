@@ -121,12 +121,10 @@ def _free_beside(
 def exchange_blocks(
     problem: "EquilibriumProblem", start: np.ndarray, settled: float = 0.0
 ) -> np.ndarray:
-    """Primal-dual active set: every node that violates its sign condition changes its state at
-    once.
+    """Pressures (n,) [Pa] by block exchanges from `start`.
 
-    It ends when no more than `settled` of the edges' number break theirs, and with settled = 0
-    when none does in an accurate equilibrium. With settled > 0 it gives up instead of starting
-    the primal method.
+    They end when no more than `settled` of the edges' number break theirs, and with settled = 0
+    when none does in an accurate equilibrium. With settled > 0 the primal method is not tried.
     """
     pressure, reduction = start, REDUCTION
     active = ActiveSet.of(start, problem.constraints.hardness)
@@ -192,9 +190,8 @@ def exchange_feasibly(
         trial = problem.feasible(state.pressure, active.free)
         trial_gap = problem.weighted_gap + problem.apply(trial)
         gain = _energy_lost(pressure, weighted_gap, trial, trial_gap)
-        if gain < WORTHWHILE * _energy_lost(
-            pressure, weighted_gap, state.pressure, equilibrium_gap
-        ):
+        most = _energy_lost(pressure, weighted_gap, state.pressure, equilibrium_gap)
+        if gain < WORTHWHILE * most:
             trial = _first_met(pressure, step, hardness, active.free)
             trial_gap = problem.weighted_gap + problem.apply(trial)
         down, up = active.free & (step < 0.0), active.free & (step > 0.0)

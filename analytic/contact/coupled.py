@@ -159,7 +159,7 @@ def solve_coupled(
     if start is not None:
         pressure, settled = _exchange(problem, start)
     if not settled:
-        start = coarse_start(problem, _settled, COARSEST)
+        start = coarse_start(problem, lambda *given: _exchange(*given, SETTLED)[0], COARSEST)
         pressure, settled = _exchange(problem, start)
     solution = _solution(problem, pressure)
     if not (settled or solution.converged):
@@ -204,10 +204,6 @@ def _exchange(
             reduction, seen = 0.0, set()  # the cycle may be that of loose equilibria
         seen.add(key)
     return pressure, False
-
-
-def _settled(problem: CoupledEquilibrium, start: np.ndarray) -> np.ndarray:
-    return _exchange(problem, start, SETTLED)[0]
 
 
 def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:

@@ -68,7 +68,7 @@ class Extension:
 
 
 class RowExtension:
-    """`Extension` of free nodes in a row, which leave one gap: quicker."""
+    """`Extension` of free nodes in a row, which leave one gap: quicker; methods as there."""
 
     def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
         first, last = int(nodes[0]), int(nodes[-1])
@@ -81,14 +81,12 @@ class RowExtension:
             self._share[:behind], self._share[behind:] = 0.0, 1.0
 
     def extend(self, values: np.ndarray) -> np.ndarray:
-        """E v: displacements (count,) from those (m,) of the free nodes."""
         extended = np.empty(self._count)
         extended[self._row] = values
         extended[self._gap] = values[-1] + self._share * (values[0] - values[-1])
         return extended
 
     def gather(self, values: np.ndarray) -> np.ndarray:
-        """E' v: the grid's (count,) forces as forces (m,) on the free nodes."""
         gathered, outside = values[self._row].copy(), values[self._gap]
         of_first = self._share @ outside
         gathered[0] += of_first

@@ -10,9 +10,8 @@
 Its solution satisfies g >= 0 where p = 0, g = 0 where 0 < p < H, g <= 0 where p = H (the overlap
 that plastic flow would remove).
 
-Method: a primal-dual active set (`analytic.contact.active_set`) on nested grids, each started from
-the next coarser one (`analytic.contact.nested_start`); on a fixed set conjugate gradients
-(`analytic.contact.equilibrium`).
+Method: an active set (`analytic.contact.active_set`) on nested grids, each started from the next
+coarser one (`nested_start`); on a fixed set conjugate gradients (`equilibrium`).
 """
 
 from dataclasses import astuple, dataclass, replace

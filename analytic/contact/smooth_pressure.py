@@ -28,6 +28,7 @@ DISTURBED_OPEN = 1
 # Touching nodes that a patch needs: four undisturbed ones hold a cubic.
 LEAST_NODES = 2 * DISTURBED + 4
 
+Interval = tuple[float, float]
 _AT, _WEIGHT = np.polynomial.legendre.leggauss(8)
 
 
@@ -43,7 +44,7 @@ class Patch:
                   where there is no smooth curve
     """
 
-    ends: tuple[float, float]
+    ends: Interval
     first: int
     last: int
     curve: Callable[[np.ndarray], np.ndarray]
@@ -134,12 +135,7 @@ def _mean_power(local: np.ndarray, nodes: np.ndarray, end: float, power: float) 
 
 
 def _patch(
-    hats: np.ndarray,
-    whole: np.ndarray,
-    nodal: np.ndarray,
-    first: int,
-    last: int,
-    ends: tuple[float, float],
+    hats: np.ndarray, whole: np.ndarray, nodal: np.ndarray, first: int, last: int, ends: Interval
 ) -> Patch:
     x = hats[1:-1]
     held = slice(first + DISTURBED, last + 1 - DISTURBED)

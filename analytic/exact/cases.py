@@ -18,6 +18,8 @@ from analytic.grid import roller_gap
 from analytic.material import Material, combined_modulus, dundurs_constants
 
 Curve = Callable[[np.ndarray], np.ndarray]
+Pair = tuple[Material, Material | None]
+"""Body and roller; a roller of None is rigid."""
 
 STEEL = Material(207e9, 0.3)
 ALUMINIUM = Material(70e9, 0.33)
@@ -75,23 +77,17 @@ class ExactContact:
 
 
 def hertz_case(
-    name: str,
-    body: Material,
-    roller: Material | None,
-    radius: float,
-    peak_pressure: float,
-    friction: float = 0.0,
+    name: str, pair: Pair, radius: float, peak_pressure: float, friction: float = 0.0
 ) -> ExactContact:
     """Cylinder of `radius` [m] under `peak_pressure` [Pa]; with friction only where uncoupled."""
-    hertz = hertz_from_peak_pressure(peak_pressure, radius, combined_modulus(body, roller))
-    if friction and dundurs_constants(body, roller)[1]:
+    hertz = hertz_from_peak_pressure(peak_pressure, radius, combined_modulus(*pair))
+    if friction and dundurs_constants(*pair)[1]:
         raise ValueError("friction between these materials is a sliding case")
     a, extremes = hertz.half_width, hertz_extremes(hertz, friction)
     return ExactContact(
-        name=name,
-        source="Hertz 1882; Smith and Liu 1953 (Johnson 1985, sections 4.2 and 7.1)",
-        body=body,
-        roller=roller,
+        name,
+        "Hertz 1882; Smith and Liu 1953 (Johnson 1985, sections 4.2 and 7.1)",
+        *pair,
         load=hertz.load_per_length,
         gap=roller_gap(radius),
         half_range=1.5 * a,
@@ -108,22 +104,16 @@ def hertz_case(
 
 
 def punch_case(
-    name: str,
-    body: Material,
-    roller: Material | None,
-    half_width: float,
-    flat_share: float,
-    corner_radius: float,
+    name: str, pair: Pair, half_width: float, flat_share: float, corner_radius: float
 ) -> ExactContact:
     """Punch in contact over `half_width` a [m], b = `flat_share` a, corners of R [m]."""
-    modulus = combined_modulus(body, roller)
+    modulus = combined_modulus(*pair)
     b = flat_share * half_width
     punch = rounded_punch_from_half_width(half_width, b, corner_radius, modulus)
     return ExactContact(
-        name=name,
-        source="Ciavarella, Hills and Monno 1998",
-        body=body,
-        roller=roller,
+        name,
+        "Ciavarella, Hills and Monno 1998",
+        *pair,
         load=punch.load_per_length,
         gap=punch.gap,
         half_range=1.5 * half_width,
@@ -134,22 +124,16 @@ def punch_case(
 
 
 def sliding_case(
-    name: str,
-    body: Material,
-    roller: Material | None,
-    radius: float,
-    load_per_length: float,
-    friction: float,
+    name: str, pair: Pair, radius: float, load_per_length: float, friction: float
 ) -> ExactContact:
     """Cylinder of `radius` [m] that slides under P [N/m] on a body of other elastic constants."""
-    modulus, beta = combined_modulus(body, roller), dundurs_constants(body, roller)[1]
+    modulus, beta = combined_modulus(*pair), dundurs_constants(*pair)[1]
     contact = sliding_from_load(load_per_length, radius, modulus, friction, beta)
     left, right = contact.edges
     return ExactContact(
-        name=name,
-        source="Johnson 1985, section 7.2",
-        body=body,
-        roller=roller,
+        name,
+        "Johnson 1985, section 7.2",
+        *pair,
         load=load_per_length,
         gap=roller_gap(radius),
         half_range=2.0 * contact.half_width,
@@ -163,23 +147,17 @@ def sliding_case(
 
 
 def capped_case(
-    name: str,
-    body: Material,
-    roller: Material | None,
-    radius: float,
-    peak_pressure: float,
-    share: float,
+    name: str, pair: Pair, radius: float, peak_pressure: float, share: float
 ) -> ExactContact:
     """Cylinder under the load of `peak_pressure` [Pa], capped at `share` of that."""
-    modulus = combined_modulus(body, roller)
+    modulus = combined_modulus(*pair)
     hertz = hertz_from_peak_pressure(peak_pressure, radius, modulus)
     hardness = share * peak_pressure
     flat = flattened_cylinder(hertz.load_per_length, radius, modulus, hardness)
     return ExactContact(
-        name=name,
-        source="derived in exact.flattened_cylinder",
-        body=body,
-        roller=roller,
+        name,
+        "derived in exact.flattened_cylinder",
+        *pair,
         load=hertz.load_per_length,
         gap=roller_gap(radius),
         half_range=1.5 * flat.contact,
@@ -193,15 +171,10 @@ def capped_case(
 
 
 def wave_case(
-    name: str,
-    body: Material,
-    roller: Material | None,
-    wavelength: float,
-    amplitude: float,
-    share: float,
+    name: str, pair: Pair, wavelength: float, amplitude: float, share: float
 ) -> ExactContact:
     """Sinusoid of `wavelength`, `amplitude` [m] under `share` of the pressure that closes it."""
-    modulus = combined_modulus(body, roller)
+    modulus = combined_modulus(*pair)
     closing = np.pi * modulus * amplitude / wavelength
     wave = westergaard_from_mean_pressure(share * closing, wavelength, amplitude, modulus)
 
@@ -209,10 +182,9 @@ def wave_case(
         return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
 
     return ExactContact(
-        name=name,
-        source="Westergaard 1939 (Johnson 1985, section 13.2)",
-        body=body,
-        roller=roller,
+        name,
+        "Westergaard 1939 (Johnson 1985, section 13.2)",
+        *pair,
         load=wave.load_per_wavelength,
         gap=gap,
         half_range=0.5 * wavelength,
@@ -240,25 +212,25 @@ def _figures(peak_pressure: float, left: float, right: float) -> dict[str, float
 def exact_contacts() -> tuple[ExactContact, ...]:
     """The gallery that every numerical model is held to."""
     return (
-        hertz_case("Hertz, steel on steel", STEEL, STEEL, 8.2e-3, 1.4e9),
-        hertz_case("Hertz, steel on steel, friction 0.1", STEEL, STEEL, 8.2e-3, 4.15e9, 0.1),
-        hertz_case("Hertz, steel on steel, friction 0.3", STEEL, STEEL, 8.2e-3, 1.4e9, 0.3),
-        hertz_case("Hertz, light load", STEEL, STEEL, 50e-3, 1e6),
-        hertz_case("Hertz, ceramic on aluminium", ALUMINIUM, CERAMIC, 20e-3, 0.5e9),
-        hertz_case("Hertz, rigid on rubber", RUBBER, None, 100e-3, 0.2e6),
-        punch_case("rounded punch, flat 0.3", STEEL, None, 1e-3, 0.3, 0.1),
-        punch_case("rounded punch, flat 0.6", STEEL, STEEL, 1e-3, 0.6, 0.2),
-        punch_case("rounded punch, flat 0.9", ALUMINIUM, STEEL, 5e-3, 0.9, 0.5),
-        punch_case("rounded punch, flat 0.99", STEEL, STEEL, 5e-3, 0.99, 0.05),
-        sliding_case("sliding, rigid on steel, friction 0.1", STEEL, None, 10e-3, 1e6, 0.1),
-        sliding_case("sliding, rigid on steel, friction 0.5", STEEL, None, 10e-3, 1e6, 0.5),
-        sliding_case("sliding, rigid on steel, friction -0.3", STEEL, None, 10e-3, 1e6, -0.3),
-        sliding_case("sliding, steel on aluminium, friction 1", ALUMINIUM, STEEL, 5e-3, 1e5, 1.0),
-        sliding_case("sliding, rubber on steel, friction 1", STEEL, RUBBER, 50e-3, 1e3, 1.0),
-        capped_case("flattened cylinder, hardness 0.9", STEEL, STEEL, 8.2e-3, 1.4e9, 0.9),
-        capped_case("flattened cylinder, hardness 0.7", STEEL, None, 8.2e-3, 1.4e9, 0.7),
-        wave_case("Westergaard, 0.01 of closing", STEEL, STEEL, 100e-6, 0.1e-6, 0.01),
-        wave_case("Westergaard, 0.2 of closing", STEEL, None, 1e-3, 1e-6, 0.2),
-        wave_case("Westergaard, 0.9 of closing", ALUMINIUM, STEEL, 100e-6, 0.5e-6, 0.9),
-        wave_case("Westergaard, full contact", STEEL, STEEL, 100e-6, 0.1e-6, 1.5),
+        hertz_case("Hertz, steel on steel", (STEEL, STEEL), 8.2e-3, 1.4e9),
+        hertz_case("Hertz, steel on steel, friction 0.1", (STEEL, STEEL), 8.2e-3, 4.15e9, 0.1),
+        hertz_case("Hertz, steel on steel, friction 0.3", (STEEL, STEEL), 8.2e-3, 1.4e9, 0.3),
+        hertz_case("Hertz, light load", (STEEL, STEEL), 50e-3, 1e6),
+        hertz_case("Hertz, ceramic on aluminium", (ALUMINIUM, CERAMIC), 20e-3, 0.5e9),
+        hertz_case("Hertz, rigid on rubber", (RUBBER, None), 100e-3, 0.2e6),
+        punch_case("rounded punch, flat 0.3", (STEEL, None), 1e-3, 0.3, 0.1),
+        punch_case("rounded punch, flat 0.6", (STEEL, STEEL), 1e-3, 0.6, 0.2),
+        punch_case("rounded punch, flat 0.9", (ALUMINIUM, STEEL), 5e-3, 0.9, 0.5),
+        punch_case("rounded punch, flat 0.99", (STEEL, STEEL), 5e-3, 0.99, 0.05),
+        sliding_case("sliding, rigid on steel, friction 0.1", (STEEL, None), 10e-3, 1e6, 0.1),
+        sliding_case("sliding, rigid on steel, friction 0.5", (STEEL, None), 10e-3, 1e6, 0.5),
+        sliding_case("sliding, rigid on steel, friction -0.3", (STEEL, None), 10e-3, 1e6, -0.3),
+        sliding_case("sliding, steel on aluminium, friction 1", (ALUMINIUM, STEEL), 5e-3, 1e5, 1.0),
+        sliding_case("sliding, rubber on steel, friction 1", (STEEL, RUBBER), 50e-3, 1e3, 1.0),
+        capped_case("flattened cylinder, hardness 0.9", (STEEL, STEEL), 8.2e-3, 1.4e9, 0.9),
+        capped_case("flattened cylinder, hardness 0.7", (STEEL, None), 8.2e-3, 1.4e9, 0.7),
+        wave_case("Westergaard, 0.01 of closing", (STEEL, STEEL), 100e-6, 0.1e-6, 0.01),
+        wave_case("Westergaard, 0.2 of closing", (STEEL, None), 1e-3, 1e-6, 0.2),
+        wave_case("Westergaard, 0.9 of closing", (ALUMINIUM, STEEL), 100e-6, 0.5e-6, 0.9),
+        wave_case("Westergaard, full contact", (STEEL, STEEL), 100e-6, 0.1e-6, 1.5),
     )

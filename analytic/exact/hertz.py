@@ -57,10 +57,7 @@ class HertzContact:
 
     @property
     def tau1_max_depth(self) -> float:
-        """Depth of that shear on the axis [m]: a / sqrt(g), where (6c) below has no slope.
-
-        tau1 = (p0/a) (z - z^2/sqrt(a^2 + z^2)) at x = 0.
-        """
+        """Its depth [m], a / sqrt(g): tau1 = (p0/a) (z - z^2/sqrt(a^2 + z^2)) on the axis."""
         return self.half_width / np.sqrt(_GOLDEN)
 
 

@@ -26,7 +26,7 @@ Thin, a >> t (Johnson 1985, section 5.8):
     incompressible   p = (E/24Rt^3) (a^2 - x^2)^2,  d = a^2/6R  bonded, nu = 1/2
 
 Range: what is left out of the load for a given half-width, relative to it
-    thick           below 0.23 (a/t)^4, of the approach too: 9e-4 at a = t/4
+    thick           below 0.23 (a/t)^4, of the approach too
     compressible    0.53 t/a frictionless, 0.37 t/a bonded with nu = 0.3; the full load is larger.
                     No limit any more where (1 - 2 nu)(a/t)^2 is not large
     incompressible  8 t/a, the full load is larger
@@ -152,9 +152,6 @@ def _check_base(base: str) -> None:
         raise ValueError(f'base must be "bonded" or "frictionless", not {base!r}')
 
 
-TABLE = Path(__file__).with_name("layer_contact.json")
-
-
 @dataclass(frozen=True)
 class LayerReference:
     """A contact in units of the layer.
@@ -176,7 +173,8 @@ class LayerReference:
 
 @cache
 def layer_references() -> tuple[LayerReference, ...]:
-    """All contacts of the table."""
+    """All contacts of layer_contact.json."""
+    table = Path(__file__).with_name("layer_contact.json").read_text(encoding="utf-8")
     return tuple(
         LayerReference(
             half_width=float(row["a_over_t"]),
@@ -186,5 +184,5 @@ def layer_references() -> tuple[LayerReference, ...]:
             load=float(row["P_R_over_Eprime_t2"]),
             error=float(row["rel_error_estimate"]),
         )
-        for row in json.loads(TABLE.read_text(encoding="utf-8"))["cases"]
+        for row in json.loads(table)["cases"]
     )

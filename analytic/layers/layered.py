@@ -43,6 +43,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from analytic.material import Material
+from analytic.stress_state import StressState
 
 _SERIES = 0.5  # w below which sinh 2w - 2w is summed; 12 terms leave less than rounding
 
@@ -228,15 +229,6 @@ class WaveCompliance:
     tangential: np.ndarray
 
 
-@dataclass(frozen=True)
-class WaveStress:
-    """Stresses in the layer under a wave of unit amplitude: sx cos kx, sz cos kx, txz sin kx."""
-
-    sx: np.ndarray
-    sz: np.ndarray
-    txz: np.ndarray
-
-
 def wave_compliance(body: LayeredBody, wavenumber: ArrayLike) -> WaveCompliance:
     """Displacements of the surface under waves of k [1/m], any shape, k >= 0.
 
@@ -263,7 +255,7 @@ def normal_compliance(body: LayeredBody, wavenumber: ArrayLike) -> np.ndarray:
 
 def added_stress(
     body: LayeredBody, wavenumber: np.ndarray, z: np.ndarray
-) -> tuple[WaveStress, WaveStress]:
+) -> tuple[StressState, StressState]:
     """Stresses under p cos kx and under q sin kx less those of a half-plane: what the base adds.
 
     At depths 0 <= z <= t [m], shaped as k [1/m]; ValueError for a depth outside the layer.
@@ -282,9 +274,9 @@ def added_stress(
     sinh, cosh = -rise * np.expm1(-2.0 * depth), rise * (1.0 + np.exp(-2.0 * depth))
     r11, r12, r22 = added(body.contrast, w)
 
-    def under(first: np.ndarray, second: np.ndarray) -> WaveStress:
+    def under(first: np.ndarray, second: np.ndarray) -> StressState:
         both = depth * cosh + sinh
-        return WaveStress(
+        return StressState(
             sx=both * first + (2.0 * cosh + depth * sinh) * second,
             sz=-(depth * cosh - sinh) * first - depth * sinh * second,
             txz=depth * sinh * first + both * second,

@@ -6,8 +6,8 @@ The hats see a wave together with its aliases k + 2 pi j/h. From some j on the l
 half-plane, whose aliases have a closed sum; before that C(k) sinc^4(k h/2 pi) is positive and
 summed by `analytic.layers.aliases`, at a cost that hardly depends on how thin the layer is.
 
-A rigid base is a datum: the displacement, and an approach, count from there. A half-plane below
-leaves them undefined up to a constant, as in `analytic.operators.half_plane`.
+Displacements and an approach count from a rigid base. A half-plane below leaves them undefined up
+to a constant, as in `analytic.operators.half_plane`.
 
     h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum or period [m]
 """

@@ -7,7 +7,7 @@ element centred at 0:
     hat       p (1-|s|) on |s| < 1                L_h(x) = int (1-|s|) ln|x-s| ds
     galerkin  a hat weighed with a hat at x       L_g(x) = int (1-|t-x|) L_h(t) dt
 
-Each element carries the load p h, so all three tend to ln|x|. The displacement into the body
+Each element carries the load p h, so all tend to ln|x|. The displacement into the body
 under the peak pressure p (positive in compression) is
 
     u(x) = -(2/(pi E')) p h [L(x/h) - L(datum/h)],   E' = E/(1-nu^2),
@@ -21,8 +21,7 @@ integrals are summed from the element's even moments mu instead,
 
     L(x) = ln|x| - sum_m mu_2m / (2m x^2m),
 
-so every value is accurate to a few units of the last place of the largest term near the
-element (relative 3e-15 at whole offsets) and to rounding from there out to any offset.
+right to a few units of the last place near the element (3e-15 at whole offsets), then to rounding.
 """
 
 from collections.abc import Callable
@@ -73,11 +72,7 @@ _SPLINE = _Far(
 
 
 def strip_displacement(offset: ArrayLike) -> np.ndarray:
-    """L_u at `offset` [pitches], any shape: int_{-1/2}^{1/2} ln|x-s| ds.
-
-    Displacement of a uniform pressure one pitch wide; see the head of the module for the
-    factor and the sign.
-    """
+    """L_u at `offset` [pitches], any shape: a uniform pressure one pitch wide."""
 
     def closed(x: np.ndarray) -> np.ndarray:
         return xlogy(x + 0.5, x + 0.5) - xlogy(x - 0.5, abs(x - 0.5)) - 1.0
@@ -90,7 +85,7 @@ def hat_galerkin(offset: ArrayLike) -> np.ndarray:
 
     Fourth difference of x^4 ln|x| / 24, less 25/12: the integral of ln against the cubic spline
     that two hats make. Whole offsets are accurate to 3e-15 relative; between them, below 3, the
-    absolute error stays below 1e-14. See the head of the module for the factor and the sign.
+    absolute error stays below 1e-14.
     """
 
     def closed(x: np.ndarray) -> np.ndarray:

@@ -5,9 +5,8 @@ zero one pitch beyond the ends. An operator C maps them to the Galerkin averages
 displacement, (C p)_i = integral phi_i u_z dx [m^2], u_z [m] positive into the body. C is
 symmetric. The contact solver knows nothing else of the body.
 
-The half-plane also comes with the uniform strips of Webster and Sayles, p_i over its own pitch and
-the displacement taken at the middle of the strip, (C p)_i = h u_z(x_i): their method as published,
-for comparison.
+For comparison the half-plane comes with the uniform strips of Webster and Sayles too: p_i over its
+own pitch, the displacement at the middle of the strip, (C p)_i = h u_z(x_i).
 
     h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
     phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
@@ -67,10 +66,9 @@ class HalfPlane(Convolution):
     """Compliance of a half-plane, exact log-kernel coefficients, applied by FFT.
 
     u_z(x) = -(2 / (pi E*)) integral p(s) ln(|x - s| / L) ds (Johnson 1985, eq. 2.25).
-    The plane-strain half-plane leaves displacements undefined up to a constant; the datum L is
-    the length of the grid's support, four times its logarithmic capacity, which makes the
-    operator positive definite and scale with the unit of length.
-    With E* of two bodies the displacement is the sum of both.
+    Displacements are defined up to a constant. With the grid's support as datum length L, four
+    times its logarithmic capacity, the operator is positive definite and scales with the unit of
+    length. With E* of two bodies the displacement is the sum of both.
 
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
@@ -98,8 +96,8 @@ class HalfPlane(Convolution):
     @made_once
     def coarsened(self) -> "HalfPlane":
         """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        half = self.count // 2
-        return HalfPlane(half, 2.0 * self.pitch, self.modulus, self.datum, self.element)
+        given = self.modulus, self.datum, self.element
+        return HalfPlane(self.count // 2, 2.0 * self.pitch, *given)
 
     def on_base(self, compliance: float) -> "HalfPlane":
         """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.

@@ -3,9 +3,8 @@
     u_z(x) = -(2/(pi E*)) int_0^L p(s) ln|2 sin(pi (x - s)/L)| ds + Z pm
 
 (Westergaard 1939; Johnson 1985, section 13.2). The wave e^ikx of p sinks by 2/(E* |k|), and the
-elements of the grid see every wave together with its aliases k + 2 pi j/h. These infinite sums
-are Hurwitz zeta functions, here the nearest terms and a power series of the others: the symbol is
-right to rounding, and so are the coefficients.
+elements see it together with its aliases k + 2 pi j/h. These sums are Hurwitz zeta functions, here
+the nearest terms and a power series of the others: right to rounding, as are the coefficients.
 
     h   pitch [m]             E*  modulus [Pa]               c  cycles per pitch, k h/(2 pi)
     L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]
@@ -28,10 +27,10 @@ TERMS = 14  # of series in (c/2)^2 <= 1/16: the rest is below 1e-16
 class PeriodicHalfPlane(Convolution):
     """Compliance of a half-plane under one period of `count` elements, applied by FFT.
 
-    The mean displacement of a periodically loaded half-plane has no value; the mean pressure is
-    given the compliance of the longest wave, Z = L/(pi E*), which makes the operator positive
-    definite and scale with the unit of length. An approach counts from there; the mean gap and
-    all pressures do not depend on it. With E* of two bodies the displacement is the sum of both.
+    The mean displacement has no value; the mean pressure gets the compliance of the longest wave,
+    Z = L/(pi E*), which makes the operator positive definite and scale with the unit of length. An
+    approach counts from there; mean gap and pressures do not depend on it. With E* of two bodies
+    the displacement is the sum of both.
 
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body

@@ -1,9 +1,8 @@
 """Normal displacement of the surfaces under sliding traction, and compliances that contain it.
 
-A traction q = mu p that acts on a half-plane in +x moves its surface not only along x: ahead of
-the load the surface is pushed into the body, behind it it rises, each by the same constant.
-Integrating e_z = (1+nu)/E ((1-nu) sz - nu sx) of the simple radial field of a tangential line load
-(Johnson 1985, eq. 2.20) over the depth gives
+Ahead of a traction q = mu p in +x the surface of a half-plane is pushed into the body, behind it it
+rises, each by the same constant: e_z = (1+nu)/E ((1-nu) sz - nu sx) of the simple radial field of a
+tangential line load (Johnson 1985, eq. 2.20) integrated over the depth gives
 
     u_z(x) = (1-2nu)(1+nu)/(2E) integral q(s) sign(x - s) ds,     positive into the body.
 
@@ -12,9 +11,8 @@ and roller (`analytic.material.dundurs_constants`) the mutual displacement is
 
     u(x) = (beta / E*) integral q(s) sign(x - s) ds,
 
-nothing for equal materials. It changes sign with the sliding direction and when the bodies change
-places. Being odd in x - s it does no work, p'Tp = 0: with it the compliance is not symmetric but
-positive definite as before, and its contact problem has exactly one solution.
+nothing for equal materials. Being odd in x - s it does no work, p'Tp = 0: with it the compliance is
+not symmetric but positive definite as before, and its contact problem has exactly one solution.
 
     h      pitch [m]             E*    modulus [Pa]           L    period [m]
     phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
@@ -172,9 +170,8 @@ class CoupledPair:
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
         """As of `Convolution`, by elimination; None where a part is no convolution."""
         normal, tangential = self.normal, self.tangential
-        if not (isinstance(normal, Convolution) and isinstance(tangential, Convolution)):
-            return None
-        if len(nodes) > DIRECT:
+        known = isinstance(normal, Convolution) and isinstance(tangential, Convolution)
+        if not known or len(nodes) > DIRECT:
             return None
         return eliminated(normal.block(nodes) + self.friction * tangential.block(nodes), right)
 

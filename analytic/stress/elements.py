@@ -3,15 +3,11 @@
 Nomenclature: p pressure (positive in compression) and q traction (in +x) at the element's
 peak, both 1 here; r, t distance and angle from an end of the element, t = atan2(z, x - end).
 
-The traction adds nothing new to two of its three components: sz under q is txz under p, and txz
-under q is sx under p. Four arrays therefore hold what any friction needs.
+sz under q is txz under p, and txz under q is sx under p: four arrays hold what any friction needs.
 
 Written as in the sources, the formulas are sums of angles and logarithms that cancel: sz falls
 like z^3/x^4 while its terms do not fall at all. Each is recast here into terms of one sign, or,
-for hats away from the element, replaced by `hat_multipoles`; every component keeps its
-relative accuracy at any distance along the surface and away from it.
-
-The uniform line of nodes that pressures stand on, as the stresses take it.
+for hats away from the element, replaced by `hat_multipoles`: every component keeps its digits.
 """
 
 from dataclasses import dataclass

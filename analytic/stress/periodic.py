@@ -9,21 +9,17 @@ period down a few waves of the load are all that is left of it:
 so a pressure p0 cos kx gives sx, sz = -p0 (1 -+ kz) e^(-kz) cos kx, txz = -p0 kz e^(-kz) sin kx
 (Westergaard 1939; Johnson 1985, section 13.2).
 
-Kernels of a field. One period is the length of the convolution. From one step of the grid downwards
-a kernel's spectrum is known: with f waves a period, and their aliases f + a N on a grid of N
-points, each wave of the element brings
+Kernels of a field, one period long. From one step of the grid downwards the spectrum is known: with
+f waves a period, and their aliases f + a N on a grid of N points, each wave of the element brings
 
     sx, sz, txz = (kz - 1, -kz - 1, i kz) e^(-kz)      sx under q = i (2 - kz) e^(-kz)
 
-times its shape factor, k > 0; those of -k are the conjugates. Closer to the surface the aliases
-fade slowly: there the kernel is taken from the element, its two next images and the inner
-expansion.
+times its shape factor, k > 0; those of -k are the conjugates. Closer to the surface, where aliases
+fade slowly, the kernel comes from the element, its two next images and the inner expansion.
 
-The mean. A uniform pressure leaves sx of a half-plane open: any uniform sx keeps its surface free.
-Here it is the sum over the images, from the middle outwards: the mean pressure makes sx = sz =
--P_0, and a mean traction makes txz = -Q_0 and no sx. For another state far below add a uniform
-stress to sx: (1 - nu/(1 - nu)) P_0 where the body may not widen (plane strain), P_0 where it is
-free to.
+The mean leaves sx open: any uniform sx keeps the surface free. Here it is the sum over the images,
+from the middle outwards: the mean pressure makes sx = sz = -P_0, a mean traction txz = -Q_0 and no
+sx. Add to sx (1 - nu/(1 - nu)) P_0 where the body may not widen, P_0 where it is free to.
 
 Nomenclature: L period [m], R = L/2, u = (w - middle)/R.
 """
@@ -128,14 +124,11 @@ def periodic_convolution(grid: StressGrid, sources: int, start: int) -> Circular
 
     def spectra(block: slice) -> tuple[np.ndarray, ...]:
         middle = min(max(shallow, block.start), block.stop)
-        parts = [
-            kernel(depths[levels], sources, subdivisions, element)
-            for kernel, levels in (
-                (_by_images, slice(block.start, middle)),
-                (_by_waves, slice(middle, block.stop)),
-            )
-            if levels.start < levels.stop
-        ]
+        kernels = (
+            (_by_images, depths[block.start : middle]),
+            (_by_waves, depths[middle : block.stop]),
+        )
+        parts = [make(z, sources, subdivisions, element) for make, z in kernels if len(z)]
         return tuple(np.concatenate(rows) for rows in zip(*parts, strict=True))
 
     points = np.arange(grid.first - start, grid.last - start + 1, grid.stride) % sources

@@ -7,18 +7,16 @@ With tension positive, z into the body, p in compression and q = p acting in +x,
 
     sx, sz = Im I + z Re I', Im I - z Re I'      txz = -z Im I'      sx under q = -2 Re I + z Im I'
 
-(Johnson 1985, section 2.5, written for the potential of the traction's resultant). Away from the
-load I = (1/pi) sum_k M_k / (w - c)^(k+1). Taken as complex numbers I and z I' are right to rounding
-of the largest of the four stresses at a point; a component far smaller than that one may cancel.
+(Johnson 1985, section 2.5). Away from the load I = (1/pi) sum_k M_k / (w - c)^(k+1). I and z I'
+are right to rounding of the largest of the four stresses; a far smaller component may cancel.
 
 Translation. A box of half-width b about c, in u = (w - c)/b, has for the load inside and far
 outside
 
     outer  I = 1/(pi b) sum_k M_k / u^(k+1)        inner  I = 1/(pi b) sum_l L_l u^l
 
-with M_k the load's moments over b^k. Loads and centres stand on the surface, so both kinds of
-coefficients are real, and boxes that are halved again and again share their matrices (Greengard
-and Rokhlin 1987, lemmas 2.3 to 2.5, on a line).
+with M_k the load's moments over b^k. Both kinds of coefficients are real, and boxes that are halved
+again and again share their matrices (Greengard and Rokhlin 1987, lemmas 2.3 to 2.5, on a line).
 
 Multipoles. Where every component must keep its own digits, point loads P phi(s) ds are summed
 instead: with X = x - s and k = 1/(X^2 + z^2)^2 (Flamant; Johnson 1985, section 2.2 and 2.3),
@@ -29,8 +27,7 @@ Expanding k in s/r gives Gegenbauer polynomials of order 2 in cos(angle to the s
 
     k = r^-4 sum_n U_n s^n,   U_n = C_n(x/r) / r^n,   r^2 = x^2 + z^2:
 
-the moments turn every integral into a sum in which the next term is smaller by 1/r^2, and nothing
-cancels in front of the factors z^3, z^2, z, x.
+each integral is a sum of moments whose next term is smaller by 1/r^2, and nothing cancels.
 """
 
 import math

@@ -240,14 +240,8 @@ def _among(line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, down: np.nda
                 found[:, block] += near_stress(line, nearest[own], rest[own], down[own], box[own])
         parts[:, here] = found
 
-    for_each(
-        add_up,
-        (
-            slice(i, min(i + _BLOCK, stop))
-            for start, stop in runs
-            for i in range(start, stop, _BLOCK)
-        ),
-    )
+    blocks = [slice(i, min(i + _BLOCK, stop)) for a, stop in runs for i in range(a, stop, _BLOCK)]
+    for_each(add_up, blocks)
     return parts
 
 

@@ -103,9 +103,8 @@ def shortest_wavelength(profile: Profile, fraction: float = 0.99) -> float:
 
     The spline's slope is sampled evenly (at half of a spacing that nine sample distances in ten
     exceed), its mean removed, a Hann window laid over it, and its power summed from long to
-    short waves. The window spreads a wave over its neighbours 1/L away in wavenumber, so the
-    answer errs by up to that much, to the short side for a single wave.
-    A profile without slope has no shortest wavelength: inf.
+    short waves. The window spreads a wave: the answer errs by up to 1/L in wavenumber, to the short
+    side for a single wave. Of a profile without slope it is inf.
     """
     if not 0.0 < fraction < 1.0:
         raise ValueError(f"fraction must lie between 0 and 1, not {fraction:g}")

@@ -69,10 +69,9 @@ def self_affine(
     shortest_wavelength  default 4 sample spacings, at least 2
     longest_wavelength   default (and at most) the length
 
-    The trace is one whole period, so only waves that fit into `length` a whole number of times
-    occur, no window is needed, and the last sample repeats the first. Phases are uniform and
-    amplitudes Rayleigh distributed. Random numbers go to the waves from long to short: with the
-    cut-offs given, more samples of one seed resolve the same surface.
+    The trace is one whole period: only waves that fit into `length` a whole number of times occur,
+    and the last sample repeats the first. Phases are uniform, amplitudes Rayleigh distributed,
+    drawn from the long waves to the short: more samples of one seed resolve the same surface.
     """
     check_positive(length=length)
     check_samples(samples)
@@ -101,8 +100,7 @@ def self_affine(
     trace = smooth(length=length, samples=samples)
     raw = Profile(trace.x, np.append(period, period[0]) / np.std(period))
     mean, rq, slope = moments(raw)
-    by_slope = rms_height is None
-    factor = rms_slope / slope if by_slope else rms_height / rq
+    factor = rms_slope / slope if rms_height is None else rms_height / rq
     return Profile(raw.x, factor * (raw.height - mean))
 
 

@@ -70,7 +70,12 @@ def unreadable(path: Path, error: Exception) -> ProfileError:
 
 def read_lines(path: Path, max_bytes: int) -> list[str]:
     """The file's lines without their ends; it may have `max_bytes` at most."""
-    raw = _bytes(path, max_bytes)
+    if regular_file(path) > max_bytes:
+        raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise unreadable(path, error) from error
     text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
     if not text.strip():
         raise ProfileError(path, "is empty; a profile has lines of numbers")
@@ -83,16 +88,6 @@ def read_lines(path: Path, max_bytes: int) -> list[str]:
     if '"' in text:
         text = QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
     return text.split("\n")
-
-
-def _bytes(path: Path, max_bytes: int) -> bytes:
-    """The file's content; a file larger than `max_bytes` is not opened."""
-    if regular_file(path) > max_bytes:
-        raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise unreadable(path, error) from error
 
 
 def _decoded(path: Path, raw: bytes) -> str:
@@ -200,7 +195,9 @@ def _first_row(path: Path, lines: list[str]) -> int:
         if not bare.strip(NOTHING):
             continue
         pieces = [piece for piece in re.split(r"[;,\s]+", bare) if piece]
-        if NUMBER.fullmatch(pieces[0]) or all(map(_is_cell, pieces)):
+        if NUMBER.fullmatch(pieces[0]) or all(
+            NUMBER.fullmatch(p) or _is_dropout(p) for p in pieces
+        ):
             return index
         header.append(bare.strip())
     what = f"{shown(header[0])} is no row of numbers" if header else "it holds only comments"
@@ -227,10 +224,6 @@ def _without_comment(line: str) -> str:
     if start.startswith(";") and not NUMBER.fullmatch(start[1:].strip()):
         return ""
     return line
-
-
-def _is_cell(cell: str) -> bool:
-    return NUMBER.fullmatch(cell) is not None or _is_dropout(cell)
 
 
 def _is_dropout(cell: str) -> bool:

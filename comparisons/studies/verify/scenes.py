@@ -139,15 +139,15 @@ def rollers(
     """Hertz's contact of like bodies, where friction does not change the pressure; rigid cylinders,
     where it does; Hertz's contact under a hardness of these shares of the peak pressure."""
     hertz = (
-        hertz_case(f"Hertz, friction {friction:g}", STEEL, STEEL, 8.2e-3, 1.4e9, friction)
+        hertz_case(f"Hertz, friction {friction:g}", (STEEL, STEEL), 8.2e-3, 1.4e9, friction)
         for friction in frictions
     )
     sliding = (
-        sliding_case(f"sliding, friction {friction:g}", STEEL, None, 10e-3, 1e6, friction)
+        sliding_case(f"sliding, friction {friction:g}", (STEEL, None), 10e-3, 1e6, friction)
         for friction in sliding_frictions
     )
     capped = (
-        capped_case(f"flattened, hardness {share:g} p0", STEEL, STEEL, 8.2e-3, 1.4e9, share)
+        capped_case(f"flattened, hardness {share:g} p0", (STEEL, STEEL), 8.2e-3, 1.4e9, share)
         for share in shares
     )
     return (*hertz, *sliding, *capped)

@@ -88,8 +88,8 @@ def test_figures_belong_to_the_pressure(case: ExactContact):
 
 def test_friction_between_unlike_bodies_is_no_hertz_contact():
     with pytest.raises(ValueError, match="is a sliding case"):
-        hertz_case("", ALUMINIUM, CERAMIC, 1.0, 1e6, friction=0.1)
-    assert hertz_case("", STEEL, STEEL, 1.0, 1e6, friction=0.1).quantities["tau1_max"] > 0.3e6
+        hertz_case("", (ALUMINIUM, CERAMIC), 1.0, 1e6, friction=0.1)
+    assert hertz_case("", (STEEL, STEEL), 1.0, 1e6, friction=0.1).quantities["tau1_max"] > 0.3e6
 
 
 def solved(

@@ -5,10 +5,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scenes import PROJECT
 
 from analytic.exact.hertz import hertz_from_load
 from analytic.exact.layers import (
-    TABLE,
     LayerLimit,
     base_deficit,
     thick_layer,
@@ -18,7 +18,7 @@ from analytic.exact.layers import (
 )
 from analytic.material import Material
 
-CASES = json.loads(TABLE.read_text())["cases"]
+CASES = json.loads((PROJECT / "analytic/exact/layer_contact.json").read_text())["cases"]
 GAUSS, WEIGHT = np.polynomial.legendre.leggauss(300)
 HARDLY_COMPRESSIBLE = 0.5 - 1e-9
 BASES = [("frictionless", 0.3), ("bonded", 0.0), ("bonded", 0.3), ("bonded", 0.4999)]
