@@ -17,7 +17,7 @@ from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
 if TYPE_CHECKING:
-    from comparisons.models.finite_element.bodies import BodyStore
+    from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.level import ExpectedCost
 
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # discretisation uncertainty that ends the refinement
@@ -37,10 +37,10 @@ def refined(
     check: Level | None = None
 
     @lru_cache(maxsize=1)  # the latest pitch's alone, for the far-boundary check on it
-    def bodies(pitch: float) -> "BodyStore":
-        from comparisons.models.finite_element.bodies import BodyStore
+    def bodies(pitch: float) -> "BodyCache":
+        from comparisons.models.finite_element.bodies import BodyCache
 
-        return BodyStore()
+        return BodyCache()
 
     def solved(
         name: str, name_in_cache: str, pitch: float, progress: ProgressCallback, **how: bool
@@ -171,7 +171,7 @@ def _solve(
     pitch: float,
     window: Window | None,
     callback: ProgressCallback,
-    bodies: Callable[[float], "BodyStore"],
+    bodies: Callable[[float], "BodyCache"],
     half_block: bool = False,
 ) -> Level:
     """One level of one model; what the other model alone needs is not imported."""
@@ -183,7 +183,7 @@ def _solve(
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
-    refinement, stages, store = Refinement(pitch, half_block), Stages(callback), bodies(pitch)
+    refinement, stages, body_cache = Refinement(pitch, half_block), Stages(callback), bodies(pitch)
     return finite_element_level(
-        problem, plan, refinement, window, stages, store=store, check=not half_block
+        problem, plan, refinement, window, stages, body_cache=body_cache, check=not half_block
     )

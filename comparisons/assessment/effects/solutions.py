@@ -33,7 +33,7 @@ from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
 if TYPE_CHECKING:
-    from comparisons.models.finite_element.bodies import BodyStore
+    from comparisons.models.finite_element.bodies import BodyCache
 
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 WORTH_A_PROCESS = 10.0  # seconds of a level's variants; a process takes two of them to begin
@@ -81,7 +81,7 @@ class SolvedVariants:
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._store: BodyStore | None = None
+        self._body_cache: BodyCache | None = None
         self._lock = Lock()
         scene = self.problem.scene
         self._own_effects = contained(scene) if is_taken_apart(scene) else None
@@ -140,12 +140,12 @@ class SolvedVariants:
         return plain and shaped and variant.effects == self._own_effects
 
     def _solve_here(self, variant: ModelVariant, number: int, behind: float) -> None:
-        from comparisons.models.finite_element.bodies import BodyStore
+        from comparisons.models.finite_element.bodies import BodyCache
 
         words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
         self.callback(Step(f"error budget: finite elements with {words}, level {number}", behind))
-        store = self._store = self._store or BodyStore()
-        given = self.problem, self.window, variant, number, store
+        body_cache = self._body_cache = self._body_cache or BodyCache()
+        given = self.problem, self.window, variant, number, body_cache
         self._keep(variant, number, lambda: _solved(*given))
 
     def _keep(self, variant: ModelVariant, number: int, solve: Callable[[], Level]) -> None:
@@ -177,7 +177,11 @@ def processes_beside() -> Iterator[Sequence[Call]]:
 
 
 def _solved(
-    problem: Problem, window: Window | None, variant: ModelVariant, number: int, store: "BodyStore"
+    problem: Problem,
+    window: Window | None,
+    variant: ModelVariant,
+    number: int,
+    body_cache: "BodyCache",
 ) -> Level:
     """A variant on a level, without its mesh's field; raises NotComputedError."""
     from comparisons.models.finite_element.level import finite_element_level
@@ -187,7 +191,7 @@ def _solved(
     plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
     wanted = problem, plan, Refinement(pitch), window, Stages()
     try:
-        level = finite_element_level(*wanted, store=store)
+        level = finite_element_level(*wanted, body_cache=body_cache)
     except (ContactError, MeshError, FemError, InputError, np.linalg.LinAlgError) as error:
         raise NotComputedError(variant, str(error)) from error
     if not level.solution.converged:
@@ -202,11 +206,11 @@ def _solved_there(
     problem: Problem, window: Window | None, variant: ModelVariant, number: int
 ) -> Level:
     """The same in another process, whose variants share meshes and factors."""
-    return _solved(problem, window, variant, number, _store_of_process())
+    return _solved(problem, window, variant, number, _body_cache_of_process())
 
 
 @cache
-def _store_of_process() -> "BodyStore":
-    from comparisons.models.finite_element.bodies import BodyStore
+def _body_cache_of_process() -> "BodyCache":
+    from comparisons.models.finite_element.bodies import BodyCache
 
-    return BodyStore()
+    return BodyCache()

@@ -54,7 +54,7 @@ class BodyPair:
         return sum(body.factor.bytes for body in self.all)
 
 
-class BodyStore:
+class BodyCache:
     """The latest meshes and factored bodies: what asks for the same again shares them.
 
     Loads, friction coefficients and profiles in the gap change neither. Few are held: the next
@@ -81,7 +81,7 @@ def bodies_of(
     refinement: Refinement,
     patches: np.ndarray,
     stages: Stages,
-    store: BodyStore,
+    body_cache: BodyCache,
 ) -> BodyPair:
     """Mesh and factor the bodies for contact predicted on `patches` (k, 2) [m]."""
     scene, settings = problem.scene, problem.scene.finite_element
@@ -105,7 +105,7 @@ def bodies_of(
         degree = settings.degree
         if shape is None:
             return make()
-        return store.body(shape, make, material, support, degree, coating)
+        return body_cache.body(shape, make, material, support, degree, coating)
 
     spec = block_spec(problem, refinement, patches)
     beyond = 0.5 if refinement.half_block else np.inf
@@ -116,7 +116,7 @@ def bodies_of(
     sides = "free" if scene.width is not None else UNBOUNDED_SIDES
     support = Support(scene.base or "bonded", sides, within)
     with stages.stage("mesh", "finite elements: mesh"):
-        flat = store.mesh(spec)
+        flat = body_cache.mesh(spec)
         mesh = rough_mesh(problem, flat)
     shape = _key(spec) if mesh is flat else None
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
@@ -128,7 +128,7 @@ def bodies_of(
         return BodyPair(rough, None, share)
     wanted = roller_spec(problem, spec)
     with stages.stage("mesh", "finite elements: mesh of the roller"):
-        flat = store.mesh(wanted)
+        flat = body_cache.mesh(wanted)
         mesh = roller_mesh(problem, flat)
     shape = (_key(wanted), settings.roller_body, scene.roller_radius)
     within = beyond * wanted.half_width, beyond * wanted.depth

@@ -13,7 +13,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
-from comparisons.models.finite_element.bodies import BodyStore, bodies_of
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import no_check, operator_check
 from comparisons.models.finite_element.contact import mutual_compliance, solve_mutual
 from comparisons.models.finite_element.cost import expected, refuse_too_large
@@ -40,7 +40,7 @@ def finite_element_level(
     window: Window | None,
     stages: Stages,
     approach: float | None = None,
-    store: BodyStore | None = None,
+    body_cache: BodyCache | None = None,
     check: bool = False,
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
@@ -48,13 +48,13 @@ def finite_element_level(
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
     approach   [m] from first touch, prescribed in place of the load
-    store      shared by levels whose meshes and factors may be the same
+    body_cache shared by levels whose meshes and factors may be the same
     check      compare the bodies' compliance with the analytic one first
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
     scene, grid = problem.scene, problem.grid(refinement.pitch)
-    store = store or BodyStore()
+    body_cache = body_cache or BodyCache()
     friction = scene.friction[0] if scene.finite_element.coupled else 0.0
     model = nearest_operator(scene, grid, friction)
     weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
@@ -70,7 +70,7 @@ def finite_element_level(
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
     checked = None
     for _ in range(MOST_MESHES):
-        bodies = bodies_of(problem, plan, refinement, ranges, stages, store)
+        bodies = bodies_of(problem, plan, refinement, ranges, stages, body_cache)
         refined = bodies.rough.mesh.spec.intervals
         with stages.stage("contact", "finite elements: contact"):
             operator = mutual_compliance(problem, bodies, grid)
@@ -130,14 +130,14 @@ def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Pro
     half_width = np.sqrt(scene.roller_radius * wanted)
     modulus = scene.body.plane_strain_modulus
     load = np.pi * modulus * half_width**2 / (4.0 * scene.roller_radius)
-    store = BodyStore()
+    body_cache = BodyCache()
     for _ in range(MOST_ROUNDS):
         problem = problem_of(scene, load)
         plan = make_plan(problem, ("finite_element",))
         pitch = problem.pitches[-1]
         callback("finite elements: load of the prescribed approach")
         level = finite_element_level(
-            problem, plan, Refinement(pitch), None, Stages(), approach=wanted, store=store
+            problem, plan, Refinement(pitch), None, Stages(), approach=wanted, body_cache=body_cache
         )
         before, load = load, level.solution.load
         low, high = problem.extent

@@ -45,7 +45,7 @@ def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
 def independent_findings(name: str) -> Findings:
     """Largest difference of the pressures under one load, over the largest pressure; and relative
     difference of the loads at one approach."""
-    from comparisons.models.finite_element.bodies import BodyStore, bodies_of
+    from comparisons.models.finite_element.bodies import BodyCache, bodies_of
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from fem.body.surface import hat_forces
@@ -54,11 +54,11 @@ def independent_findings(name: str) -> Findings:
     scene = resolve_tables(SCENES[name], name="verify", folder=Path("."), source=f"verify: {name}")
     problem = problem_of(scene)
     plan = make_plan(problem, ("finite_element",))
-    refinement, store = Refinement(problem.pitches[0]), BodyStore()
-    level = finite_element_level(problem, plan, refinement, None, Stages(), store=store)
+    refinement, body_cache = Refinement(problem.pitches[0]), BodyCache()
+    level = finite_element_level(problem, plan, refinement, None, Stages(), body_cache=body_cache)
     grid = level.grid
     # the bodies that the level was solved on, by the patches that its mesh is refined at
-    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), store)
+    bodies = bodies_of(problem, plan, refinement, level.patches, Stages(), body_cache)
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
     load = problem.hertz.load_per_length
     other = solve_variational_inequality(
@@ -71,7 +71,7 @@ def independent_findings(name: str) -> Findings:
     pressure = level.solution.pressure
     difference = float(np.abs(pressure - other.pressure).max() / pressure.max())
     approach = other.approach - problem.first_touch
-    again = finite_element_level(problem, plan, refinement, None, Stages(), approach, store)
+    again = finite_element_level(problem, plan, refinement, None, Stages(), approach, body_cache)
     loads = float(abs(grid.weights @ again.solution.pressure - load) / load)
     if not all(mesh is level.mesh for mesh in (bodies.rough.mesh, again.mesh)):
         raise RuntimeError(f"{name}: the solvers were on different meshes")

@@ -12,7 +12,7 @@ from comparisons.assessment.uncertainty import grid_convergence
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS
-from comparisons.models.finite_element.bodies import BodyStore, bodies_of
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.contact import mutual_compliance
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
@@ -131,7 +131,7 @@ def test_the_independent_solver_agrees_on_a_rough_scene():
     level = half_plane_level(problem, grid.pitch, None, Stages())
     patches = contact_patches(grid.x, level.solution.pressure, level.solution.gap)
     assert len(patches) >= 5
-    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyStore())
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
     one = solve_with_model(
         operator,

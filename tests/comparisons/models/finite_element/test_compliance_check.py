@@ -12,7 +12,7 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element import bodies as finite_element_bodies
 from comparisons.models.finite_element import compliance_check as operator_difference
 from comparisons.models.finite_element import mesh as finite_element_mesh
-from comparisons.models.finite_element.bodies import BodyStore, bodies_of
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import (
     Column,
     ComplianceCheck,
@@ -230,7 +230,7 @@ def test_columns_at_once_are_columns_one_by_one():
     )
     plan, refinement = make_plan(problem, ("finite_element",)), Refinement(problem.pitches[0])
     grid, patches = problem.grid(problem.pitches[0]), HALF_WIDTH * np.array([[-1.0, 1.0]])
-    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyStore())
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
     operator = mutual_compliance(problem, bodies, grid)
     assert len(operator.parts) == 2 and operator.coupled
     pressures = np.random.default_rng(4).uniform(size=(grid.count, 3))

@@ -7,7 +7,7 @@ import pytest
 from scenes import changed, problem
 
 from comparisons.common.progress import Stages
-from comparisons.models.finite_element.bodies import BodyStore
+from comparisons.models.finite_element.bodies import BodyCache
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
@@ -127,15 +127,15 @@ def test_coupled_both_models_move_alike(tables):
 def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisation():
     problem = problem_with(RIGID, {}, load={"friction": [0.0, 0.1, 0.2]}, stress={"points": [9, 5]})
     plan = make_plan(problem, ("finite_element",))
-    store, refinement = BodyStore(), Refinement(problem.pitches[0])
+    body_cache, refinement = BodyCache(), Refinement(problem.pitches[0])
     first, second = Stages(), Stages()
-    one = finite_element_level(problem, plan, refinement, None, first, store=store)
-    other = finite_element_level(problem, plan, refinement, None, second, store=store)
+    one = finite_element_level(problem, plan, refinement, None, first, body_cache=body_cache)
+    other = finite_element_level(problem, plan, refinement, None, second, body_cache=body_cache)
     assert "factorisation" in first.seconds and "factorisation" not in second.seconds
     assert np.array_equal(one.solution.pressure, other.solution.pressure)
     held = Refinement(problem.pitches[0], half_block=True)
     third = Stages()
-    finite_element_level(problem, plan, held, None, third, store=store)
+    finite_element_level(problem, plan, held, None, third, body_cache=body_cache)
     assert "factorisation" in third.seconds  # another support, the same mesh
     assert third.seconds["mesh"] < 0.1 * first.seconds["mesh"]
 
