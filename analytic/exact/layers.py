@@ -50,6 +50,8 @@ from analytic.numerics import check_positive
 
 _LAST = 50.0  # w at which 1 - K, about 4 w^2 e^-2w, is long below rounding
 
+TABLE = Path(__file__).with_name("layer_contact.json")
+
 
 @dataclass(frozen=True)
 class LayerLimit:
@@ -174,7 +176,6 @@ class LayerReference:
 @cache
 def layer_references() -> tuple[LayerReference, ...]:
     """All contacts of layer_contact.json."""
-    table = Path(__file__).with_name("layer_contact.json").read_text(encoding="utf-8")
     return tuple(
         LayerReference(
             half_width=float(row["a_over_t"]),
@@ -184,5 +185,5 @@ def layer_references() -> tuple[LayerReference, ...]:
             load=float(row["P_R_over_Eprime_t2"]),
             error=float(row["rel_error_estimate"]),
         )
-        for row in json.loads(table)["cases"]
+        for row in json.loads(TABLE.read_text(encoding="utf-8"))["cases"]
     )

@@ -269,8 +269,11 @@ class SceneSection(BaseModel):
 
 def allowed(table: type[SceneSection], name: str) -> str:
     """What a field may hold, in words."""
+    return field_type(table, name).allowed()
+
+
+def field_type(table: type[SceneSection], name: str) -> FieldType:
+    """What reads a field; the notes of `Annotated[…] | None` stand inside the union."""
     info = table.model_fields[name]
-    # the notes of `Annotated[…] | None` stand inside the union
     inner = [note for part in get_args(info.annotation) for note in get_args(part)[1:]]
-    notes = (*info.metadata, *inner)
-    return next(note for note in notes if isinstance(note, FieldType)).allowed()
+    return next(note for note in (*info.metadata, *inner) if isinstance(note, FieldType))
