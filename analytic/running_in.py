@@ -33,7 +33,7 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
 from analytic.surface.form import trapezoid_widths
 
-SETTLED = 1e-3  # of all the volume moved: a sweep that moves no more is the last
+SMALLEST_SWEEP = 1e-3  # of all the volume moved: a sweep that moves no more is the last
 SWEEPS = 10  # at most, unless the caller says otherwise
 HATS = 2.0  # on the profile's spacing, unless the caller says otherwise
 NEAR = 0.25  # of the pitch: a sample so near to the middle of a hat stands for it
@@ -73,7 +73,7 @@ class RunIn:
     constraints  load and hardness
     passes    in order; `sweeps` of them over all positions
     pitch     of the pressure hats [m]
-    status    settled: the last sweep moved at most SETTLED of the volume of all;
+    status    settled: the last sweep moved at most SMALLEST_SWEEP of the volume of all;
               passes spent: it moved more, and no further sweep was allowed
     """
 
@@ -131,7 +131,7 @@ def run_in(
     for _ in range(sweeps):
         passes.extend(surface.press(position) for position in positions)
         moved = [one.volume for one in passes]
-        if sum(moved[-len(positions) :]) <= SETTLED * sum(moved):
+        if sum(moved[-len(positions) :]) <= SMALLEST_SWEEP * sum(moved):
             status = "settled"
             break
     return RunIn(

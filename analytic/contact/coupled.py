@@ -25,7 +25,7 @@ import numpy as np
 
 from analytic.contact.active_set import REDUCTION, ActiveSet
 from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
-from analytic.contact.nested_start import SETTLED, coarse_start
+from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.contact.problem import (
     ContactSolution,
     assessed,
@@ -159,7 +159,7 @@ def solve_coupled(
     if start is not None:
         pressure, settled = _exchange(problem, start)
     if not settled:
-        start = coarse_start(problem, lambda *given: _exchange(*given, SETTLED)[0], COARSEST)
+        start = coarse_start(problem, lambda *given: _exchange(*given, EDGES_OFF)[0], COARSEST)
         pressure, settled = _exchange(problem, start)
     solution = _solution(problem, pressure)
     if not (settled or solution.converged):

@@ -15,7 +15,7 @@ from analytic.grid import restricted
 
 COARSEST = 512  # nodes; below this a coarser start saves nothing
 FOUNDATION = 0.3  # takes the fewest exchanges from there on, for smooth and rough contacts
-SETTLED = 0.25  # of the edges of a coarse contact may still be off by a node
+EDGES_OFF = 0.25  # of the edges of a coarse contact may still be off by a node
 
 Settle = Callable[[EquilibriumProblem, np.ndarray], np.ndarray]
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from analytic.contact.active_set import exchange_blocks
 from analytic.contact.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
-from analytic.contact.nested_start import SETTLED, coarse_start
+from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.operators.half_plane import ModelOperator
 
 EVEN = 1e-5  # of the displacement: rounding, 1e-14 of it, must not count as a residual
@@ -145,7 +145,7 @@ def solve_contact(
     weighted_gap = weighted_gap - common * weights
     problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent, tolerance)
     if start is None:
-        start = coarse_start(problem, partial(exchange_blocks, settled=SETTLED))
+        start = coarse_start(problem, partial(exchange_blocks, settled=EDGES_OFF))
     pressure = exchange_blocks(problem, start)
     pressure = np.clip(pressure, 0.0, constraints.hardness)
     moved, approach = problem.applied(pressure), problem.approach

@@ -20,7 +20,7 @@ FORMS = ("none", "mean", "line", "arc")
 STEEPEST = 0.999  # sine of the slope angle: beyond it heights over x no longer describe an arc
 STEPS = 100  # Gauss-Newton needs 2 to 10; more than this means that it does not converge
 CLOSE = 1e-3  # of the residual: changes of the fit below this converge without supervision
-SETTLED = 1e-9  # of the residual: the last change of the fit
+LAST_CHANGE = 1e-9  # of the residual: the last change of the fit
 STRAIGHT = 64.0 * np.finfo(float).eps  # a sagitta below this part of the heights is rounding
 
 
@@ -144,7 +144,7 @@ def _fit_arc(u: np.ndarray, height: np.ndarray, weight: np.ndarray) -> tuple[flo
         if share is None:
             break
         state = state + share * wanted
-        if change <= SETTLED * residual + rounding:
+        if change <= LAST_CHANGE * residual + rounding:
             return float(state[0]), float(state[1]), float(state[2])
     raise ValueError(
         "no circular arc fits the profile: it would stand upright at an end; remove a line instead"

@@ -37,7 +37,7 @@ LOWEST_ORDER = 1.0
 FACTOR = 1.25  # of safety, on three grids
 DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
 TWO_GRIDS = 3.0  # of safety, where the order is not observed (Roache 1998)
-SETTLED = 1e-12  # relative differences below this are round-off
+ROUND_OFF = 1e-12  # relative differences below this are round-off
 ORDER_MARGIN = 0.25  # an order this little beyond its limits is still regular
 
 # A contact residual r leaves errors of up to this multiple of r in the pressures: 1e-6 of the
@@ -84,7 +84,7 @@ def grid_convergence(
     coarse, middle, fine = (float(v) for v in values[-3:])
     last, before = fine - middle, middle - coarse
     scale = max(abs(coarse), abs(middle), abs(fine))
-    if max(abs(last), abs(before)) <= SETTLED * scale:
+    if max(abs(last), abs(before)) <= ROUND_OFF * scale:
         left = max(abs(last), abs(before), resolution)
         return Convergence(value, value, left, None, "settled")
     change = max(abs(last), abs(before) / 2.0**formal_order)

@@ -37,7 +37,7 @@ def init(
         return ExitStatus.DONE
     from rich.console import Console
 
-    from comparisons.studies.init.table import init_table
+    from comparisons.studies.init.profile_view import init_table
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made, Console().width - 1 if is_watched() else None, unicode))

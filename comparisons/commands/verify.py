@@ -16,8 +16,8 @@ def verify(
     as_json: Annotated[bool, json_option("verify.json")] = False,
 ) -> int:
     """Hold both models to exact solutions, and stated uncertainties to true errors."""
+    from comparisons.studies.verify.pages import verify_summary
     from comparisons.studies.verify.run import verify as verify_all
-    from comparisons.studies.verify.table import verify_summary
 
     directory = out or RESULTS / "verify"
     with progress() as callback:

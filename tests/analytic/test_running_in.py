@@ -18,7 +18,7 @@ from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
-from analytic.running_in import SETTLED, RunIn, run_in
+from analytic.running_in import SMALLEST_SWEEP, RunIn, run_in
 from analytic.surface.form import trapezoid_widths
 from analytic.surface.readers.columns import read_profile
 from analytic.surface.synthetic import ground_texture, sinusoid, smooth
@@ -110,9 +110,9 @@ class TestAccount:
         assert 2 <= wavy.sweeps <= 6
         assert [one.position for one in wavy.passes] == [*PLACES] * wavy.sweeps
         last = sum(one.volume for one in wavy.passes[-len(PLACES) :])
-        assert 0.0 < last <= SETTLED * wavy.volume
+        assert 0.0 < last <= SMALLEST_SWEEP * wavy.volume
         before = sum(one.volume for one in wavy.passes[-2 * len(PLACES) : -len(PLACES)])
-        assert before > SETTLED * (wavy.volume - last)
+        assert before > SMALLEST_SWEEP * (wavy.volume - last)
 
     def test_no_asperity_stands_above_the_hardness_afterwards(self, wavy):
         for place in PLACES:
@@ -149,7 +149,7 @@ class TestAccount:
 
     def test_running_in_again_moves_next_to_nothing(self, wavy):
         again = ran_in(wavy.profile, sweeps=1)
-        assert again.volume < SETTLED * wavy.volume
+        assert again.volume < SMALLEST_SWEEP * wavy.volume
 
     def test_a_pass_that_did_not_converge_is_reported(self, monkeypatch):
         calls = []

@@ -28,7 +28,7 @@ from comparisons.models.window import Window
 from comparisons.scenes.scene import ResolvedScene
 from meshes.refined_ranges import merge, unrefined_contact
 
-SETTLED = 1e-3  # relative change of the load that no longer moves the mesh
+LAST_LOAD_CHANGE = 1e-3  # relative change of the load that no longer moves the mesh
 MOST_ROUNDS = 12  # of loads for a prescribed approach
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
 
@@ -119,7 +119,8 @@ def finite_element_level(
 
 
 def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Problem:
-    """The scene's problem under the load [N/m] of its prescribed approach, to SETTLED or better.
+    """The scene's problem under the load [N/m] of its prescribed approach, to LAST_LOAD_CHANGE or
+    better.
 
     Only a body with a datum has an approach: a layer on its base under a rigid roller. Each round
     meshes for the load of the one before and prescribes the approach there. Raises SceneError if
@@ -143,7 +144,7 @@ def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Pro
         low, high = problem.extent
         if level.patches[0, 0] < low + pitch or level.patches[-1, 1] > high - pitch:
             load = 2.0 * before  # the contact fills the grid: it carries more than that
-        elif abs(load - before) <= SETTLED * load:
+        elif abs(load - before) <= LAST_LOAD_CHANGE * load:
             return problem_of(scene, load)
     raise SceneError(
         f"{scene.source}: load.approach: no load was found that gives {wanted:g} m; allowed is a "

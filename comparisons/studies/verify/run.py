@@ -15,8 +15,8 @@ from comparisons.common.progress import ProgressCallback, no_progress, within
 from comparisons.studies.checks import CheckedCase, check_places, run_cases, write_study
 from comparisons.studies.verify.coverage import FEWEST, Verification, order_cases, verification
 from comparisons.studies.verify.operators import operator_cases
+from comparisons.studies.verify.pages import verify_page
 from comparisons.studies.verify.scenes import exact_scenes, scene_cases
-from comparisons.studies.verify.table import verify_page
 
 DEGREES = (1, 2, 3)
 EXACT_SHARE = 0.9  # of the time, for the exact cases

@@ -18,7 +18,7 @@ from comparisons.studies.verify.coverage import (
     observed_order,
     verification,
 )
-from comparisons.studies.verify.table import coverage_line, verify_page
+from comparisons.studies.verify.pages import coverage_line, verify_page
 
 
 def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:

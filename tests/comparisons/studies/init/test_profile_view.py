@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scenes import PROFILES, PROJECT
 
-from comparisons.studies.init.table import curve
+from comparisons.studies.init.profile_view import curve
 
 PROFILE = PROFILES / "ground_unrun.csv"
 RISE = np.linspace(0.0, 1.0, 9)
