@@ -11,12 +11,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from comparisons.common.progress import machine_memory
+
 PROJECT = Path(__file__).resolve().parents[1]
+WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may take
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One a core, as long as memory lasts; 0, and no process but pytest's own, for a single one."""
+    count = int(min(len(os.sched_getaffinity(0)), machine_memory() / WORKER_MEMORY))
+    return count if count > 1 else 0
 
 
 @pytest.fixture

@@ -18,6 +18,7 @@ import pytest
 
 PROJECT = Path(__file__).resolve().parents[1]
 NOBODY = 65534
+SHARED = "-n auto --dist loadfile"
 
 PYTHON = r"""#!/bin/bash
 echo "python $*" >>"$CALLS"
@@ -179,14 +180,33 @@ def test_threads_and_packages_at_home_are_the_users(checkout):
 def test_test_command_runs_pytest_in_the_checkout_on_one_thread(checkout):
     done = checkout.call("test", "-k", "a b", OMP_NUM_THREADS="7", STATUS="5", cwd="/")
     assert done.returncode == 5
-    assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest -k a b\n"
+    told = f"threads=1 folder={checkout.root} arguments=-m pytest {SHARED} -k a b\n"
+    assert done.stdout == told
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["pyproject.toml::TestThis::test_that[a-b]"],
+        ["-x", "pyproject.toml"],
+        ["-n0"],
+        ["-n", "3"],
+        ["--numprocesses=3"],
+        ["-p", "no:xdist"],
+        ["-s"],
+    ],
+    ids=" ".join,
+)
+def test_named_files_and_a_number_of_processes_are_left_as_they_are(checkout, arguments):
+    told = checkout.call("test", *arguments).stdout
+    assert told.endswith(f"arguments=-m pytest {' '.join(arguments)}\n")
 
 
 def test_continuous_integration_runs_the_test_command(checkout):
     shutil.copytree(PROJECT / ".ci", checkout.root / ".ci")
     done = checkout.call(script=checkout.root / ".ci" / "run", STATUS="5", cwd="/")
     assert done.returncode == 5
-    assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest\n"
+    assert done.stdout == f"threads=1 folder={checkout.root} arguments=-m pytest {SHARED}\n"
 
 
 def test_changed_dependencies_set_up_again_and_tool_settings_do_not(checkout):

@@ -141,6 +141,7 @@ def pyplot():
     from matplotlib import pyplot
 
     pyplot.switch_backend("agg")
+    pyplot.close("all")  # figures that the tests of another file left open
     yield pyplot
     pyplot.close("all")
 
