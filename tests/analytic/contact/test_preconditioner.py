@@ -1,5 +1,7 @@
 """Displacements continued over the gaps: what the continuation is, and what it buys."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.linalg import toeplitz
@@ -91,11 +93,16 @@ def test_a_closed_line_is_bridged_across_its_ends():
     assert np.all(np.diff(continued[[5, 6, 7, 0, 1, 2, 3]]) < 0.0)
 
 
+@cache
+def stiffness(count: int) -> np.ndarray:
+    """Of the periodic half-plane: pressures by displacements."""
+    return np.linalg.inv(toeplitz(PeriodicHalfPlane(count, 1.0, 1.0).column))
+
+
 class TestLeastEnergy:
     """A gap on a closed line of 1024 touching nodes, at rest at 0 before it and at 1 behind."""
 
     COUNT = 1024
-    INVERSE = np.linalg.inv(toeplitz(PeriodicHalfPlane(COUNT, 1.0, 1.0).column))
 
     def excess(self, gap: int) -> dict[str, float]:
         """Energy over the least of all continuations, less 1: as continued, straight, a jump."""
@@ -107,9 +114,10 @@ class TestLeastEnergy:
         shapes = {name: continued.copy() for name in ("arcsine", "straight", "jump", "least")}
         shapes["straight"][bridge] = bridge / gap * values[1]
         shapes["jump"][bridge] = 0.0
-        pull = self.INVERSE[np.ix_(bridge, nodes)] @ values
-        shapes["least"][bridge] = -np.linalg.solve(self.INVERSE[np.ix_(bridge, bridge)], pull)
-        energy = {name: shape @ self.INVERSE @ shape for name, shape in shapes.items()}
+        inverse = stiffness(self.COUNT)
+        pull = inverse[np.ix_(bridge, nodes)] @ values
+        shapes["least"][bridge] = -np.linalg.solve(inverse[np.ix_(bridge, bridge)], pull)
+        energy = {name: shape @ inverse @ shape for name, shape in shapes.items()}
         return {name: value / energy["least"] - 1.0 for name, value in energy.items()}
 
     @pytest.mark.parametrize("gap", [4, 8, 16, 32, 64])
