@@ -33,7 +33,7 @@ def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def thread_count() -> int:
     """OMP_NUM_THREADS where it is a number, else the machine's cores."""
     asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
-    return max(1, int(asked)) if asked.isdigit() else os.cpu_count() or 1
+    return max(1, int(asked)) if asked.isdecimal() else os.cpu_count() or 1
 
 
 def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:

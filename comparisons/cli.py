@@ -31,7 +31,7 @@ from comparisons.commands import (
     verify,
 )
 from comparisons.common.errors import ExitStatus, InputError, SolverError, one_line
-from comparisons.common.mpi import as_one, is_several
+from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
@@ -92,6 +92,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from comparisons.common.interrupt import watched
 
         return watched(lambda: _carry_out(arguments), f"interrupted; {WATCHED[arguments[0]]}")
+    if is_own:  # not before a fork, which MPI does not survive
+        forget_inherited_launcher()
     return as_one(lambda: _carry_out(arguments), FINISHED)
 
 

@@ -18,7 +18,8 @@ from meshes.coating import with_layers
 from meshes.quality import check_quality
 from meshes.size_field import SizeField
 
-WORKER = (sys.executable, "-m", "meshes.gmsh_worker")
+# By its path, and without the working folder's modules (-P).
+WORKER = (sys.executable, "-P", str(Path(__file__).with_name("gmsh_worker.py")))
 # Without these variables of mpirun, gmsh does not start MPI as one more rank.
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
 # Decimals of lengths in units of surface_size: the same block in other units gives the same mesh.
@@ -51,7 +52,7 @@ def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     """
     environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
     root = str(Path(__file__).resolve().parents[1])
-    paths = [root, *filter(None, [environment.get("PYTHONPATH")])]
+    paths = [root, *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep))]
     environment["PYTHONPATH"] = os.pathsep.join(paths)
     pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
     with subprocess.Popen(WORKER, env=environment, **pipes) as process:

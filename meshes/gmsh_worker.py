@@ -1,4 +1,4 @@
-"""Runs gmsh, which can crash its process, in a separate one: `python -m meshes.gmsh_worker`.
+"""Runs gmsh, which can crash its process, in a separate one, which `meshes.build` starts.
 
 Reads the arguments of `fill` from standard input and writes its results to standard output, both
 pickled, and errors to standard error.

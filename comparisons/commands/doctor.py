@@ -116,7 +116,7 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
 
 def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
     """Run a trial for at most `patience` seconds."""
-    command = [*STARTED_BY.get(name, ()), sys.executable, "-c", program]
+    command = [*STARTED_BY.get(name, ()), sys.executable, "-P", "-c", program]
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, errors="replace", timeout=patience,

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -74,4 +75,6 @@ def show_file(path: Path) -> None:
 def show_json(content: object) -> None:
     """Print what `--json` asks for."""
     plain = not (sys.stdout.encoding or "").lower().startswith("utf")
-    print(json.dumps(content, indent=2, ensure_ascii=plain, allow_nan=False))
+    text = json.dumps(content, indent=2, ensure_ascii=plain, allow_nan=False)
+    # json leaves as they are some control characters that a terminal obeys
+    print(re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text))

@@ -6,10 +6,13 @@ moves to another file system. Else they are beside it: the folder appears with t
 
 import contextlib
 import errno
+import fcntl
+import glob
+import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -24,6 +27,10 @@ OWN_FILES = (
 )
 # The same in formats that a run writes when it is asked to, or where a field is large.
 OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh"))
+RECORD = "record.json"  # of a run: its "files" are this program's
+STUDIES = ("cost", "map", "paper", "stability", "verify")  # whose own record is <name>.json
+RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
+LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet
 ATTEMPTS = 10  # at a folder that another run into the same `out` keeps removing
 
@@ -35,8 +42,40 @@ def unfinished(out: Path) -> Path:
     return out / ".unfinished" if out.is_dir() and not beside.is_dir() else beside
 
 
-def check_writable(out: Path) -> None:
-    """Raise InputError unless `out` is, or can be made, a folder to write a run in."""
+def claimed(out: Path) -> set[str]:
+    """Names of the files in a folder that a record there says this program wrote."""
+    found: set[str] = set()
+    record = _record(out / RECORD)
+    if "hashes" in record:
+        # records had no list of files at first
+        found |= {RECORD, *map(str, record.get("files") or (*OWN_FILES, *OTHER_FILES))}
+    for name in STUDIES:
+        if "schema" in _record(out / f"{name}.json"):
+            found |= {path.name for path in out.glob(f"{name}*")}
+    return found
+
+
+def claim(out: Path, name: str) -> None:
+    """Note in a run's record that this program wrote a file more."""
+    record = _record(out / RECORD)
+    if name not in (files := record.get("files", ())):
+        record = record | {"files": sorted([*files, name])}
+        text = json.dumps(record, indent=1, ensure_ascii=False) + "\n"
+        write_whole(out / RECORD, text)
+
+
+def _record(path: Path) -> dict:
+    """A JSON object in a file; empty where there is none."""
+    with contextlib.suppress(OSError, ValueError, RecursionError):
+        if path.stat().st_size <= LARGEST_RECORD:
+            content = json.loads(path.read_bytes())
+            return content if isinstance(content, dict) else {}
+    return {}
+
+
+def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> None:
+    """Raise InputError unless `out` is, or can be made, a folder to write the files `own` in, and
+    holds none of them that somebody else wrote."""
     try:  # the longest name that is used beside it
         os.lstat(out.parent / f".{out.name}.part-12345678")
     except OSError as error:
@@ -49,9 +88,15 @@ def check_writable(out: Path) -> None:
     for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
-    for name in (*OWN_FILES, *OTHER_FILES):
+    present = [name for name in own if os.path.lexists(out / name)]
+    for name in present:
         if (out / name).is_dir():
             raise _cannot(out, f"{out / name} is a folder; allowed is none")
+    foreign = sorted(set(present) - claimed(out)) if present else ()
+    if foreign:
+        raise _cannot(
+            out, f"no record there says that crosscheck wrote {foreign[0]}; allowed is another folder"
+        )
 
 
 def _cannot(out: Path, why: str) -> InputError:
@@ -84,11 +129,36 @@ def whole_file(path: Path) -> Iterator[Path]:
     """A path to write to: what is there when the block ends replaces `path`; if the block fails or
     is interrupted, `path` stays as it was."""
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
-    try:
-        yield part
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+    _remove_abandoned(path.parent.glob(f".{glob.escape(path.name)}.*{PART}"))
+    with _held(part, os.O_RDWR | os.O_CREAT):
+        try:
+            yield part
+            os.replace(part, path)
+        finally:
+            part.unlink(missing_ok=True)
+
+
+@contextmanager
+def _held(path: Path, how: int) -> Iterator[None]:
+    """Lock an unfinished file or folder until the block, or this process, ends."""
+    with contextlib.ExitStack() as stack:
+        number = os.open(path, how, 0o666)
+        stack.callback(os.close, number)
+        with contextlib.suppress(OSError):  # a file system without locks
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield
+
+
+def _remove_abandoned(parts: Iterable[Path]) -> None:
+    """Remove unfinished files and folders whose process was killed: nobody holds them."""
+    for part in parts:
+        with contextlib.suppress(OSError):
+            number = os.open(part, os.O_RDONLY)
+            try:
+                fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                shutil.rmtree(part) if part.is_dir() else part.unlink()
+            finally:
+                os.close(number)
 
 
 def write_whole(path: Path, text: str) -> None:
@@ -110,25 +180,27 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
     own   files that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes.
     """
-    check_writable(out)
-    if out.is_dir():
-        scratch = Path(tempfile.mkdtemp(prefix=".part-", dir=out))
-    else:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        scratch = Path(tempfile.mkdtemp(prefix=f".{out.name}.part-", dir=out.parent))
-    try:
-        yield scratch
-        made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
-        for name in made:
-            _move(scratch / name, out / name)
-        for name in own:
-            if Path(name) not in made:
-                (out / name).unlink(missing_ok=True)
-        for folder in OWN_FOLDERS:
-            with contextlib.suppress(OSError):  # absent, or holds something
-                (out / folder).rmdir()
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
+    check_writable(out, own)
+    place, prefix = (out, ".part-") if out.is_dir() else (out.parent, f".{out.name}.part-")
+    place.mkdir(parents=True, exist_ok=True)
+    _remove_abandoned([*out.glob(".part-*"), *out.parent.glob(f".{glob.escape(out.name)}.part-*")])
+    scratch = Path(tempfile.mkdtemp(prefix=prefix, dir=place))
+    with _held(scratch, os.O_RDONLY):
+        try:
+            yield scratch
+            made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
+            made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others
+            ours = claimed(out)
+            for name in made:
+                _move(scratch / name, out / name)
+            for name in ours & set(own):
+                if Path(name) not in made:
+                    (out / name).unlink(missing_ok=True)
+            for folder in OWN_FOLDERS:
+                with contextlib.suppress(OSError):  # absent, or holds something
+                    (out / folder).rmdir()
+        finally:
+            shutil.rmtree(scratch, ignore_errors=True)
 
 
 def _move(source: Path, target: Path) -> None:

@@ -37,6 +37,17 @@ def is_several() -> bool:
     return any(name in os.environ for name in RANKS)
 
 
+def forget_inherited_launcher() -> None:
+    """Where the environment names a rank, but MPI knows of no other process, drop what it says: a
+    shell inherited it, and this process is alone."""
+    if is_several():
+        from mpi4py import MPI
+
+        if MPI.COMM_WORLD.size == 1:
+            for name in RANKS:
+                os.environ.pop(name, None)
+
+
 def is_first() -> bool:
     """Whether this is rank 0, or was started alone; the others solve the same and stay silent."""
     return all(os.environ.get(name, "0") == "0" for name in RANKS)

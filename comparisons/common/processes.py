@@ -20,7 +20,8 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 Call = Callable[..., Result]  # call(work, *given) returns work(*given), computed there
 
-ONE_THREAD = {"OMP_NUM_THREADS": "1"}
+# Of processes that this one starts: one thread, and no code from the working folder.
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "PYTHONSAFEPATH": "1"}
 _starting = Lock()  # of processes, since each changes this one's environment for a moment
 
 

@@ -39,8 +39,14 @@ def machine() -> dict[str, str | int | None]:
         "architecture": platform.machine(),
         "processor": _processor(),
         "cores": os.cpu_count(),
-        "threads": int(os.environ.get("OMP_NUM_THREADS", "0")) or None,
+        "threads": _threads(),
     }
+
+
+def _threads() -> int | None:
+    """Of the outermost level, as OMP_NUM_THREADS asks for; None where it says nothing legal."""
+    first = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
+    return int(first) or None if first.isdecimal() and first.isascii() else None
 
 
 def _processor() -> str | None:

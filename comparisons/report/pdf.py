@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from comparisons.common.files import whole_file
+from comparisons.common.files import claim, claimed, whole_file
 
 BROWSERS = (
     *("chromium", "chromium-browser", "chromium-headless-shell", "chrome-headless-shell"),
@@ -36,7 +36,10 @@ def options(profile: str) -> list[str]:
 def print_report(folder: Path) -> Path:
     """Print a run's report.html into report.pdf beside it; its path. Raises NoPdfError."""
     target = folder / "report.pdf"
+    if target.exists() and target.name not in claimed(folder):
+        raise NoPdfError(f"{target}: not printed: no record there says that crosscheck wrote it")
     print_pdf(folder / "report.html", target)
+    claim(folder, target.name)
     return target
 
 

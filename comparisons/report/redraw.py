@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import check_writable, write_whole
 from comparisons.common.progress import ProgressCallback
 from comparisons.report.page import render
@@ -42,9 +42,9 @@ def draw_again(
     for folder in folders:
         callback(f"{folder}: reading")
         read_outcome(folder, with_mesh=False)
-        check_writable(folder)
+        check_writable(folder, ())
     if summary is not None:
-        check_writable(summary.parent)
+        check_writable(summary.parent, ())
         if summary.is_dir():
             raise InputError(f"--summary: {summary} is a folder; allowed is a file")
     reports = []
@@ -106,5 +106,5 @@ def reports_table(reports: Sequence[Report], summary: Path | None) -> "Renderabl
     table = Table("scene", "verdict", "report", box=None, pad_edge=False)
     for report in reports:
         made = [str(path) for path in (report.page, report.pdf) if path is not None]
-        table.add_row(Text(report.row.title), Text(report.row.kind), Text("\n".join(made)))
+        table.add_row(Text(one_line(report.row.title)), Text(report.row.kind), Text("\n".join(made)))
     return table if summary is None else Group(table, "", Text(f"summary  {summary}"))

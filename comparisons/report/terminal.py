@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.common.errors import one_line
 from comparisons.common.numbers import with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures.running_in import area
@@ -48,7 +49,7 @@ def summary(outcome: Outcome) -> "RenderableType":
     said = headline(outcome)
     stamp = said.kind.upper(), STYLES.get(said.kind, "bold")
     verdict = Text.assemble(stamp, f"  {said.sentence.translate(PLAIN)}")
-    title = Text(outcome.problem.scene.title, style="bold")
+    title = Text(one_line(outcome.problem.scene.title), style="bold")
     tables = [_comparison(outcome)] if outcome.comparisons else [_figures(outcome)]
     if outcome.comparisons and outcome.problem.scene.tolerance:
         tables += ["", _model_errors(outcome)]

@@ -22,7 +22,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
 from comparisons.common.quantities import QUANTITIES
 from comparisons.results.recorded_run import check_schema, read_table
@@ -34,6 +34,7 @@ GROUPS = (
     *("friction_dundurs", "peak_pressure_over_hardness"),
 )
 EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS}
+FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
 COLUMNS = (
     *("run", "scene", "title", "friction", "quantity", "unit", "half_plane", "finite_element"),
@@ -55,12 +56,23 @@ def tidy_rows(folders: Iterable[Path]) -> list[Row]:
 
 
 def as_csv(rows: Iterable[Row]) -> str:
-    """The table as comma-separated values, with a header."""
+    """The table as comma-separated values, with a header.
+
+    Neither a terminal nor a spreadsheet obeys a text of it: control characters are written as
+    escapes, and an apostrophe stands before what would be a formula.
+    """
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({name: _harmless(value) for name, value in row.items()} for row in rows)
     return text.getvalue()
+
+
+def _harmless(value: object) -> object:
+    if not isinstance(value, str):
+        return value
+    text = one_line(value)
+    return f"'{text}" if text.startswith(FORMULA) else text
 
 
 def check_ending(path: Path) -> None:

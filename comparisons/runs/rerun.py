@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from comparisons.common.errors import ExitStatus, InputError
+from comparisons.common.errors import ExitStatus, InputError, one_line
 from comparisons.common.files import check_writable
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -124,7 +124,7 @@ def rerun_summary(repetition: Repetition) -> "RenderableType":
     from rich.text import Text
 
     movement = repetition.movement
-    parts: list[RenderableType] = [Text(repetition.outcome.problem.scene.title, style="bold"), ""]
+    parts: list[RenderableType] = [Text(one_line(repetition.outcome.problem.scene.title), style="bold"), ""]
     if movement.moved:
         parts += [_table(movement.moved), ""]
     style = STYLES["agree" if repetition.exit_status == 0 else "differ"]

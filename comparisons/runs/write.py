@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from comparisons.common.files import published
+from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
@@ -36,13 +36,15 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
-        (folder / "record.json").write_text(as_json(outcome.record), encoding="utf-8")
         callback("drawing the report")
         from comparisons.report.page import render
         from comparisons.report.saved import FILE, save_shown
 
         save_shown(folder / FILE, outcome)
         (folder / "report.html").write_text(render(outcome), encoding="utf-8")
+        files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
+        record = outcome.record | {"files": [*files, RECORD]}
+        (folder / RECORD).write_text(as_json(record), encoding="utf-8")
 
 
 def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:

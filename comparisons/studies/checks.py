@@ -225,13 +225,13 @@ class CheckedStudy:
         }
 
 
-def check_places(out: Path, junit: Path | None) -> None:
-    """Raise InputError unless the folder `out` and the file `junit` can be written."""
-    check_writable(out)
+def check_places(command: str, out: Path, junit: Path | None) -> None:
+    """Raise InputError unless the command's files can be written in `out`, and the file `junit`."""
+    check_writable(out, (f"{command}.json", f"{command}.html"))
     if junit is not None:
         if junit.is_dir():
             raise InputError(f"{junit}: cannot be written: it is a folder; allowed is a file")
-        check_writable(junit.parent)
+        check_writable(junit.parent, ())
 
 
 def write_study(

@@ -18,7 +18,8 @@ import numpy as np
 from analytic.surface.readers.text import ProfileError, shown
 from analytic.surface.readers.topography import Topography
 
-WORKER = (sys.executable, "-m", "analytic.surface.readers.instrument_worker")
+# By its path, and without the working folder's modules (-P).
+WORKER = (sys.executable, "-P", str(Path(__file__).with_name("instrument_worker.py")))
 PATIENCE = 300.0  # s; the largest maps take ten
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -74,7 +75,7 @@ def read_instrument_file(path: Path) -> Topography:
 
 def _ask(path: Path, target: Path) -> dict:
     """What the worker says of a file, {"problem": one line} if it fails; arrays are in `target`."""
-    paths = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+    paths = [str(ROOT), *filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "OMP_NUM_THREADS": "1"}
     try:
         done = subprocess.run(

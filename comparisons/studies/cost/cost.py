@@ -40,7 +40,7 @@ def cost(
         raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
         raise InputError(f"--repeats: is {repeats}; allowed is 1 or more")
-    check_writable(out)
+    check_writable(out, FILES)
     cache = cost_cache(out, scene, repeats)
     cache.remove_leftovers()
     try:

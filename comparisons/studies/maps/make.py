@@ -5,7 +5,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.files import check_writable, write_whole
+from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -31,7 +31,7 @@ def make_map(
     Raises InputError for what cannot be mapped or written.
     """
     points = request.points
-    check_writable(out)
+    check_writable(out, (PICTURE, TIMES, MAP))
     cache = point_cache(out)
     cache.remove_leftovers()
     open_executor, count = processes, workers or os.cpu_count() or 1
@@ -45,9 +45,11 @@ def make_map(
     callback("map: picture")
     from comparisons.studies.maps.picture import map_picture
 
-    write_whole(out / PICTURE, map_picture(content))
-    write_whole(out / TIMES, as_json({"seconds": [cache.load(p.key)["seconds"] for p in points]}))
-    write_whole(out / MAP, as_json(content))
+    with published(out, (PICTURE, TIMES, MAP)) as folder:
+        (folder / PICTURE).write_text(map_picture(content), encoding="utf-8")
+        seconds = {"seconds": [cache.load(point.key)["seconds"] for point in points]}
+        (folder / TIMES).write_text(as_json(seconds), encoding="utf-8")
+        (folder / MAP).write_text(as_json(content), encoding="utf-8")
     return content
 
 

@@ -104,7 +104,7 @@ def paper(
     """
     if is_several():
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
-    check_writable(out)
+    check_writable(out, (PAGE, NUMBERS))
     start = perf_counter()
     outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING))
     callback(Step("measuring the claims", SOLVING))

@@ -39,7 +39,7 @@ def run_robustness(
 
     Raises InputError where those cannot be written.
     """
-    check_places(out, junit)
+    check_places("stability", out, junit)
     start = perf_counter()
     rows = run_cases(cases(), callback)
     study = CheckedStudy("stability", rows, perf_counter() - start)

@@ -59,7 +59,7 @@ def verify(
     """
     if is_several():
         raise InputError("verify: runs in several processes; allowed is one, without mpirun")
-    check_places(out, junit)
+    check_places("verify", out, junit)
     scope = scope or everything()
     start = perf_counter()
     rows = run_cases(scope.exact, within(callback, 0.0, EXACT_SHARE))
