@@ -9,13 +9,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
+LAWS = ("neo-hookean", "hencky", "st-venant-kirchhoff", "murnaghan")
+
+
+@dataclass(frozen=True)
+class Law:
+    """What stress follows from a finite strain; all laws have the same limit of small strains.
+
+    name       one of LAWS
+    murnaghan  third-order constants l, m, n [Pa], of that law alone
+    """
+
+    name: str = "neo-hookean"
+    murnaghan: tuple[float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if self.name not in LAWS:
+            raise ValueError(f"the law must be one of {LAWS}, not {self.name!r}")
+        if (self.name == "murnaghan") != (self.murnaghan is not None):
+            raise ValueError("constants l, m, n are Murnaghan's, who needs them")
+
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elastic material: `youngs_modulus` [Pa] > 0, 0 <= `poissons_ratio` < 0.5."""
+    """Isotropic elastic material: `youngs_modulus` [Pa] > 0, 0 <= `poissons_ratio` < 0.5, and its
+    `law` at finite strains, which the linear theory does not ask for."""
 
     youngs_modulus: float
     poissons_ratio: float
+    law: Law = Law()
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.youngs_modulus) and self.youngs_modulus > 0.0):

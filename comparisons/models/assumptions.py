@@ -3,13 +3,20 @@
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
 from comparisons.models.running_in import running_in_assumptions
-from comparisons.scenes.scene import FiniteElementSettings
+from comparisons.scenes.scene import FiniteElementSettings, ResolvedScene
+
+LAW_NAMES = {
+    "neo-hookean": "neo-Hookean",
+    "hencky": "Hencky's",
+    "st-venant-kirchhoff": "St. Venant-Kirchhoff",
+    "murnaghan": "Murnaghan's",
+}
 
 
 def assumptions_of(problem: Problem) -> tuple[str, ...]:
     """One sentence an assumption; where the finite elements drop one, what they have instead."""
     scene, settings = problem.scene, problem.scene.finite_element
-    listed = [_deformation(settings), _gap(settings), _boundary(settings)]
+    listed = [_deformation(scene), _gap(settings), _boundary(settings)]
     listed.append(_roller(settings, rigid=scene.roller is None))
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
@@ -28,13 +35,16 @@ def _split(half_plane: str, finite_elements: str) -> str:
     return f"half-plane: {half_plane}; finite elements: {finite_elements}"
 
 
-def _deformation(settings: FiniteElementSettings) -> str:
+def _deformation(scene: ResolvedScene) -> str:
+    settings = scene.finite_element
     linear, small = "linear elasticity", "small deformation"
     if settings.plastic:
         flow = "von Mises' yield with isotropic hardening"
         return f"{small}, plane strain; {_split(linear, flow)}"
     if settings.deformation == "finite":
-        finite = "neo-Hookean elasticity, finite deformation"
+        laws = {body.law.name: None for body in (scene.body, scene.roller) if body is not None}
+        named = " and ".join(LAW_NAMES[law] for law in laws)
+        finite = f"{named} elasticity, finite deformation"
         return f"plane strain; {_split(f'{linear}, {small}', finite)}"
     return f"{linear}, {small}, plane strain"
 

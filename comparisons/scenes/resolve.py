@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from analytic.material import Material
+from analytic.material import Law, Material
 from comparisons.common.errors import InputError
 from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.profile import KnownTrace, profile_of, sinusoid_length
@@ -25,6 +25,7 @@ from comparisons.scenes.schema.running_in import running_in_of
 from comparisons.scenes.schema.scene import (
     BodySection,
     CoatingSection,
+    ElasticSection,
     RollerSection,
     SceneFile,
     plain_tables,
@@ -121,7 +122,10 @@ def resolve_tables(
 
 
 def _material(table: BodySection | CoatingSection | RollerSection) -> Material:
-    return Material(table.youngs_modulus, table.poissons_ratio)
+    law = Law()
+    if isinstance(table, ElasticSection) and table.law is not None:
+        law = Law(table.law, table.murnaghan and tuple(table.murnaghan.values()))
+    return Material(table.youngs_modulus, table.poissons_ratio, law)
 
 
 def with_tolerance(scene: ResolvedScene, tolerance: float) -> ResolvedScene:

@@ -206,6 +206,26 @@ class Several(FieldType):
 
 
 @dataclass(frozen=True)
+class Named(FieldType):
+    """A table of numbers, one of each of the `names`: what `each` reads."""
+
+    names: tuple[str, ...]
+    each: Number
+
+    def read(self, given: object) -> dict[str, float]:
+        if not isinstance(given, dict):
+            raise self.wrong(f"is {describe(given)}")
+        for name in (*given, *self.names):
+            if name not in given or name not in self.names:
+                raise self.wrong(f"{'lacks' if name in self.names else 'holds'} {describe(name)}")
+        return {name: self.each.read(given[name]) for name in self.names}
+
+    def allowed(self) -> str:
+        shown = ", ".join(f"{name} = …" for name in self.names)
+        return f"a table {{{shown}}}, each {self.each.allowed()}"
+
+
+@dataclass(frozen=True)
 class Grid(FieldType):
     """[columns, rows] of a field of points, at least 3 each and at most `most` in all."""
 

@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, get_args
 
 from pydantic import ValidationError
 
+from analytic.material import LAWS
 from comparisons.common.errors import SceneError, nearest
 from comparisons.common.quantities import QUANTITIES
 from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME, describe
@@ -18,6 +19,7 @@ from comparisons.scenes.schema.fields import (
     Fraction,
     Grid,
     Length,
+    Named,
     Number,
     OneOf,
     SceneSection,
@@ -38,13 +40,29 @@ Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=
 PoissonsRatio = Annotated[float, Number(DIMENSIONLESS, at_least=0.0, below=0.5)]
 
 
-class RollerSection(SceneSection):
+class ElasticSection(SceneSection):
+    """A body and its law of elasticity at finite strains, neo-Hookean by default."""
+
+    law: Annotated[str, OneOf(LAWS)] | None = None
+    murnaghan: Annotated[dict[str, float], Named(("l", "m", "n"), Number(PRESSURE))] | None = None
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.law == "murnaghan" and self.murnaghan is None:
+            yield "murnaghan", f"is missing; allowed is {allowed(type(self), 'murnaghan')}"
+        if self.law != "murnaghan" and self.murnaghan is not None:
+            yield "murnaghan", 'is given for another law; allowed with law = "murnaghan"'
+
+
+class RollerSection(ElasticSection):
     radius: Length
     rigid: Annotated[bool, Truth()] = False
     youngs_modulus: Pressure | None = None
     poissons_ratio: PoissonsRatio | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from super().broken_rules()
+        if self.rigid and self.law is not None:
+            yield "law", "is given beside rigid = true; allowed is one of the two"
         for name in ("youngs_modulus", "poissons_ratio"):
             given = getattr(self, name) is not None
             if self.rigid and given:
@@ -54,7 +72,7 @@ class RollerSection(SceneSection):
                 yield name, f"is missing; allowed is {both}"
 
 
-class BodySection(SceneSection):
+class BodySection(ElasticSection):
     youngs_modulus: Pressure
     poissons_ratio: PoissonsRatio
     hardness: Pressure | None = None
@@ -65,6 +83,7 @@ class BodySection(SceneSection):
     base: Annotated[str, OneOf(("bonded", "frictionless"))] | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
+        yield from super().broken_rules()
         if self.base is not None and self.thickness is None:
             yield "base", "is given for a half-plane, which has none; allowed only with thickness"
         if self.hardening_modulus is not None and self.yield_stress is None:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from analytic.material import Law
 from comparisons.common.errors import SceneError
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.problem import problem_of
@@ -176,6 +177,20 @@ def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, co
     assert complaint in message and "allowed" in message
 
 
+CONSTANTS = {"l": "-150 GPa", "m": -600e9, "n": -700e9}
+
+
+def test_laws_of_elasticity_are_the_bodies_own():
+    """And come back from the record as they were."""
+    law = {"law": "murnaghan", "murnaghan": CONSTANTS}
+    scene = scene_of(ELASTIC, body=law, roller={"law": "hencky"})
+    assert scene.body.law == Law("murnaghan", (-150e9, -600e9, -700e9))
+    assert scene.roller.law == Law("hencky")
+    again = resolve_tables(scene.tables, name="mine", folder=Path("."), source="mine.toml")
+    assert (again.body, again.roller) == (scene.body, scene.roller)
+    assert scene_of(ELASTIC).body.law.name == "neo-hookean"
+
+
 @pytest.mark.parametrize(
     ("sections", "complaint"),
     [
@@ -192,6 +207,32 @@ def test_refusals_name_the_field_and_what_is_allowed(tables, given, sections, co
             "coating.thickness: is 1e-05 m on a body of 1e-05 m",
         ),
         ({"coating": {"thickness": 0.0, **STEEL}}, "coating.thickness: is 0"),
+        ({"body": {"law": "henky"}}, r'body.law: is "henky" \(did you mean "hencky"'),
+        ({"body": {"law": "murnaghan"}}, "body.murnaghan: is missing; allowed is a table"),
+        ({"roller": {"murnaghan": CONSTANTS}}, "roller.murnaghan: is given for another law"),
+        (
+            {"body": {"law": "murnaghan", "murnaghan": {"l": 1.0, "m": 1.0}}},
+            'body.murnaghan: lacks "n"',
+        ),
+        (
+            {"body": {"law": "murnaghan", "murnaghan": {**CONSTANTS, "k": 1.0}}},
+            'body.murnaghan: holds "k"',
+        ),
+        (
+            {"body": {"law": "murnaghan", "murnaghan": {**CONSTANTS, "n": "1 mm"}}},
+            'body.murnaghan: is "1 mm"',
+        ),
+        (
+            {
+                "roller": {
+                    "rigid": True,
+                    "law": "hencky",
+                    "youngs_modulus": None,
+                    "poissons_ratio": None,
+                }
+            },
+            "roller.law: is given beside rigid",
+        ),
     ],
 )
 def test_bodies_that_cannot_be(sections, complaint):
