@@ -102,6 +102,7 @@ def _shares_factor(scene: ResolvedScene) -> bool:
     """Whether the roller's block is the body's but for a factor on its modulus."""
     settings, roller = scene.finite_element, scene.roller
     own = (scene.thickness, scene.width, scene.coating) != (None, None, None) or settings.plastic
+    own = own or settings.deformation == "finite"  # its boundary is its shape
     flat = settings.geometry == "flat" and settings.roller_body == "half-plane"
     alike = roller is not None and roller.poissons_ratio == scene.body.poissons_ratio
     return alike and flat and not own

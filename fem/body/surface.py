@@ -130,7 +130,7 @@ def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
     interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
 
     edge = surface.edges[element]
-    begin, end = _place(edge, cut[:-1]), _place(edge, cut[1:])
+    begin, end = place_on(edge, cut[:-1]), place_on(edge, cut[1:])
     t = begin[:, None] + 0.5 * (end - begin)[:, None] * (1.0 + GAUSS_POINTS)
     length, bend = (value[:, None] for value in _length_and_bend(edge))
     x = edge[:, :1] + t * (length + bend * (1.0 - t))
@@ -178,7 +178,7 @@ def _length_and_bend(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return end - start, 4.0 * middle - 2.0 * (start + end)
 
 
-def _place(edges: np.ndarray, x: np.ndarray) -> np.ndarray:
+def place_on(edges: np.ndarray, x: np.ndarray) -> np.ndarray:
     """t (e,) at which edges (e, 3) have x (e,)."""
     length, bend = _length_and_bend(edges)
     slope, gone = length + bend, x - edges[:, 0]

@@ -27,8 +27,9 @@ from scipy.sparse import bmat, csr_matrix
 from fem.contact.terms import Contact, ContactTerms, Response
 from fem.solver.mumps import FemError, solve_once
 
-# Largest of three residuals: forces over the contact's forces, complementarity over the pressure,
-# load over the load. Rounding leaves 1e-11 on large graded blocks.
+# Largest of three residuals: forces over the contact's forces, both over the tangent's diagonal (so
+# that the rounding of a stiff body counts as little as what it moves), complementarity over the
+# pressure, load over the load. Rounding leaves 1e-11 on large graded blocks.
 RESIDUAL = 1e-9
 MOST_ITERATIONS = 30
 # A step is bisected if it multiplies the residual by more or inverts an element.
@@ -144,10 +145,12 @@ class ContactProblem:
 
     @cached_property
     def stiffness(self) -> float:
-        """k of the bodies in series, each with the mean diagonal of its tangent at rest."""
+        """k of the bodies in series, each with the harmonic mean of its tangent's diagonal at
+        rest."""
         soft = 0.0
         for (body, _), free in zip(self.bodies, self.free, strict=True):
-            soft += 1.0 / body.linearised(np.zeros(body.held.shape))[1].diagonal()[free].mean()
+            diagonal = body.linearised(np.zeros(body.held.shape))[1].diagonal()
+            soft += (1.0 / diagonal[free]).mean()
         return 1.0 / soft
 
     @cached_property
@@ -174,9 +177,10 @@ class ContactProblem:
         """The largest of the three parts (see RESIDUAL)."""
         pressure = point.state.pressure
         worst = 0.0
-        for (force, _, terms), free in zip(point.bodies, self.free, strict=True):
-            applied = (terms.force @ pressure)[free]
-            worst = max(worst, _ratio(force[free] - applied, applied))
+        for (force, tangent, terms), free in zip(point.bodies, self.free, strict=True):
+            soft = 1.0 / tangent.diagonal()[free]
+            applied = soft * (terms.force @ pressure)[free]
+            worst = max(worst, _ratio(soft * force[free] - applied, applied))
         wanted = pressure - self.stiff * self.weighted_gap(point) / self.weights
         clipped = np.clip(wanted, 0.0, self.hardness)
         worst = max(worst, _ratio(pressure - clipped, pressure))
@@ -315,7 +319,8 @@ def solve_nonlinear_contact(
     gap        G (count,) [m^2], the part of the gap that does not depend on displacements
     weights    w (count,) [m], integrals of the hats
     start      an equilibrium, or for bodies at rest (load 0) a guess of the solution: for linear
-               bodies only the support of its pressure matters, others need the linear solution
+               bodies only the support of its pressure matters, others need the linear solution.
+               Held components keep its displacements, in proportion to the load
     hardness   H [Pa], cap on the pressure
 
     The load is the sum of the pressures; the vertical part of the friction's tractions, of the
@@ -335,9 +340,14 @@ def solve_nonlinear_contact(
         part = 1.0 if done + step > 1.0 - LEAST_INCREMENT else done + step
         target = goal if part == 1.0 else first + part * (goal - first)
         guess = state
-        if at_rest and not histories:
+        if at_rest:  # what the supports are moved by grows with the load
             moved = tuple(part * u for u in start.displacements)
-            guess = replace(start, displacements=moved, pressure=part * start.pressure)
+            if histories:
+                pairs = zip(bodies, moved, state.displacements, strict=True)
+                moved = tuple(np.where(body.held, u, now) for (body, _), u, now in pairs)
+                guess = replace(state, displacements=moved)
+            else:
+                guess = replace(start, displacements=moved, pressure=part * start.pressure)
         if load is None:
             guess = replace(guess, approach=target)
         try:

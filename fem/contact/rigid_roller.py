@@ -50,45 +50,60 @@ def parabola(radius: float) -> Roller:
     return rise
 
 
+class HatsOnSurface:
+    """Points under hats (count + 2,) [m] of a body's surface. The hats belong to places of the
+    undeformed body. Raises ValueError if one sticks out of the surface.
+
+    nodes     of all displacements, of which the body's are the first; None: there are no others
+    x, z      (q, 2 nodes) take x and z at the q points from places of the nodes
+    hats      (q, count) values of the hats
+    weight    (q,) [m] of the points
+    weighted  (q, count) [m] hats times weight
+    """
+
+    def __init__(self, body: ElasticBody, hats: np.ndarray, nodes: int | None = None) -> None:
+        points, count = hat_points(body.surface, hats), len(hats) - 2
+        self.weight = points.weight.ravel()
+        number = np.arange(points.x.size).reshape(points.x.shape)
+        node = np.broadcast_to(body.surface.point[points.node][..., None], points.shape.shape)
+        row = np.broadcast_to(number, points.shape.shape)
+        size = (number.size, 2 * (nodes or len(body.nodes)))
+
+        def of_component(axis: int) -> csr_matrix:
+            place = (row.ravel(), 2 * node.ravel() + axis)
+            return csr_matrix((points.shape.ravel(), place), size)
+
+        self.x, self.z = of_component(0), of_component(1)
+        column = np.broadcast_to(points.column[..., None], points.hat.shape)
+        at = np.broadcast_to(number, points.hat.shape)
+        among = (column >= 0) & (column < count)
+        place = (at[among], column[among])
+        self.hats = csr_matrix((points.hat[among], place), (number.size, count))
+        self.weighted = diags(self.weight) @ self.hats
+
+
 class CurrentContact:
-    """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m]. The hats
-    belong to places of the undeformed body. Raises ValueError if one sticks out of the surface."""
+    """Contact of a body's surface with a rigid roller, on the hats (count + 2,) [m]. Raises
+    ValueError if one sticks out of the surface."""
 
     def __init__(
         self, body: ElasticBody, hats: np.ndarray, roller: Roller, friction: float = 0.0
     ) -> None:
-        points, count = hat_points(body.surface, hats), len(hats) - 2
         self.frictionless, self._friction, self._roller = not friction, friction, roller
-        self._weight = points.weight.ravel()
-        number = np.arange(points.x.size).reshape(points.x.shape)
-        node = np.broadcast_to(body.surface.point[points.node][..., None], points.shape.shape)
-        row = np.broadcast_to(number, points.shape.shape)
-
-        def of_component(axis: int) -> csr_matrix:
-            place = (row.ravel(), 2 * node.ravel() + axis)
-            return csr_matrix((points.shape.ravel(), place), (number.size, 2 * len(body.nodes)))
-
-        self._x, self._z = of_component(0), of_component(1)
-        column = np.broadcast_to(points.column[..., None], points.hat.shape)
-        row = np.broadcast_to(number, points.hat.shape)
-        among = (column >= 0) & (column < count)
-        place = (row[among], column[among])
-        self._hats = csr_matrix((points.hat[among], place), (number.size, count))
-        self._undeformed = body.nodes
+        self._points, self._undeformed = HatsOnSurface(body, hats), body.nodes
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on the deformed surface."""
-        place = (self._undeformed + displacement).ravel()
-        rise, slope, bend = self._roller(self._x @ place)
-        gap = self._hats.T @ (self._weight * (self._z @ place + rise))
-        weighted = diags(self._weight) @ self._hats
-        along, down = self._x.T @ diags(slope) @ weighted, self._z.T @ weighted
+        on, place = self._points, (self._undeformed + displacement).ravel()
+        rise, slope, bend = self._roller(on.x @ place)
+        gap = on.hats.T @ (on.weight * (on.z @ place + rise))
+        along, down = on.x.T @ diags(slope) @ on.weighted, on.z.T @ on.weighted
         gradient = (along + down).tocsr()
-        bend = diags(bend * self._weight * (self._hats @ pressure))
-        turning = self._x.T @ bend @ self._x
+        bend = diags(bend * on.weight * (on.hats @ pressure))
+        turning = on.x.T @ bend @ on.x
         if self.frictionless:
             return ContactTerms(gap, gradient, gradient, turning.tocsr())
-        sliding = self._x.T @ weighted - self._z.T @ diags(slope) @ weighted
+        sliding = on.x.T @ on.weighted - on.z.T @ diags(slope) @ on.weighted
         force = (gradient + self._friction * sliding).tocsr()
-        stiffness = (turning - self._friction * (self._z.T @ bend @ self._x)).tocsr()
+        stiffness = (turning - self._friction * (on.z.T @ bend @ on.x)).tocsr()
         return ContactTerms(gap, gradient, force, stiffness)

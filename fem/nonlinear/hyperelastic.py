@@ -1,16 +1,10 @@
-"""A body of compressible neo-Hookean material in plane strain, at finite strains and rotations.
+"""A hyperelastic body in plane strain, at finite strains and rotations (`fem.nonlinear.laws`).
 
-    W = mu/2 (tr(F'F) - 2) - mu ln J + lambda/2 (ln J)^2,   sigma = mu/J (FF' - I) + lambda ln J/J I
-
-For small strains it is the linear body of the same Young's modulus and Poisson's ratio (Bonet and
-Wood, Nonlinear Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27). Other laws of
-the same limit differ: with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2 as the last term the
-peak pressure under a flat on a sinusoid (slope 0.025, p0/E = 0.015) is 0.29 and 0.22 % above the
-linear one, here 0.42 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 times the pressure
+For small strains every law is the linear body of the same Young's modulus and Poisson's ratio. The
+default is neo-Hookean. Under a flat on a sinusoid (slope 0.025, p0/E = 0.015) it has a peak
+pressure 0.42 % above the linear one, with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2 as its
+last term 0.29 and 0.22 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 times the pressure
 (nu = 0.3), that of steel by about five times.
-
-Nomenclature: u displacement [m], F = I + grad u, J = det F, W energy [J/m^3], mu and lambda Lame's
-constants [Pa], sigma Cauchy's stress [Pa].
 """
 
 from dataclasses import dataclass, replace
@@ -22,15 +16,19 @@ from analytic.stress_state import StressState
 from fem import compat
 from fem.body.elasticity import ElasticBody, quadrature_degree
 from fem.body.triangle import gradients, reference_nodes
+from fem.nonlinear.laws import cauchy_stress, energy
 from fem.solver.compilation import compiled
 from fem.solver.mumps import FemError
 from fem.stress.recovery import element_stress, recovered_stress
 from fem.stress.stress import NodalStress, at_mesh_points
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
+CORNERS = reference_nodes(1)
 
-class NeoHookeanBody:
-    """The response of `body` at finite strains. Raises FemError on more than one process."""
+
+class HyperelasticBody:
+    """The response of `body` at finite strains, by the law of its material. Raises FemError on more
+    than one process."""
 
     symmetric = True
 
@@ -48,12 +46,10 @@ class NeoHookeanBody:
         mu, lame = (compat.cell_values(space.mesh, value) for value in constants)
         self._moved = fem.Function(space)
         v, w = ufl.TestFunction(space), ufl.TrialFunction(space)
-        deformed = ufl.Identity(2) + ufl.grad(self._moved)
-        log = ufl.ln(ufl.det(deformed))
-        energy = 0.5 * mu * (ufl.inner(deformed, deformed) - 2.0) - mu * log + 0.5 * lame * log**2
+        density = energy(body.material.law, ufl.grad(self._moved), mu, lame, self._unit)
         # the stress is no polynomial even on straight edges: as many points as on curved ones
         points = {"quadrature_degree": quadrature_degree(body.degree, True)}
-        work = ufl.derivative(energy * ufl.dx(metadata=points), self._moved, v)
+        work = ufl.derivative(density * ufl.dx(metadata=points), self._moved, v)
         self._work = compiled(lambda: compat.compile_form(work))
         tangent = ufl.derivative(work, self._moved, w)
         self._work = compiled(lambda: compat.compile_form(work))
@@ -67,13 +63,19 @@ class NeoHookeanBody:
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
         force[self._component] = compat.assembled_vector(self._work)
-        if not np.isfinite(force).all():
+        if not np.isfinite(force).all() or self._inverted(displacement):
             raise FemError("an element is inverted")
         tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))
         return self._unit * force.reshape(-1, 2), self._unit * tangent
 
     def accept(self, displacement: np.ndarray) -> None:
         """No history: the energy depends on the displacement alone."""
+
+    def _inverted(self, displacement: np.ndarray) -> bool:
+        """At a corner; laws in ln J find it inside, too."""
+        body = self.body
+        moved = gradients(body.points[body.mesh.triangles], displacement[body.elements], CORNERS)
+        return bool(np.any(np.linalg.det(np.eye(2) + moved) <= 0.0))
 
     def _in_our_order(self, matrix) -> csr_matrix:
         """The matrix (2n, 2n) in the order of the body's own nodes."""
@@ -89,17 +91,6 @@ class NeoHookeanBody:
         return csr_matrix(data, shape=self._pattern.shape)
 
 
-def cauchy_stress(gradient: np.ndarray, mu: np.ndarray, lame: np.ndarray) -> np.ndarray:
-    """sx, sz, txz (..., 3) [Pa] of displacement gradients (..., 2, 2), d u_i / d X_j."""
-    deformed = np.eye(2) + gradient
-    volume = np.linalg.det(deformed)
-    b = deformed @ np.swapaxes(deformed, -1, -2)
-    mean = (lame * np.log(volume) - mu) / volume
-    shear = mu / volume
-    parts = [shear * b[..., 0, 0] + mean, shear * b[..., 1, 1] + mean, shear * b[..., 0, 1]]
-    return np.stack(parts, axis=-1)
-
-
 def nodal_cauchy_stress(
     body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
 ) -> NodalStress:
@@ -112,10 +103,9 @@ def nodal_cauchy_stress(
     """
     if body.coated.any():
         raise FemError("stresses at finite deformations are not computed for a coated body")
-    at = reference_nodes(2)
-    gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
-    cauchy = cauchy_stress(gradient, body.shear_modulus[:, None], body.lame[:, None])
-    second_order = _averaged(body, cauchy - element_stress(body, displacement, at))
+    cauchy = _at_nodes(body, displacement)[..., :3]
+    linear = element_stress(body, displacement, reference_nodes(2))
+    second_order = _averaged(body, cauchy - linear)
     top = body.top.point
     along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
     t = along / np.linalg.norm(along, axis=1)[:, None]
@@ -134,11 +124,16 @@ def nodal_cauchy_stress(
 
 
 def nodal_stress_across(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Cauchy's stress across the plane (k,) [Pa] at the mesh points, lambda ln J / J."""
-    at = reference_nodes(2)
-    gradient = gradients(body.points[body.mesh.triangles], displacement[body.elements], at)
-    volume = np.linalg.det(np.eye(2) + gradient)
-    return _averaged(body, (body.lame[:, None] * np.log(volume) / volume)[..., None])[:, 0]
+    """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
+    return _averaged(body, _at_nodes(body, displacement)[..., 3:])[:, 0]
+
+
+def _at_nodes(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
+    """Cauchy's sx, sz, txz, sy (m, 6, 4) [Pa] at the mesh points of each element."""
+    corner = body.points[body.mesh.triangles]
+    gradient = gradients(corner, displacement[body.elements], reference_nodes(2))
+    constants = body.shear_modulus[:, None], body.lame[:, None]
+    return cauchy_stress(gradient, *constants, body.material.law)
 
 
 @dataclass(frozen=True)

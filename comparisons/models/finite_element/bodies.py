@@ -131,6 +131,8 @@ def bodies_of(
         flat = body_cache.mesh(wanted)
         mesh = roller_mesh(problem, flat)
     shape = (_key(wanted), settings.roller_body, scene.roller_radius)
+    if settings.roller_body == "half-plane" and mesh is not flat:
+        shape = None
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":

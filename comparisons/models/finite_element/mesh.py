@@ -8,6 +8,7 @@ import numpy as np
 from comparisons.common.errors import SceneError
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
+from fem.contact.rigid_roller import Roller, circle, parabola
 from meshes.block import BlockMesh, BlockSpec
 from meshes.real_shape import bent, roughen
 from meshes.refined_ranges import refined_ranges
@@ -24,6 +25,8 @@ LAYER_EXTENT = 12.0  # thicknesses beyond the contact: a layer's displacements d
 # elements of the first level, four of the shortest waves; largest heights of the profile, which
 # keeps the fading's own slope below 0.4. Peak pressures change by less than 3e-6 from 10 to 160.
 FADE_HATS, FADE_HEIGHTS = 40.0, 5.0
+# The slope of a roller on a block fades over this multiple of the extent of pressures.
+LEVELS_OFF = 2.0
 DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of the roller
 
 
@@ -100,10 +103,31 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
 
 
 def roller_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
-    """The roller's mesh from the flat one: bent to its circle where it is a disc."""
-    if problem.scene.finite_element.roller_body == "half-plane":
+    """The roller's mesh from the flat one: bent to its circle where it is a disc; at finite
+    deformation a block with the roller's shape on it, which levels off beside the extent."""
+    settings, radius = problem.scene.finite_element, problem.scene.roller_radius
+    if settings.roller_body == "disc":
+        return bent(flat, radius)
+    if settings.deformation == "linear":
         return flat
-    return bent(flat, problem.scene.roller_radius)
+    shape = circle if settings.roller_shape == "circle" else parabola
+    return roughen(flat, levelled(shape(radius), np.abs(problem.extent).max()))
+
+
+def levelled(roller: Roller, reach: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Heights [m] of a roller on a half-plane, zero at its lowest point: its shape to `reach` [m]
+    on either side, beyond which its slope fades over LEVELS_OFF as much."""
+    length = LEVELS_OFF * reach
+    edge, slope, _ = roller(np.array([reach]))
+
+    def height(x: np.ndarray) -> np.ndarray:
+        inside = np.clip(x, -reach, reach)
+        beyond = np.minimum((np.abs(x) - np.abs(inside)) / length, 1.0)
+        # the integral of (1 - t)^2 (1 + 2 t)
+        faded = slope * length * beyond * (1.0 - beyond**2 + 0.5 * beyond**3)
+        return -(np.where(beyond > 0.0, edge, roller(inside)[0]) + faded)
+
+    return height
 
 
 def expected_unknowns(

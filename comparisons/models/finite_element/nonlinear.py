@@ -34,7 +34,8 @@ def pressed_finitely(
     linear: ContactSolution,
     constraints: Constraints,
 ) -> LoadedBody:
-    """The body at finite strains, in contact on its deformed surface.
+    """The body at finite strains, in contact on its deformed surface with a rigid roller or with
+    an elastic one at finite strains.
 
     Pressures are those on the deformed surface, at its displaced x. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation.
@@ -43,8 +44,16 @@ def pressed_finitely(
     weights, x = grid.weights, grid.x
     prescribed = {name: getattr(constraints, name) for name in ("load", "approach", "hardness")}
     roller, friction = roller_of(problem), scene.friction[0]
+    if scene.roller is not None:
+        roller = operator.parts[1].compliance
     found = press_finitely(
-        rough.body, rough.hats, roller, linear.pressure, friction=friction, **prescribed
+        rough.body,
+        rough.hats,
+        roller,
+        linear.pressure,
+        friction=friction,
+        far=rough.far,
+        **prescribed,
     )
     ends = [0, -1]  # on few elements the linear contact may reach them, too
     if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):

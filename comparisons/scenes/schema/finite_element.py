@@ -68,8 +68,8 @@ class FiniteElementSection(SceneSection):
         frictions, slides = len(load.friction), max(load.friction) > 0.0
         if self.geometry == "rough" and profile is None:
             yield "geometry", 'is "rough" for a smooth body; allowed with [profile]'
-        if self.nonlinear and far:
-            yield "far_field", 'is "half-plane" for a body that is not linear; allowed is "held"'
+        if self.plastic and far:
+            yield "far_field", 'is "half-plane" for a body that yields; allowed is "held"'
         if self.nonlinear and frictions != 1:
             yield (
                 "plastic" if self.plastic else "deformation",
@@ -88,9 +88,6 @@ class FiniteElementSection(SceneSection):
             yield "plastic", "is true, but the body has no yield stress; allowed with one"
         if self.coupled and frictions != 1:
             yield "coupled", SEVERAL_FRICTIONS.format(frictions)
-        if finite and not roller.rigid:
-            problem = 'is "finite" with an elastic roller; allowed with roller.rigid = true'
-            yield "deformation", problem
         if finite and coated:
             yield "deformation", 'is "finite" for a coated body; allowed without [coating]'
         if finite and profile is not None and self.geometry == "flat":

@@ -8,7 +8,7 @@ from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
 from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.nonlinear.hyperelastic import (
-    NeoHookeanBody,
+    HyperelasticBody,
     along_surface,
     cauchy_stress,
     nodal_cauchy_stress,
@@ -36,7 +36,7 @@ def body(structured_block):
 
 @pytest.fixture(scope="module")
 def response(body):
-    return NeoHookeanBody(body)
+    return HyperelasticBody(body)
 
 
 def quadrature(body):
@@ -80,7 +80,7 @@ def test_homogeneous_deformations_are_exact(body, response, gradient):
     np.testing.assert_allclose(force.T @ body.nodes, piola * area, rtol=2e-3, atol=2e-3 * MU)
     f = np.eye(2) + gradient
     sigma = piola @ f.T / np.linalg.det(f)
-    found = cauchy_stress(gradient, MU, LAME)
+    found = cauchy_stress(gradient, MU, LAME)[:3]
     np.testing.assert_allclose(found, [sigma[0, 0], sigma[1, 1], sigma[0, 1]], rtol=1e-13)
 
 
@@ -88,7 +88,7 @@ def test_simple_shear_by_the_textbook():
     """mu g^2 along, nothing across, mu g: the volume stays (Bonet and Wood, section 6.4)."""
     np.testing.assert_allclose(
         cauchy_stress(np.array([[0.0, 0.7], [0.0, 0.0]]), MU, LAME),
-        [MU * 0.49, 0.0, MU * 0.7],
+        [MU * 0.49, 0.0, MU * 0.7, 0.0],
         atol=1e-15,
     )
 
@@ -163,7 +163,7 @@ def test_a_material_of_each_triangle(structured_block):
         structured_block(X, Z), MATERIAL, Support(), coating=Coating(Material(6.0, 0.2), Z[1])
     )
     at = np.where(body.held, 0.0, some_displacement(body, 1e-6))
-    force, _ = NeoHookeanBody(body).linearised(at)
+    force, _ = HyperelasticBody(body).linearised(at)
     linear = (body.stiffness() @ at.ravel()).reshape(-1, 2)
     free = ~body.held
     assert np.abs(force - linear)[free].max() < 1e-5 * np.abs(linear[free]).max()

@@ -1,0 +1,144 @@
+"""Contact of two deformed bodies: the rough body's hats against the roller's current surface.
+
+    g_i = integral phi_i (z + r(x)) dX,   (x, z) = (X + u_x, Z + u_z)
+    T p = integral p dg/du dX    on both bodies
+
+r(x) is the height of the roller's deformed surface in the roller's own frame (x as the rough
+body's, z into the roller), at the place x where the point of the rough body is now. On an edge of
+the roller (x, r) = sum M_a(t) (x_a, r_a), and
+
+    dg = dz + sum M_a dr_a + s (dx - sum M_a dx_a),   s = dr/dx.
+
+Forces at a point act on both bodies at the same place and against each other: p (s, 1) per
+undeformed length of the rough body, with friction towards +x along the common tangent (1, -s) on
+it. p is the vertical force per undeformed length of x of the rough body: integral p dX is the load.
+
+The slope of quadratic edges jumps at their ends by the order of their length squared. Forces follow
+instead the line through the slopes in the middle of neighbouring edges, of the same order and
+without jumps; Newton's method would not settle where a point under a hat crosses such an end. The
+gap itself and the places of forces are the edges' own: constant pressures between conforming
+bodies stay exact. The tangent leaves the jumps out too and is symmetric without friction.
+
+Nomenclature: X, Z place in the undeformed rough body [m], u displacement [m], p hat pressures [Pa],
+phi_i hats, N and M_a shape functions of the rough body's surface and of the roller's.
+"""
+
+import numpy as np
+from scipy.sparse import block_diag, csr_matrix, diags
+
+from fem.body.elasticity import ElasticBody
+from fem.body.surface import place_on
+from fem.body.triangle import edge_shapes
+from fem.contact.rigid_roller import HatsOnSurface
+from fem.contact.terms import ContactTerms, Response
+from fem.solver.mumps import FemError
+
+
+class TwoBodies:
+    """The responses of the rough body and the roller as one: displacements (n, 2) of the rough
+    body's nodes, then those of the roller's, each in its own frame."""
+
+    def __init__(self, rough: Response, roller: Response) -> None:
+        self.parts = (rough, roller)
+        self.held = np.vstack([rough.held, roller.held])
+        self.symmetric = rough.symmetric and roller.symmetric
+
+    def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
+        """As of `fem.contact.terms.Response`."""
+        pieces = zip(self.parts, self._split(displacement), strict=True)
+        forces, tangents = zip(*(part.linearised(u) for part, u in pieces), strict=True)
+        return np.vstack(forces), block_diag(tangents, format="csr")
+
+    def accept(self, displacement: np.ndarray) -> None:
+        """Both bodies accept their own."""
+        for part, u in zip(self.parts, self._split(displacement), strict=True):
+            part.accept(u)
+
+    def _split(self, displacement: np.ndarray) -> list[np.ndarray]:
+        return np.split(displacement, [len(self.parts[0].held)])
+
+
+class RollerSurface:
+    """The current surface of an elastic roller, whose displacements are quadratic.
+
+    Raises FemError where x no longer ascends along it, and for places x beyond its ends.
+    """
+
+    def __init__(self, body: ElasticBody, displacement: np.ndarray) -> None:
+        self.x, self.z = (body.nodes + displacement)[body.surface.point].T
+        if body.surface.degree != 2 or not np.all(np.diff(self.x) > 0.0):
+            raise FemError("the roller's surface folds")
+        self.edges = np.column_stack([self.x[:-1:2], self.x[1::2], self.x[2::2]])
+        self.middle = self.x[1::2]
+        self.chord = np.diff(self.z[::2]) / np.diff(self.x[::2])
+
+    def edge(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Numbers (k,) of the edges below places x (k,) [m], and where on them, 0 to 1."""
+        if np.any((x < self.x[0]) | (x > self.x[-1])):
+            raise FemError("the contact reaches beyond the roller's surface")
+        vertex = self.x[::2]
+        edge = np.clip(np.searchsorted(vertex, x) - 1, 0, len(vertex) - 2)
+        return edge, place_on(self.edges[edge], x)
+
+    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """r [m], its slope without jumps and that one's own slope [1/m] at places x (k,) [m]."""
+        edge, t = self.edge(x)
+        node = 2 * edge[:, None] + np.arange(3)
+        rise = (edge_shapes(t) * self.z[node]).sum(axis=1)
+        before = np.clip(np.searchsorted(self.middle, x) - 1, 0, len(self.middle) - 2)
+        bend = np.diff(self.chord)[before] / np.diff(self.middle)[before]
+        return rise, self.chord[before] + bend * (x - self.middle[before]), bend
+
+
+class PairContact:
+    """Contact of a rough body with an elastic roller, on the hats (count + 2,) [m] of the
+    undeformed rough body; displacements as of `TwoBodies`. Raises ValueError if a hat sticks out of
+    the surface."""
+
+    def __init__(
+        self, body: ElasticBody, hats: np.ndarray, roller: ElasticBody, friction: float = 0.0
+    ) -> None:
+        self.frictionless, self._friction, self._roller = not friction, friction, roller
+        self._first, self._count = len(body.nodes), len(body.nodes) + len(roller.nodes)
+        self._points = HatsOnSurface(body, hats, self._count)
+        self._undeformed = np.vstack([body.nodes, roller.nodes])
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
+        on, place = self._points, (self._undeformed + displacement).ravel()
+        x = on.x @ place
+        surface = RollerSurface(self._roller, displacement[self._first :])
+        rise, slope, bend = surface(x)
+        gap = on.hats.T @ (on.weight * (on.z @ place + rise))
+
+        edge, t = surface.edge(x)
+        node = 2 * edge[:, None] + np.arange(3)
+        value = np.column_stack([4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0])
+        value /= (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
+        at_x, at_z = self._of_roller(node, edge_shapes(t))
+        turn_x, turn_z = self._of_roller(node, value)
+
+        weighted, load = on.weighted, diags(on.weight * (on.hats @ pressure))
+        along, down = on.x - at_x, on.z + at_z
+        turning = turn_z - diags(slope) @ turn_x
+        gradient = (along.T @ diags(slope) @ weighted + down.T @ weighted).tocsr()
+        mixed = turning.T @ load @ along
+        stiffness = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T
+        if self.frictionless:
+            return ContactTerms(gap, gradient, gradient, stiffness.tocsr())
+        sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
+        slides = turn_x.T @ load @ along + turn_z.T @ (load @ diags(slope)) @ along
+        slides = slides + down.T @ load @ (turning + diags(bend) @ along)
+        force = (gradient + self._friction * sliding).tocsr()
+        return ContactTerms(gap, gradient, force, (stiffness - self._friction * slides).tocsr())
+
+    def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
+        """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,
+        3) with factors (q, 3)."""
+        number = self._first + self._roller.surface.point[node]
+        row = np.repeat(np.arange(len(node)), 3)
+        shape = (len(node), 2 * self._count)
+        return [
+            csr_matrix((value.ravel(), (row, (2 * number + axis).ravel())), shape=shape)
+            for axis in (0, 1)
+        ]
