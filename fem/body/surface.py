@@ -9,7 +9,7 @@ Nomenclature
     B                    (2k, n) nodal force of a unit hat, B[2a + c, i] = integral N_a phi_i d_c dx
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -110,9 +110,10 @@ class HatPoints:
     column: np.ndarray  # (2, e) their numbers; -1 and count are the outer feet, without pressure
 
 
-def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
-    """Gauss points under `hats` (count + 2,) [m], with their outer feet. Raises ValueError if the
-    hats' nodes do not ascend or a hat sticks out of the surface."""
+def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -> HatPoints:
+    """Gauss points under `hats` (count + 2,) [m], with their outer feet. `cuts` [m] end further
+    pieces. Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the surface.
+    """
     hats = np.asarray(hats, dtype=float)
     if hats.ndim != 1 or len(hats) < 3 or not np.all(np.diff(hats) > 0.0):
         raise ValueError("the hats' nodes must be three or more numbers that ascend")
@@ -124,7 +125,8 @@ def hat_points(surface: Surface, hats: np.ndarray) -> HatPoints:
             f"the pressures reach from {hats[0]:g} m to {hats[-1]:g} m, "
             f"but the surface only from {vertex[0]:g} m to {vertex[-1]:g} m"
         )
-    cut = np.union1d(hats, vertex[(vertex > hats[0]) & (vertex < hats[-1])])
+    inner = np.union1d(vertex, cuts)
+    cut = np.union1d(hats, inner[(inner > hats[0]) & (inner < hats[-1])])
     middle = 0.5 * (cut[:-1] + cut[1:])
     element = np.clip(np.searchsorted(vertex, middle) - 1, 0, len(vertex) - 2)
     interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
@@ -176,6 +178,12 @@ def _length_and_bend(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """L and c (e,) [m] of x(t) = x(0) + L t + c t (1 - t) on edges (e, 3)."""
     start, middle, end = edges.T
     return end - start, 4.0 * middle - 2.0 * (start + end)
+
+
+def along_edges(edges: np.ndarray, edge: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """x (k,) [m] at places t (k,), 0 to 1, of the edges numbered `edge` (k,) among (e, 3)."""
+    length, bend = _length_and_bend(edges[edge])
+    return edges[edge, 0] + t * (length + bend * (1.0 - t))
 
 
 def place_on(edges: np.ndarray, x: np.ndarray) -> np.ndarray:

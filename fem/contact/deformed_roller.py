@@ -17,7 +17,9 @@ The slope of quadratic edges jumps at their ends by the order of their length sq
 instead the line through the slopes in the middle of neighbouring edges, of the same order and
 without jumps; Newton's method would not settle where a point under a hat crosses such an end. The
 gap itself and the places of forces are the edges' own: constant pressures between conforming
-bodies stay exact. The tangent leaves the jumps out too and is symmetric without friction.
+bodies stay exact. The tangent leaves the jumps out too and is symmetric without friction. The
+integrals are cut where edges of either body end: across the ends of the roller's the pressure
+would oscillate by 0.15 % of its peak, whatever the size of the elements.
 
 Nomenclature: X, Z place in the undeformed rough body [m], u displacement [m], p hat pressures [Pa],
 phi_i hats, N and M_a shape functions of the rough body's surface and of the roller's.
@@ -27,7 +29,7 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, diags
 
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import place_on
+from fem.body.surface import along_edges, place_on
 from fem.body.triangle import edge_shapes
 from fem.contact.rigid_roller import HatsOnSurface
 from fem.contact.terms import ContactTerms, Response
@@ -58,8 +60,8 @@ class TwoBodies:
         return np.split(displacement, [len(self.parts[0].held)])
 
 
-class RollerSurface:
-    """The current surface of an elastic roller, whose displacements are quadratic.
+class DeformedSurface:
+    """The current surface of a body whose displacements are quadratic.
 
     Raises FemError where x no longer ascends along it, and for places x beyond its ends.
     """
@@ -67,7 +69,7 @@ class RollerSurface:
     def __init__(self, body: ElasticBody, displacement: np.ndarray) -> None:
         self.x, self.z = (body.nodes + displacement)[body.surface.point].T
         if body.surface.degree != 2 or not np.all(np.diff(self.x) > 0.0):
-            raise FemError("the roller's surface folds")
+            raise FemError("a surface folds")
         self.edges = np.column_stack([self.x[:-1:2], self.x[1::2], self.x[2::2]])
         self.middle = self.x[1::2]
         self.chord = np.diff(self.z[::2]) / np.diff(self.x[::2])
@@ -75,7 +77,7 @@ class RollerSurface:
     def edge(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Numbers (k,) of the edges below places x (k,) [m], and where on them, 0 to 1."""
         if np.any((x < self.x[0]) | (x > self.x[-1])):
-            raise FemError("the contact reaches beyond the roller's surface")
+            raise FemError("the contact reaches beyond the end of a body's surface")
         vertex = self.x[::2]
         edge = np.clip(np.searchsorted(vertex, x) - 1, 0, len(vertex) - 2)
         return edge, place_on(self.edges[edge], x)
@@ -100,14 +102,18 @@ class PairContact:
     ) -> None:
         self.frictionless, self._friction, self._roller = not friction, friction, roller
         self._first, self._count = len(body.nodes), len(body.nodes) + len(roller.nodes)
-        self._points = HatsOnSurface(body, hats, self._count)
+        self._body, self._hats = body, hats
         self._undeformed = np.vstack([body.nodes, roller.nodes])
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
-        on, place = self._points, (self._undeformed + displacement).ravel()
+        surface = DeformedSurface(self._roller, displacement[self._first :])
+        own = DeformedSurface(self._body, displacement[: self._first])
+        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
+        cuts = along_edges(self._body.surface.edges, *own.edge(below))
+        on = HatsOnSurface(self._body, self._hats, self._count, cuts)
+        place = (self._undeformed + displacement).ravel()
         x = on.x @ place
-        surface = RollerSurface(self._roller, displacement[self._first :])
         rise, slope, bend = surface(x)
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
 

@@ -11,7 +11,7 @@ Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) ri
 above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from scipy.sparse import csr_matrix, diags
@@ -55,14 +55,21 @@ class HatsOnSurface:
     undeformed body. Raises ValueError if one sticks out of the surface.
 
     nodes     of all displacements, of which the body's are the first; None: there are no others
+    cuts      further places [m] that no Gauss rule spans
     x, z      (q, 2 nodes) take x and z at the q points from places of the nodes
     hats      (q, count) values of the hats
     weight    (q,) [m] of the points
     weighted  (q, count) [m] hats times weight
     """
 
-    def __init__(self, body: ElasticBody, hats: np.ndarray, nodes: int | None = None) -> None:
-        points, count = hat_points(body.surface, hats), len(hats) - 2
+    def __init__(
+        self,
+        body: ElasticBody,
+        hats: np.ndarray,
+        nodes: int | None = None,
+        cuts: Sequence[float] = (),
+    ) -> None:
+        points, count = hat_points(body.surface, hats, cuts), len(hats) - 2
         self.weight = points.weight.ravel()
         number = np.arange(points.x.size).reshape(points.x.shape)
         node = np.broadcast_to(body.surface.point[points.node][..., None], points.shape.shape)

@@ -16,7 +16,7 @@ import numpy as np
 from fem.body.elasticity import ElasticBody
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.deformed_roller import PairContact, RollerSurface, TwoBodies
+from fem.contact.deformed_roller import DeformedSurface, PairContact, TwoBodies
 from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
 from fem.contact.rigid_roller import CurrentContact, Roller
 from fem.contact.terms import Contact, Response
@@ -136,7 +136,7 @@ def press_finitely(
     solution = _solved([(bodies, contact)], moved, hats, start, *wanted)
     if isinstance(roller, FiniteElementCompliance):
         reached = solution.state.displacements[0][len(body.nodes) :]
-        roller = RollerSurface(other, reached)
+        roller = DeformedSurface(other, reached)
     return FiniteDeformation(body, hats, roller, friction, solution)
 
 

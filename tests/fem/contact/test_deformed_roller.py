@@ -1,0 +1,278 @@
+"""Two deformed bodies: forces in balance, the tangent, conforming surfaces, and known limits.
+
+Lengths in half-widths of the contact that Hertz expects, stresses in Young's moduli.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scenes import hat_nodes
+
+from analytic.contact.patches import contact_patches
+from analytic.material import Material
+from fem.body.elasticity import Support, elastic_body
+from fem.body.surface import hat_forces
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.deformed_roller import DeformedSurface, PairContact
+from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
+from fem.contact.rigid_roller import parabola
+from fem.contact.terms import LinearContact, LinearResponse
+from fem.nonlinear.finite_deformation import press_finitely
+from fem.solver.mumps import FemError
+from fem.stress.maximum import maximum
+from meshes.block import BlockSpec
+from meshes.build import build_block
+from meshes.real_shape import roughen
+
+POISSON = 0.3
+MODULUS = 1.0 / (1.0 - POISSON**2)
+HATS = hat_nodes(-0.8, 0.16, 11)
+PRESSURE = 1.0 + np.cos(3.0 * HATS[1:-1])
+
+
+def blocks(structured_block, cells=12):
+    """A rough body and a roller whose edges end elsewhere."""
+    rough = structured_block(
+        np.linspace(-1.5, 1.5, cells + 1), np.linspace(0.0, 1.0, 4), lambda x: 0.1 * np.cos(3 * x)
+    )
+    line = np.linspace(-1.6, 1.6, cells + 2)
+    roller = structured_block(line, np.linspace(0.0, 1.0, 4), lambda x: -0.2 * x**2)
+    return [elastic_body(mesh, Material(1.0, POISSON), Support()) for mesh in (rough, roller)]
+
+
+def some(bodies, size):
+    places = [body.nodes.T for body in bodies]
+    moved = [np.column_stack([np.sin(2 * x + z), np.cos(x - 2 * z)]) for x, z in places]
+    moved[1] = 0.5 * moved[1][:, ::-1]
+    return size * np.vstack(moved)
+
+
+class TestTerms:
+    @pytest.mark.parametrize("friction", [0.0, 0.3])
+    def test_derivatives(self, structured_block, friction):
+        """Up to the jumps of slope that are left out: of second order in the edges' length, the
+        tangent's of first."""
+        off = []
+        for cells in (24, 48, 96):
+            bodies = blocks(structured_block, cells)
+            contact = PairContact(bodies[0], HATS, bodies[1], friction)
+            at, step, h = some(bodies, 0.05), some(bodies, 1.0) * [0.7, -1.0], 1e-6
+            terms = contact.at(at, PRESSURE)
+            ahead, behind = (contact.at(at + way * h * step, PRESSURE) for way in (1, -1))
+            gap = (ahead.gap - behind.gap) / (2 * h)
+            force = (ahead.force - behind.force) @ PRESSURE / (2 * h)
+            work = terms.stiffness @ step.ravel()
+            other = some(bodies, 1.0)[:, ::-1].ravel()  # smooth, as solutions are
+            off.append(
+                [
+                    np.abs(terms.gradient.T @ step.ravel() - gap).max() / np.abs(gap).max(),
+                    abs(other @ (work - force)) / abs(other @ force),
+                ]
+            )
+        assert off[-1][0] < 1e-3 and off[-1][1] < 2e-3
+        orders = np.log2(np.divide(off[0], off[-1])) / 2.0
+        assert orders[0] > 1.7 and orders[1] > 0.9, off
+        assert contact.frictionless is not bool(friction)
+        if not friction:
+            assert terms.force is terms.gradient
+            stiffness = terms.stiffness
+            assert abs(stiffness - stiffness.T).max() < 1e-13 * abs(stiffness).max()
+
+    @pytest.mark.parametrize("friction", [0.0, 0.3])
+    def test_forces_and_moments_are_in_balance(self, structured_block, friction):
+        """What pushes the rough body pushes the roller back, at the same places: the moment is
+        that of the gap between them. The roller's frame is mirrored."""
+        bodies = blocks(structured_block)
+        at = some(bodies, 0.05)
+        place = np.vstack([body.nodes for body in bodies]) + at
+        terms = PairContact(bodies[0], HATS, bodies[1], friction).at(at, PRESSURE)
+        force = (terms.force @ PRESSURE).reshape(-1, 2)
+        own = np.arange(len(force)) < len(bodies[0].nodes)
+        mirror = np.where(own, 1.0, -1.0)[:, None] * [0.0, 1.0] + [1.0, 0.0]
+        force, place = force * mirror, place * mirror
+        load = 0.16 * PRESSURE.sum()
+        assert friction or force[own, 1].sum() == pytest.approx(load, rel=1e-12)
+        np.testing.assert_allclose(force.sum(axis=0), 0.0, atol=1e-12 * load)
+        upright = (place[:, 0] * force[:, 1]).sum()
+        assert abs(upright) < 1e-12 * np.abs(place[:, 0] * force[:, 1]).sum()
+
+    def test_constant_pressure_between_conforming_bodies_is_exact(self, structured_block):
+        """The roller's nodal forces are its own hats', though its edges end elsewhere."""
+        lines = np.linspace(-1.5, 1.5, 13), np.linspace(-1.6, 1.6, 15)
+        meshes = [structured_block(line, np.linspace(0.0, 1.0, 4)) for line in lines]
+        bodies = [elastic_body(mesh, Material(1.0, POISSON), Support()) for mesh in meshes]
+        terms = PairContact(bodies[0], HATS, bodies[1]).at(0.0 * some(bodies, 1.0), PRESSURE)
+        np.testing.assert_allclose(terms.gap, 0.0, atol=1e-15)
+        forces, first = terms.force.toarray(), 0
+        for body in bodies:
+            rows = 2 * (first + body.surface.point) + 1
+            wanted = hat_forces(body.surface, HATS).toarray()[1::2]
+            np.testing.assert_allclose(forces[rows], wanted, atol=1e-15)
+            first += len(body.nodes)
+        # a common stretch of both along x moves nothing apart
+        moved = np.vstack([0.1 * body.nodes * [1.0, 0.0] for body in bodies])
+        again = PairContact(bodies[0], HATS, bodies[1]).at(moved, PRESSURE)
+        np.testing.assert_allclose(again.force.toarray(), forces, atol=1e-15)
+
+    def test_a_surface_that_folds_or_ends_is_refused(self, structured_block):
+        _, roller = blocks(structured_block)
+        with pytest.raises(FemError, match="folds"):
+            DeformedSurface(roller, -2.0 * roller.nodes)
+        with pytest.raises(FemError, match="beyond the end"):
+            DeformedSurface(roller, 0.0 * roller.nodes)(np.array([1.7]))
+
+
+def levelled(radius):
+    """The parabola, whose slope fades beyond 1.5."""
+
+    def height(x):
+        inside = np.minimum(np.abs(x), 1.5)
+        t = np.clip((np.abs(x) - 1.5) / 3.0, 0.0, 1.0)
+        return -(inside**2 / 2.0 + 4.5 * (t - t**3 + 0.5 * t**4)) / radius
+
+    return height
+
+
+@cache
+def flat(edge, aside=0.0, size=60.0):
+    refined = np.array([[aside - 1.5, aside + 1.5]])
+    return build_block(BlockSpec(size, size, refined, edge, 0.25))
+
+
+@cache
+def body(edge, radius=None, modulus=1.0, aside=0.0, size=60.0):
+    mesh = flat(edge, aside, size)
+    mesh = mesh if radius is None else roughen(mesh, levelled(radius))
+    return elastic_body(mesh, Material(modulus, POISSON), Support("bonded", "fixed"))
+
+
+class Pressed:
+    """Two bodies of a/R = `curvature`: the figures of the rough one."""
+
+    def __init__(
+        self,
+        curvature,
+        edge=0.05,
+        moduli=(1.0, 1.0),
+        on_rough=False,
+        friction=0.0,
+        far=True,
+        **mesh,
+    ):
+        self.modulus = MODULUS / sum(1.0 / m for m in moduli)
+        self.peak = 0.5 * self.modulus * curvature
+        count = round(1.3 / edge)
+        self.hats = hat_nodes(-count * edge, edge, 2 * count + 1)
+        self.x = self.hats[1:-1]
+        radii = (1.0 / curvature, None) if on_rough else (None, 1.0 / curvature)
+        self.rough = body(edge, radii[0], moduli[0], size=size)
+        self.roller = body(edge, radii[1], moduli[1], aside, size)
+        fields = [
+            FarField(each, self.hats[0], self.hats[-1]) if far else None
+            for each in (self.rough, self.roller)
+        ]
+        self.start = self.peak * np.sqrt(np.maximum(1.0 - self.x**2, 0.0))
+        self.load = 0.5 * np.pi * self.peak
+        against = FiniteElementCompliance(self.roller, self.hats, far=fields[1])
+        self.found = press_finitely(
+            self.rough,
+            self.hats,
+            against,
+            self.start,
+            load=self.load,
+            friction=friction,
+            far=fields[0],
+        )
+        self.pressure = self.found.cauchy_pressure / self.peak
+        place = np.interp(self._patches(), self.x, self.found.place)
+        self.length = float(np.diff(place).sum()) / 2.0
+
+    def _patches(self):
+        return contact_patches(self.x, self.found.pressure, self.found.gap)
+
+    @property
+    def tau1(self):
+        highest = maximum(
+            self.rough, self.found.stress, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
+        )
+        return highest.value / self.peak
+
+
+pressed = cache(Pressed)
+
+
+class TestPressed:
+    def test_newton_takes_few_steps_with_friction_too(self):
+        for friction in (0.0, 0.2):
+            found = pressed(0.1, friction=friction).found
+            assert found.solution.iterations <= 6
+            assert found.solution.cuts == 0
+
+    def test_small_loads_are_the_linear_theorys(self):
+        """Two linear bodies on the same block: the difference vanishes in proportion to p0/E."""
+        left = []
+        for curvature in (0.04, 0.02, 0.01):
+            case = pressed(curvature)
+            compliances = [
+                FiniteElementCompliance(each, case.hats) for each in (case.rough, case.rough)
+            ]
+            weights = np.diff(case.hats)[1:]
+            gap = weights * curvature * (case.x**2 / 2.0 + 0.05**2 / 12.0)
+            bodies = [(LinearResponse(c.body), LinearContact(c)) for c in compliances]
+            rest = state_at_rest(bodies, case.start)
+            linear = solve_nonlinear_contact(bodies, gap, weights, rest, case.load).state.pressure
+            left.append(np.abs(case.found.pressure - linear).max() / case.peak)
+        orders = np.log2(np.divide(left[:-1], left[1:]))
+        assert np.all(np.abs(orders - 1.0) < 0.25), left
+
+    def test_a_very_stiff_roller_is_the_rigid_one(self):
+        case = pressed(0.1, moduli=(1.0, 1e6), far=False)
+        rigid = press_finitely(case.rough, case.hats, parabola(10.0), case.start, load=case.load)
+        np.testing.assert_allclose(
+            case.found.pressure, rigid.pressure, atol=1e-5 * rigid.pressure.max()
+        )
+        assert case.found.approach == pytest.approx(rigid.approach, rel=1e-4)
+
+    def test_body_and_roller_can_be_exchanged(self):
+        """The cylinder as the rough body, the flat as the roller."""
+        case, other = pressed(0.1), pressed(0.1, on_rough=True)
+        assert case.pressure.max() == pytest.approx(other.pressure.max(), rel=2e-4)
+        assert case.pressure.max() == pytest.approx(1.0107, abs=5e-4)
+        assert case.length == pytest.approx(other.length, rel=3e-4)
+        np.testing.assert_allclose(case.pressure, case.pressure[::-1], atol=3e-3)
+
+    def test_unlike_bodies_can_be_exchanged(self):
+        case = pressed(0.1, moduli=(1.0, 3.0), friction=0.2)
+        other = pressed(0.1, moduli=(3.0, 1.0), on_rough=True, friction=-0.2)
+        assert case.pressure.max() == pytest.approx(other.pressure.max(), rel=2e-3)
+        assert case.length == pytest.approx(other.length, rel=2e-3)
+        at = np.linspace(-0.8, 0.8, 81)
+        here, there = (np.interp(at, each.found.place, each.pressure) for each in (case, other))
+        np.testing.assert_allclose(here, there, atol=5e-3)
+        assert np.abs(here - here[::-1]).max() > 0.02
+
+    def test_edges_of_the_roller_that_end_elsewhere_do_not_matter(self):
+        case, other = pressed(0.1), pressed(0.1, aside=0.37 * 0.05)
+        inner = np.abs(case.x) < 0.9
+        np.testing.assert_allclose(case.pressure[inner], other.pressure[inner], atol=1e-3)
+
+    @pytest.mark.parametrize("on_rough", [False, True])
+    def test_figures_converge_with_the_edges(self, on_rough):
+        cases = [pressed(0.1, edge, on_rough=on_rough) for edge in (0.1, 0.05, 0.025)]
+        peak = np.array([case.pressure.max() for case in cases])
+        tau1 = np.array([case.tau1 for case in cases])
+        assert abs(peak[1] - peak[2]) < 0.5 * abs(peak[0] - peak[1])
+        assert abs(peak[1] - peak[2]) < 6e-4
+        assert abs(tau1[1] - tau1[2]) < 0.3 * abs(tau1[0] - tau1[1])
+
+    def test_a_small_block_in_the_half_planes_field_is_a_large_one(self):
+        """Which of a held one is not true."""
+        whole, small, held = (
+            pressed(0.1, size=size, far=far)
+            for size, far in ((200.0, True), (15.0, True), (15.0, False))
+        )
+        assert small.tau1 == pytest.approx(whole.tau1, rel=2e-3)
+        assert abs(held.tau1 / whole.tau1 - 1.0) > 0.02
+        assert small.pressure.max() == pytest.approx(whole.pressure.max(), rel=1e-3)
