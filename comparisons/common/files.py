@@ -48,7 +48,8 @@ def claimed(out: Path) -> set[str]:
     record = _record(out / RECORD)
     if "hashes" in record:
         # records had no list of files at first
-        found |= {RECORD, *map(str, record.get("files") or (*OWN_FILES, *OTHER_FILES))}
+        files = record.get("files", [*OWN_FILES, *OTHER_FILES])
+        found |= {RECORD, *map(str, files)} if isinstance(files, list) else set()
     for name in STUDIES:
         if "schema" in _record(out / f"{name}.json"):
             found |= {path.name for path in out.glob(f"{name}*")}
@@ -92,11 +93,24 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
     for name in present:
         if (out / name).is_dir():
             raise _cannot(out, f"{out / name} is a folder; allowed is none")
-    foreign = sorted(set(present) - claimed(out)) if present else ()
-    if foreign:
-        raise _cannot(
-            out, f"no record there says that crosscheck wrote {foreign[0]}; allowed is another folder"
-        )
+    if present:
+        with _alone_in(out):
+            ours = claimed(out)
+            foreign = [n for n in present if n not in ours and os.path.lexists(out / n)]
+        if foreign:
+            why = f"no record there says that crosscheck wrote {foreign[0]}"
+            raise _cannot(out, f"{why}; allowed is another folder")
+
+
+@contextmanager
+def _alone_in(out: Path) -> Iterator[None]:
+    """Wait until no other run compares or replaces the folder's files."""
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(OSError):  # removed meanwhile, or a file system without locks
+            number = os.open(out, os.O_RDONLY)
+            stack.callback(os.close, number)
+            fcntl.flock(number, fcntl.LOCK_EX)
+        yield
 
 
 def _cannot(out: Path, why: str) -> InputError:
@@ -130,7 +144,8 @@ def whole_file(path: Path) -> Iterator[Path]:
     is interrupted, `path` stays as it was."""
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
     _remove_abandoned(path.parent.glob(f".{glob.escape(path.name)}.*{PART}"))
-    with _held(part, os.O_RDWR | os.O_CREAT):
+    part.touch()
+    with _held(part):
         try:
             yield part
             os.replace(part, path)
@@ -139,14 +154,22 @@ def whole_file(path: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def _held(path: Path, how: int) -> Iterator[None]:
-    """Lock an unfinished file or folder until the block, or this process, ends."""
-    with contextlib.ExitStack() as stack:
-        number = os.open(path, how, 0o666)
-        stack.callback(os.close, number)
-        with contextlib.suppress(OSError):  # a file system without locks
-            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield
+def _held(path: Path) -> Iterator[bool]:
+    """Lock an unfinished file or folder until the block, or this process, ends. Whether it is held,
+    and still there: another process may have taken it for abandoned just before."""
+    held, number = True, None
+    try:
+        number = os.open(path, os.O_RDONLY)
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, FileNotFoundError):
+        held = False
+    except OSError:  # a file system without locks, on which nothing is taken for abandoned
+        pass
+    try:
+        yield held and path.exists()
+    finally:
+        if number is not None:
+            os.close(number)
 
 
 def _remove_abandoned(parts: Iterable[Path]) -> None:
@@ -156,7 +179,10 @@ def _remove_abandoned(parts: Iterable[Path]) -> None:
             number = os.open(part, os.O_RDONLY)
             try:
                 fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                shutil.rmtree(part) if part.is_dir() else part.unlink()
+                if part.is_dir():
+                    shutil.rmtree(part)
+                else:
+                    part.unlink()
             finally:
                 os.close(number)
 
@@ -181,15 +207,12 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
     If the block fails or is interrupted nothing in `out` changes.
     """
     check_writable(out, own)
-    place, prefix = (out, ".part-") if out.is_dir() else (out.parent, f".{out.name}.part-")
-    place.mkdir(parents=True, exist_ok=True)
-    _remove_abandoned([*out.glob(".part-*"), *out.parent.glob(f".{glob.escape(out.name)}.part-*")])
-    scratch = Path(tempfile.mkdtemp(prefix=prefix, dir=place))
-    with _held(scratch, os.O_RDONLY):
-        try:
-            yield scratch
-            made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
-            made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others
+    with _scratch(out) as scratch:
+        yield scratch
+        made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
+        made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others
+        out.mkdir(exist_ok=True)
+        with _alone_in(out):
             ours = claimed(out)
             for name in made:
                 _move(scratch / name, out / name)
@@ -199,8 +222,25 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
             for folder in OWN_FOLDERS:
                 with contextlib.suppress(OSError):  # absent, or holds something
                     (out / folder).rmdir()
-        finally:
-            shutil.rmtree(scratch, ignore_errors=True)
+
+
+@contextmanager
+def _scratch(out: Path) -> Iterator[Path]:
+    """A new folder for unfinished files of `out`; those of killed processes are removed."""
+    beside = f".{out.name}.part-"
+    while True:
+        place, prefix = (out, ".part-") if out.is_dir() else (out.parent, beside)
+        place.mkdir(parents=True, exist_ok=True)
+        left = [*out.glob(".part-*"), *out.parent.glob(f"{glob.escape(beside)}*")]
+        _remove_abandoned(left)
+        scratch = Path(tempfile.mkdtemp(prefix=prefix, dir=place))
+        with _held(scratch) as held:
+            if held:
+                try:
+                    yield scratch
+                finally:
+                    shutil.rmtree(scratch, ignore_errors=True)
+                return
 
 
 def _move(source: Path, target: Path) -> None:

@@ -1,7 +1,10 @@
 """Publishing a run's folder: whole files or none."""
 
 import errno
+import json
 import os
+import subprocess
+import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -9,7 +12,14 @@ from pathlib import Path
 import pytest
 
 from comparisons.common.errors import InputError
-from comparisons.common.files import check_writable, published, unfinished
+from comparisons.common.files import (
+    check_writable,
+    claim,
+    claimed,
+    published,
+    unfinished,
+    whole_file,
+)
 
 NOBODY = 65534
 
@@ -18,6 +28,13 @@ def fill(folder, names, text="new"):
     for name in names:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text)
+
+
+def fill_as_run(folder, names, text="new"):
+    """The same with the record of a run that wrote them."""
+    fill(folder, names, text)
+    record = {"hashes": {}, "files": [*names, "record.json"]}
+    (folder / "record.json").write_text(json.dumps(record))
 
 
 def test_files_appear_at_the_end(tmp_path):
@@ -31,9 +48,10 @@ def test_files_appear_at_the_end(tmp_path):
 
 def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_path):
     out = tmp_path / "results"
-    fill(out, ["result.json", "finite_element/mesh.msh", "notes.txt"], "old")
+    fill(out, ["notes.txt"], "old")
+    fill_as_run(out, ["result.json", "finite_element/mesh.msh"], "old")
     with published(out) as scratch:
-        fill(scratch, ["result.json"])
+        fill_as_run(scratch, ["result.json"])
     assert (out / "result.json").read_text() == "new"
     assert (out / "notes.txt").read_text() == "old"
     assert not (out / "finite_element").exists()
@@ -42,13 +60,13 @@ def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_pat
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])
 def test_a_failure_changes_nothing(tmp_path, error):
     out = tmp_path / "results"
-    fill(out, ["result.json"], "old")
+    fill_as_run(out, ["result.json"], "old")
     with pytest.raises(error), published(out) as scratch:
         fill(scratch, ["result.json"])
         raise error
     assert (out / "result.json").read_text() == "old"
     assert [p.name for p in tmp_path.iterdir()] == ["results"]
-    assert [p.name for p in out.iterdir()] == ["result.json"]
+    assert {p.name for p in out.iterdir()} == {"result.json", "record.json"}
 
 
 def test_a_file_in_the_way_is_refused(tmp_path):
@@ -188,12 +206,66 @@ def test_runs_at_once_into_one_folder(tmp_path):
     def publish(name):
         for _ in range(40):
             with published(out) as scratch:
-                fill(scratch, [name, "result.json"], name)
+                fill_as_run(scratch, [name, "result.json"], name)
         return True
 
     names = ["half_plane/contact.csv", "finite_element/contact.csv"]
     with ThreadPoolExecutor(2) as pool:
         assert list(pool.map(publish, names)) == [True, True]
     assert (out / "result.json").read_text() in names
-    assert {p.name for p in out.iterdir()} <= {"result.json", "half_plane", "finite_element"}
+    folders = {"half_plane", "finite_element"}
+    assert {p.name for p in out.iterdir()} <= {"result.json", "record.json", *folders}
     assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+@pytest.mark.parametrize("name", ["report.pdf", "run_in_profile.csv", "finite_element/stress.msh"])
+def test_somebody_elses_file_is_neither_replaced_nor_removed(tmp_path, name):
+    fill_as_run(tmp_path, ["result.json"], "old")
+    fill(tmp_path, [name], "mine")
+    with pytest.raises(InputError, match=f"no record there says that crosscheck wrote {name}"):
+        check_writable(tmp_path)
+    with pytest.raises(InputError), published(tmp_path) as scratch:
+        fill_as_run(scratch, ["result.json"])
+    assert (tmp_path / name).read_text() == "mine"
+    assert (tmp_path / "result.json").read_text() == "old"
+
+
+@pytest.mark.parametrize("record", ["", "[]", "{", '{"schema": 2}', '{"hashes": {}, "files": 3}'])
+def test_a_strange_record_claims_nothing(tmp_path, record):
+    fill(tmp_path, ["result.json"], "mine")
+    (tmp_path / "record.json").write_text(record)
+    with pytest.raises(InputError, match="no record there says"):
+        check_writable(tmp_path)
+
+
+def test_a_file_added_later_is_claimed(tmp_path):
+    fill_as_run(tmp_path, ["result.json"])
+    fill(tmp_path, ["report.pdf"])
+    claim(tmp_path, "report.pdf")
+    assert claimed(tmp_path) == {"result.json", "record.json", "report.pdf"}
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from comparisons.common.files import published, whole_file
+out = Path(sys.argv[1])
+with whole_file(out.parent / "page.html") as part, published(out) as scratch:
+    part.write_text("half")
+    (scratch / "result.json").write_text("half")
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.parametrize("exists", [False, True])
+def test_the_next_run_removes_what_a_killed_one_left(tmp_path, exists):
+    out = tmp_path / "out"
+    if exists:
+        out.mkdir()
+    subprocess.run([sys.executable, "-c", KILLED, out], check=False, cwd=Path(__file__).parents[3])
+    assert len([*tmp_path.rglob(".*part*")]) == 2
+    with whole_file(tmp_path / "page.html") as part, published(out) as scratch:
+        part.write_text("whole")
+        fill_as_run(scratch, ["result.json"])
+    assert not [*tmp_path.rglob(".*part*")]
+    assert (tmp_path / "page.html").read_text() == "whole"

@@ -1,0 +1,92 @@
+"""What a command finds around it: modules in the working folder, variables, strange titles."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from comparisons.cli import main
+from comparisons.common.provenance import machine
+from scenes import PROJECT
+
+MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
+# The mesher and a process beside, as a run starts them.
+PROGRAM = """
+import numpy as np
+from comparisons.common.processes import fresh_process, processes
+from meshes.block import BlockSpec
+from meshes.build import build_block
+
+if __name__ == "__main__":
+    build_block(BlockSpec(1.0, 1.0, np.array([[-0.5, 0.5]]), 0.25))
+    with fresh_process() as call:
+        call(len, "abc")
+    with processes(1) as pool:
+        pool.submit(len, "abc").result()
+    print("done")
+"""
+
+
+def command(*arguments, cwd, **variables):
+    environment = os.environ | {"PYTHONPATH": str(PROJECT), "PYTHONSAFEPATH": "1"} | variables
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=cwd, env=environment, capture_output=True, text=True
+    )
+
+
+def test_no_module_of_the_working_folder_is_run(tmp_path):
+    work = tmp_path / "work"
+    work.mkdir()
+    for name in MODULES:
+        (work / f"{name}.py").write_text(f"open({str(tmp_path / name)!r}, 'w')")
+    (tmp_path / "program.py").write_text(PROGRAM)
+    done = command(tmp_path / "program.py", cwd=work)
+    assert done.stdout == "done\n", done.stderr
+    assert {path.name for path in tmp_path.iterdir()} == {"work", "program.py"}
+
+
+def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_path, monkeypatch):
+    (tmp_path / "numpy.py").write_text("raise SystemExit('executed')")
+    (tmp_path / "map.x3p").write_bytes(b"\0" * 100)
+    monkeypatch.chdir(tmp_path)
+    from analytic.surface.readers.instruments import read_instrument_file
+    from analytic.surface.readers.text import ProfileError
+
+    with pytest.raises(ProfileError) as refused:
+        read_instrument_file(tmp_path / "map.x3p")
+    assert "executed" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "threads"), [("2,1", 2), ("", None), ("two", None), ("²", None), ("0", None)]
+)
+def test_any_number_of_threads_is_recorded_or_none(monkeypatch, given, threads):
+    monkeypatch.setenv("OMP_NUM_THREADS", given)
+    assert machine()["threads"] == threads
+
+
+@pytest.mark.parametrize("variable", ["OMPI_COMM_WORLD_RANK", "PMI_RANK"])
+def test_a_rank_that_a_shell_inherited_silences_nothing(tmp_path, variable):
+    pytest.importorskip("mpi4py")
+    arguments = "-m", "comparisons.cli", "run", "smooth", "--models", "half-plane", "--out", "here"
+    done = command(*arguments, cwd=tmp_path, **{variable: "2"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "peak pressure" in done.stdout
+    assert json.loads((tmp_path / "here/result.json").read_text())["schema"]
+
+
+def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
+    title = "=1+2\x1b]0;owned\x07\x9b31m"
+    result = smooth_outcome.result
+    result = result | {"scene": result["scene"] | {"title": title}}
+    (tmp_path / "result.json").write_text(json.dumps(result))
+    assert main(["table", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert main(["table", str(tmp_path), "--json"]) == 0
+    as_json = capsys.readouterr().out
+    for text in (printed, as_json):
+        assert all(c.isprintable() or c == "\n" for c in text)
+    assert "'=1+2\\x1b]0;owned" in printed
+    assert json.loads(as_json)[0]["title"] == title
