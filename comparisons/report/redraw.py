@@ -106,5 +106,7 @@ def reports_table(reports: Sequence[Report], summary: Path | None) -> "Renderabl
     table = Table("scene", "verdict", "report", box=None, pad_edge=False)
     for report in reports:
         made = [str(path) for path in (report.page, report.pdf) if path is not None]
-        table.add_row(Text(one_line(report.row.title)), Text(report.row.kind), Text("\n".join(made)))
+        table.add_row(
+            Text(one_line(report.row.title)), Text(report.row.kind), Text("\n".join(made))
+        )
     return table if summary is None else Group(table, "", Text(f"summary  {summary}"))

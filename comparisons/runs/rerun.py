@@ -124,7 +124,10 @@ def rerun_summary(repetition: Repetition) -> "RenderableType":
     from rich.text import Text
 
     movement = repetition.movement
-    parts: list[RenderableType] = [Text(one_line(repetition.outcome.problem.scene.title), style="bold"), ""]
+    parts: list[RenderableType] = [
+        Text(one_line(repetition.outcome.problem.scene.title), style="bold"),
+        "",
+    ]
     if movement.moved:
         parts += [_table(movement.moved), ""]
     style = STYLES["agree" if repetition.exit_status == 0 else "differ"]

@@ -6,10 +6,10 @@ import subprocess
 import sys
 
 import pytest
+from scenes import PROJECT
 
 from comparisons.cli import main
 from comparisons.common.provenance import machine
-from scenes import PROJECT
 
 MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
 # The mesher and a process beside, as a run starts them.
