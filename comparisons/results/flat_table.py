@@ -11,6 +11,7 @@ Columns
   model_error_verdict    holds, fails or inconclusive; empty without a tolerance
   effect_…               what of model_error is due to each assumption, relative, with the signs
                          of the report; empty where not computed
+  interaction            what these change jointly beyond their sum, in the same way
   a_over_radius, …       the run's dimensionless groups
 
 What is unknown is empty in a CSV and null in a Parquet file.
@@ -41,6 +42,7 @@ COLUMNS = (
     *("difference", "uncertainty", "tolerance", "verdict", "validity"),
     *("model_error", "model_error_uncertainty", "model_error_verdict"),
     *EFFECT_COLUMNS.values(),
+    "interaction",
     *GROUPS,
 )
 
@@ -165,6 +167,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "model_error_uncertainty": error["uncertainty"],
                 "model_error_verdict": error["verdict"],
                 **{EFFECT_COLUMNS[n]: sign * e["value"] for n, e in error["effects"].items()},
+                "interaction": sign * error["interaction"],
             }
 
 

@@ -1,14 +1,20 @@
-"""The error budget as stacked bars, one for each quantity: numerics, sampling, and every effect."""
+"""The half-plane's model error as waterfalls: from nothing, effect by effect, to the error.
 
+One for each judged figure and friction coefficient, or for each there is where nothing is judged.
+Norms have no sign and do not add up: their bars all start at zero.
+"""
+
+import math
 from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.common.numbers import given_percent
 from comparisons.common.quantities import QUANTITIES, label
 from comparisons.report.figures import style
+from comparisons.report.tables.model_error import SHOWN
 from comparisons.report.tables.text import error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
@@ -16,46 +22,35 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-BAR, HEAD, FOOT = 0.27, 0.78, 0.56  # inches: a bar, the legend, an axis with its label
-LEFT, RIGHT = 3.3, 0.25  # inches
-EMPTY = 1.15  # of the longest bar, where an axis ends
-NOT_MODELLED = "not modelled (estimate)"
-INK = "#000000"
-# Colour and hatch of each part. Okabe and Ito's colours for effects, greys for what is numerical or
-# an estimate; hatched where two of them would be one in grey.
-PART_LOOKS: dict[str, tuple[str, str]] = {
-    "iteration": ("#333333", ""),
-    "half-plane's discretisation": ("#808080", ""),
-    "finite elements' discretisation": ("#b5b5b5", "////"),
-    "far boundary": ("#d9d9d9", "...."),
-    "sampling": ("#ffffff", "||||"),
-    "finite_size": ("#0072B2", ""),
-    "coating": ("#56B4E9", "xxxx"),
-    "rough_boundary": ("#009E73", "\\\\\\\\"),
-    "deformed_gap": ("#E69F00", ""),
-    "exact_circle": ("#F0E442", ""),
-    "finite_roller": ("#CC79A7", "oo"),
-    "normal_tangential_coupling": ("#56B4E9", "++"),
-    "finite_strain": ("#D55E00", "xx"),
-    "plastic_flow": ("#F0E442", "\\\\\\\\"),
-    "interaction": ("#f2e2d0", "----"),
-    NOT_MODELLED: ("#ffffff", "////"),
+ROW, TITLE, FOOT, TOP = 0.21, 0.42, 0.5, 0.06  # inches: a step, the words above and below
+NAMES, BETWEEN, RIGHT = 1.95, 0.25, 0.1  # inches: names of the steps, from panel to panel
+WIDTH = 2.85  # inches of a panel, about
+BAR = 0.66  # of a row
+TITLE_LETTERS = 15.0  # to the inch
+ROOM = 0.3, 0.08  # beyond the bars, share of their range: for numbers to the right, to the left
+INTERACTION, NUMERICAL = "interaction", "without any effect"
+OTHERS, ERROR = "smaller steps", "model error"
+LOOKS = {
+    True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
+    False: {"facecolor": "#56B4E9", "edgecolor": "#333333", "hatch": "////"},
+    None: {"facecolor": "#cccccc", "edgecolor": "#333333"},  # without a sign
 }
 
 
 @dataclass(frozen=True)
-class ErrorBar:
-    """A quantity at one or more friction coefficients.
+class Waterfall:
+    """The steps to the error of a quantity at one or more friction coefficients.
 
-    parts        relative sizes without sign, by what they come from
-    error        model error of the half-plane with its `uncertainty`
+    steps         relative sizes by name, with the sign of the error; of a figure they add up to it
+    uncertainty   of `error`; `not_modelled` is the estimate of what else it may be
     """
 
     quantity: str
     name: str
-    parts: dict[str, float]
+    steps: dict[str, float]
     error: float
     uncertainty: float
+    not_modelled: float
     tolerance: float | None
 
     @property
@@ -63,119 +58,140 @@ class ErrorBar:
         return QUANTITIES[self.quantity].of_pair
 
 
+def waterfalls(outcome: Outcome) -> list[Waterfall]:
+    """Of what is judged, or of everything; coefficients of equal figures together."""
+    scene, found = outcome.problem.scene, []
+    errors = outcome.result["model_error"]
+    for quantity in [name for name in errors if name in scene.tolerance] or errors:
+        for same in grouped(errors[quantity], lambda e: (e["value"], str(e["effects"]))):
+            some = len(same) < len(scene.friction)
+            frictions = listed(error["friction"] for error in same)
+            found.append(
+                Waterfall(
+                    quantity=quantity,
+                    name=label(quantity) + (f", μ = {frictions}" if some else ""),
+                    steps=_steps(same[0], QUANTITIES[quantity].of_pair),
+                    error=same[0]["value"],
+                    uncertainty=same[0]["uncertainty"] or math.inf,
+                    not_modelled=math.hypot(*same[0]["not_modelled"].values()),
+                    tolerance=scene.tolerance.get(quantity),
+                )
+            )
+    return found
+
+
+def _steps(error: dict, is_norm: bool) -> dict[str, float]:
+    """An effect that raises the finite elements' figure makes the half-plane's too low."""
+    effects = {EFFECTS[name].label: effect["value"] for name, effect in error["effects"].items()}
+    effects[INTERACTION] = error["interaction"]
+    if is_norm:
+        return {name: abs(size) for name, size in effects.items()}
+    steps = {name: -size for name, size in effects.items()}
+    return {NUMERICAL: error["value"] - sum(steps.values()), **steps}
+
+
 def model_error_picture(outcome: Outcome) -> style.Picture | None:
-    """Judged quantities, other figures and norms, each on its own scale; None with one model."""
+    """Waterfalls side by side; None with one model."""
     if outcome.budget is None:
         return None
-    bars = error_bars(outcome)
-    judged = [bar for bar in bars if bar.tolerance]
-    figures = [bar for bar in bars if not bar.tolerance and not bar.is_norm]
-    norms = [bar for bar in bars if not bar.tolerance and bar.is_norm]
-    panels = [panel for panel in (judged, figures, norms) if panel]
-    heights = [(FOOT if place else HEAD, BAR * len(panel)) for place, panel in enumerate(panels)]
-    drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
-    for axes, panel in zip(style.stacked(drawn, heights, LEFT, RIGHT), panels, strict=True):
-        _draw(axes, panel)
-    present = [name for name in PART_LOOKS if any(bar.parts.get(name) for bar in bars)]
-    _legend(drawn, present, bool(judged))
+    panels = waterfalls(outcome)
+    judged = [panel for panel in panels if panel.tolerance]
     said = "; ".join(
-        f"{bar.name}: {error_text(bar.quantity, bar.error, bar.uncertainty)}, "
-        f"tolerance {given_percent(bar.tolerance)}"
-        for bar in judged
+        f"{panel.name}: {error_text(panel.quantity, panel.error, panel.uncertainty)}"
+        + "".join(f", {name} {error_text(panel.quantity, size)}" for name, size in _large(panel))
+        for panel in panels
     )
+    lines = "; broken lines: the tolerance" if judged else ""
     return style.Picture(
-        source=style.data_uri(drawn),
-        alternative=f"Stacked bars of the half-plane's errors. Model error of {said}.",
-        caption="Errors of the half-plane by their source, in per cent of the finite elements' "
-        "figure: sizes without their signs, side by side. Grey: numerical, or from the sampling of "
-        "the trace; colour: effects that the half-plane does not model. Diamond: model error, to "
-        "which the effects add with their signs, and its uncertainty; upright line: tolerance.",
+        source=style.data_uri(_drawn(panels, max(1, int((style.WIDE - NAMES) / WIDTH)))),
+        narrow=style.data_uri(_drawn(panels, 1)),
+        alternative=f"The half-plane's model error, step by step. {said}.",
+        caption="How the half-plane's model error comes about, in per cent of the whole model's "
+        "figure: it starts with the half-plane's difference from finite elements without any of "
+        "the effects, which is numerical, and each effect moves it, to the left (hatched) where "
+        "the half-plane's figure becomes too low. Norms have sizes alone, which do not add up. "
+        f"Black: the error with its uncertainty; thin: with what is not modelled{lines}.",
         wide=True,
     )
 
 
-def error_bars(outcome: Outcome) -> list[ErrorBar]:
-    """One for each quantity and friction coefficient; coefficients of equal figures together."""
-    scene, bars = outcome.problem.scene, []
-    for quantity, errors in outcome.result["model_error"].items():
-        budget = outcome.result["error_budget"]["quantities"][quantity]
-        parts = {entry["friction"]: _numerical(entry) for entry in budget}
-        for error in errors:
-            parts[error["friction"]] |= _effects(error)
-        for same in grouped(
-            errors, lambda e, p=parts: (tuple(p[e["friction"]].items()), e["value"])
-        ):
-            frictions = [error["friction"] for error in same]
-            some = len(frictions) < len(scene.friction)
-            name = label(quantity) + (f", μ = {listed(frictions)}" if some else "")
-            error = same[0]["value"], same[0]["uncertainty"] or 0.0
-            tolerance = scene.tolerance.get(quantity)
-            bars.append(ErrorBar(quantity, name, parts[frictions[0]], *error, tolerance))
-    return bars
+def _large(panel: Waterfall) -> list[tuple[str, float]]:
+    """The steps that are worth a row."""
+    least = max(SHOWN, 0.1 * abs(panel.error))
+    return [(name, size) for name, size in panel.steps.items() if abs(size) >= least]
 
 
-def _numerical(entry: dict) -> dict[str, float]:
-    """Of an entry of the error budget."""
-    found, models = {}, entry.get("numerical") or {}
-    if models and None not in models.values():
-        one, other = models["half_plane"], models["finite_element"]
-        found = {
-            "iteration": one["iteration"] + other["iteration"],
-            "half-plane's discretisation": one["discretisation"] or 0.0,
-            "finite elements' discretisation": other["discretisation"] or 0.0,
-            "far boundary": one["domain"] + other["domain"],
-        }
-    return found | {"sampling": entry["input"] or 0.0}
+def _drawn(panels: list[Waterfall], columns: int) -> "Figure":
+    """All panels with the same rows, so many side by side."""
+    columns = min(columns, len(panels))
+    worth = {name for panel in panels for name, _ in _large(panel)}
+    names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), INTERACTION]
+    rows = [name for name in names if name in worth]
+    if any(set(panel.steps) - worth for panel in panels):
+        rows.append(OTHERS)
+    rows.append(ERROR)
+    width = style.WIDE if columns > 1 else style.COLUMN
+    across = (width - NAMES - RIGHT - BETWEEN * (columns - 1)) / columns
+    stacks = -(-len(panels) // columns)
+    tall = [(TITLE + (FOOT if k else TOP), ROW * len(rows)) for k in range(stacks)]
+    drawn = style.figure(width, sum(map(sum, tall)) + FOOT)
+    for column in range(columns):
+        left = NAMES + column * (across + BETWEEN)
+        places = style.stacked(drawn, tall, left, width - left - across)
+        for axes, panel in zip(places, panels[column::columns], strict=False):
+            _draw(axes, panel, rows, across)
+            if column:
+                axes.tick_params(labelleft=False)
+        for axes in places[len(panels[column::columns]) :]:
+            axes.remove()
+    return drawn
 
 
-def _effects(error: dict) -> dict[str, float]:
-    """Of a model error."""
-    effects = error["effects"]
-    return {
-        **{name: abs(effects[name]["value"]) if name in effects else 0.0 for name in EFFECTS},
-        "interaction": abs(error["interaction"]),
-        NOT_MODELLED: float(np.sqrt(sum(size**2 for size in error["not_modelled"].values()))),
-    }
+def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> None:
+    shown = {name: panel.steps.get(name, 0.0) for name in rows[:-1]}
+    left_out = [size for name, size in panel.steps.items() if name not in shown]
+    if OTHERS in shown:
+        shown[OTHERS] = max(left_out, default=0.0) if panel.is_norm else sum(left_out)
+    place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
+    for y, size in zip(place, shown.values(), strict=False):
+        begin = 0.0 if panel.is_norm else start
+        start = begin + 100.0 * size
+        if abs(size) > 1e-6:
+            sign = None if panel.is_norm else size > 0.0
+            axes.barh(y, start - begin, left=begin, height=BAR, linewidth=0.5, **LOOKS[sign])
+            text = error_text(panel.quantity, size, panel.uncertainty)
+            _beside(axes, max(begin, start), y, text)
+        if not panel.is_norm:
+            top = y - 0.5 * BAR if size else y + 0.5 * BAR  # past a step that does not apply
+            axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
+        ends += [begin, start]
+    value, y = 100.0 * panel.error, place[-1]
+    axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
+    certain = 100.0 * panel.uncertainty if math.isfinite(panel.uncertainty) else 0.0
+    for reach, thick, caps in ((certain, 1.4, 3.0), (certain + 100.0 * panel.not_modelled, 0.6, 2)):
+        look = {"elinewidth": thick, "capsize": caps, "color": "#000000", "fmt": "none"}
+        low = min(reach, value) if panel.is_norm else reach
+        axes.errorbar(value, y, xerr=[[low], [reach]], **look)
+        ends += [value - low, value + reach]
+    text = error_text(panel.quantity, panel.error, panel.uncertainty)
+    _beside(axes, max(ends[-1], value, 0.0), y, text)
+    if panel.tolerance:
+        sides = (1.0,) if panel.is_norm else (-1.0, 1.0)
+        for side in sides:
+            at = 100.0 * side * panel.tolerance
+            axes.axvline(at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
+            ends.append(at)
+    axes.axvline(0.0, color="#555555", linewidth=0.7)
+    low, high = min(ends), max(ends)
+    axes.set_xlim(low - ROOM[1] * (high - low) * (low < 0.0), high + ROOM[0] * (high - low))
+    style.horizontal_bars(axes, place, rows)
+    axes.locator_params(axis="x", nbins=6)
+    axes.set_title("\n".join(wrap(panel.name, int(TITLE_LETTERS * across))))
+    axes.set_xlabel("per cent")
 
 
-def _look(part: str) -> dict:
-    colour, hatch = PART_LOOKS[part]
-    return {"facecolor": colour, "hatch": hatch, "edgecolor": "#333333", "linewidth": 0.5}
-
-
-def _draw(axes: "Axes", bars: list[ErrorBar]) -> None:
-    place = -np.arange(len(bars), dtype=float)
-    ends = []
-    for y, bar in zip(place, bars, strict=True):
-        start = 0.0
-        for part in PART_LOOKS:
-            width = 100.0 * bar.parts.get(part, 0.0)
-            if width > 0.0:  # each would still take a kilobyte of the page
-                axes.barh(y, width, left=start, height=0.66, **_look(part))
-                start += width
-        error, uncertainty = 100.0 * abs(bar.error), 100.0 * bar.uncertainty
-        ends_of = {"xerr": [[min(uncertainty, error)], [uncertainty]], "capsize": 2.5}
-        diamond = {"fmt": "D", "markersize": 4.0, "color": INK, "markerfacecolor": "#ffffff"}
-        axes.errorbar(error, y, **ends_of, **diamond, elinewidth=0.9, zorder=4)
-        ends += [start, error + uncertainty]
-        if bar.tolerance:
-            axes.plot([100.0 * bar.tolerance] * 2, [y - 0.46, y + 0.46], color=INK, lw=2.0)
-            ends.append(100.0 * bar.tolerance)
-    axes.set_xlim(0.0, EMPTY * max(ends))
-    style.horizontal_bars(axes, place, [bar.name for bar in bars])
-    axes.set_xlabel(f"per cent of the finite elements' {'norm' if bars[0].is_norm else 'figure'}")
-
-
-def _legend(drawn: "Figure", present: list[str], tolerance: bool) -> None:
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-
-    handles = [
-        Patch(**_look(part), label=EFFECTS[part].label if part in EFFECTS else part)
-        for part in present
-    ]
-    diamond = {"marker": "D", "markerfacecolor": "#ffffff", "label": "model error"}
-    handles.append(Line2D([], [], color=INK, **diamond))
-    if tolerance:
-        handles.append(Line2D([], [], color=INK, lw=2.0, label="tolerance"))
-    drawn.legend(handles=handles, loc="upper left", ncols=5, borderaxespad=0.3)
+def _beside(axes: "Axes", x: float, y: float, text: str) -> None:
+    """Words to the right of a bar's end."""
+    behind = {"facecolor": "#ffffff", "edgecolor": "none", "pad": 0.5}
+    beside = {"textcoords": "offset points", "va": "center", "fontsize": 7.5, "bbox": behind}
+    axes.annotate(text, (x, y), (3, 0), **beside)

@@ -64,12 +64,14 @@ def test_effects_have_columns(runs, tmp_path):
         result["model_error"][quantity][0]["effects"] = {
             "finite_strain": {"value": 0.25, "uncertainty": 0.1}
         }
+        result["model_error"][quantity][0]["interaction"] = 0.125
     (tmp_path / "result.json").write_text(json.dumps(result))
     of = {r["quantity"]: r for r in reversed(tidy_rows([tmp_path]))}
     row = of["peak_pressure"]
     # of the half-plane, as the report has it: what it lacks makes its figure too low
     assert row["effect_finite_strain"] == -0.25
     assert of["pressure_l2"]["effect_finite_strain"] == 0.25  # norms have no sign
+    assert (row["interaction"], of["pressure_l2"]["interaction"]) == (-0.125, 0.125)
     assert [row[name] for name in EFFECT_COLUMNS.values()].count(None) == len(EFFECT_COLUMNS) - 1
 
 

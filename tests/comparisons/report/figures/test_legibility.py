@@ -2,22 +2,19 @@
 
 from itertools import combinations
 
-import matplotlib
-import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
 from analytic.material import Material
-from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.report.figures.model_error import PART_LOOKS
+from comparisons.report.figures.model_error import LOOKS
 from comparisons.report.figures.pressures import TICKS, close_up_picture, pressure_picture
 from comparisons.report.figures.problem import problem_picture
+from comparisons.report.figures.style import LINES, REFERENCE
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import Coated, Yielding
 
 HARD = Coated(Material(400e9, 0.22), 20e-6)
-GREY = np.array([0.299, 0.587, 0.114])  # of red, green and blue, as a printer sees them
 
 
 def rows_of(outcome: Outcome) -> dict[str, str]:
@@ -84,12 +81,7 @@ def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome
             assert not box.overlaps(name.get_window_extent())
 
 
-def test_parts_of_the_budget_differ_in_grey():
-    assert set(EFFECTS) <= set(PART_LOOKS)
-    greys = {
-        name: float(np.dot(matplotlib.colors.to_rgb(colour), GREY))
-        for name, (colour, _) in PART_LOOKS.items()
-    }
-    for one, other in combinations(PART_LOOKS, 2):
-        hatched_alike = PART_LOOKS[one][1] == PART_LOOKS[other][1]
-        assert not hatched_alike or abs(greys[one] - greys[other]) > 0.1, (one, other)
+def test_models_and_signs_differ_in_grey():
+    for one, other in combinations((*LINES.values(), REFERENCE), 2):
+        assert one["linestyle"] != other["linestyle"]
+    assert len({look.get("hatch") for look in (LOOKS[True], LOOKS[False])}) == 2

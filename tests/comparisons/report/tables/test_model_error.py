@@ -1,11 +1,13 @@
-"""The budget as a reader meets it: rows, bars, the terminal's lines."""
+"""The budget as a reader meets it: rows, waterfalls, the terminal's lines."""
 
 import io
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
+from matplotlib import pyplot
 from rich.console import Console
 
 from comparisons.assessment.effects.catalogue import EFFECTS
@@ -13,12 +15,11 @@ from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.effects.model_error import Estimate, ModelError
 from comparisons.assessment.effects.selection import EffectSelection
 from comparisons.report.figures.model_error import (
-    NOT_MODELLED,
-    PART_LOOKS,
-    error_bars,
+    NUMERICAL,
     model_error_picture,
+    waterfalls,
 )
-from comparisons.report.figures.style import drawing
+from comparisons.report.figures.style import collected_figures, drawing
 from comparisons.report.page import render
 from comparisons.report.tables.model_error import effects_table, model_error_rows, not_modelled_line
 from comparisons.report.terminal import summary
@@ -113,31 +114,42 @@ def test_one_model_has_no_budget(finish: Callable[..., Outcome], smooth_tables: 
         assert model_error_picture(outcome) is None
 
 
-class TestBars:
-    def test_they_are_as_long_as_their_parts(self, split: Outcome):
-        peak = next(bar for bar in error_bars(split) if bar.parts["sampling"])
-        assert peak.parts["finite_size"] == 0.04 and peak.parts["deformed_gap"] == 0.012
-        assert peak.parts["interaction"] == 0.002 and peak.parts["sampling"] == 0.003
-        assert peak.parts[NOT_MODELLED] == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
-        numerical = split.result["error_budget"]["quantities"]["peak_pressure"][0]["numerical"]
-        for model, name in (
-            ("half_plane", "half-plane's discretisation"),
-            ("finite_element", "finite elements' discretisation"),
-        ):
-            assert peak.parts[name] == numerical[model]["discretisation"]
+def judged_by(outcome: Outcome, tolerance: dict[str, float]) -> Outcome:
+    scene = replace(outcome.problem.scene, tolerance=tolerance)
+    return replace(outcome, problem=replace(outcome.problem, scene=scene))
+
+
+class TestWaterfalls:
+    def test_steps_add_up_to_the_error_with_its_sign(self, split: Outcome):
+        [peak] = waterfalls(split)  # the norm is not judged
+        assert peak.name == "peak pressure"  # equal at both frictions
         assert (peak.error, peak.uncertainty, peak.tolerance) == (-0.031, 0.0012, 0.02)
+        assert peak.steps["finite thickness or width"] == -0.04
+        assert peak.steps["deformed gap"] == 0.012 and peak.steps["interaction"] == -0.002
+        assert sum(peak.steps.values()) == pytest.approx(peak.error)
+        assert peak.steps[NUMERICAL] == pytest.approx(-0.0009)
+        assert peak.not_modelled == pytest.approx((0.001**2 + 0.08**2) ** 0.5)
 
-    def test_every_part_has_a_look_of_its_own(self, split: Outcome):
-        for bar in error_bars(split):
-            assert set(bar.parts) <= set(PART_LOOKS)
-        assert set(EFFECTS) <= set(PART_LOOKS)
-        assert len(set(PART_LOOKS.values())) == len(PART_LOOKS)
+    def test_without_tolerances_everything_is_shown_and_norms_have_sizes(self, split: Outcome):
+        peak, norm = waterfalls(judged_by(split, {}))
+        assert peak.tolerance is None and not peak.is_norm
+        assert norm.steps["deformed gap"] == 0.012 and NUMERICAL not in norm.steps
 
-    def test_the_picture_says_what_is_judged(self, split: Outcome):
-        with drawing():
-            picture = model_error_picture(split)
-        assert "peak pressure" in picture.alternative and "−3.1 %" in picture.alternative
-        assert picture.source.startswith("data:image/svg+xml;base64,")
+    def test_bars_hang_on_each_other_and_the_last_is_the_error(self, split: Outcome):
+        with collected_figures() as figures:
+            picture = model_error_picture(judged_by(split, {"peak_pressure": 0.02}))
+        for figure in figures:  # wide and narrow
+            [axes] = figure.axes
+            rows = [tick.get_text() for tick in axes.get_yticklabels()]
+            assert rows[-1] == "model error" and "finite strain" not in rows
+            bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+            for (_, end), (start, _) in pairwise(bars[:-1]):
+                assert start == pytest.approx(end)
+            assert bars[0][0] == bars[-1][0] == 0.0
+            assert bars[-2][1] == pytest.approx(-3.1) and bars[-1][1] == pytest.approx(-3.1)
+            pyplot.close(figure)
+        assert "peak pressure: −3.1 %" in picture.alternative
+        assert "deformed gap +1.2 %" in picture.alternative
 
 
 def test_the_page_lists_contributions_where_errors_were_split(
