@@ -38,12 +38,16 @@ from fem.solver.mumps import FemError
 
 class TwoBodies:
     """The responses of the rough body and the roller as one: displacements (n, 2) of the rough
-    body's nodes, then those of the roller's, each in its own frame."""
+    body's nodes, then those of the roller's, each in its own frame. `moduli` are Young's [Pa]."""
 
-    def __init__(self, rough: Response, roller: Response) -> None:
+    def __init__(self, rough: Response, roller: Response, moduli: tuple[float, float]) -> None:
         self.parts = (rough, roller)
         self.held = np.vstack([rough.held, roller.held])
         self.symmetric = rough.symmetric and roller.symmetric
+        soft = [
+            np.full(2 * len(part.held), 1.0 / e) for part, e in zip(self.parts, moduli, strict=True)
+        ]
+        self.softness = min(moduli) * np.concatenate(soft)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """As of `fem.contact.terms.Response`."""

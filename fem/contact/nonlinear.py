@@ -27,9 +27,9 @@ from scipy.sparse import bmat, csr_matrix
 from fem.contact.terms import Contact, ContactTerms, Response
 from fem.solver.mumps import FemError, solve_once
 
-# Largest of three residuals: forces over the contact's forces, both over the tangent's diagonal (so
-# that the rounding of a stiff body counts as little as what it moves), complementarity over the
-# pressure, load over the load. Rounding leaves 1e-11 on large graded blocks.
+# Largest of three residuals: forces over the contact's forces, where the rounding of a stiff body
+# counts as little as what it moves; complementarity over the pressure; load over the load. Rounding
+# leaves 1e-11 on large graded blocks.
 RESIDUAL = 1e-9
 MOST_ITERATIONS = 30
 # A step is bisected if it multiplies the residual by more or inverts an element.
@@ -145,12 +145,11 @@ class ContactProblem:
 
     @cached_property
     def stiffness(self) -> float:
-        """k of the bodies in series, each with the harmonic mean of its tangent's diagonal at
-        rest."""
+        """k of the bodies in series, each with the mean diagonal of its tangent at rest."""
         soft = 0.0
         for (body, _), free in zip(self.bodies, self.free, strict=True):
             diagonal = body.linearised(np.zeros(body.held.shape))[1].diagonal()
-            soft += (1.0 / diagonal[free]).mean()
+            soft += 1.0 / (body.softness * diagonal)[free].mean()
         return 1.0 / soft
 
     @cached_property
@@ -177,10 +176,11 @@ class ContactProblem:
         """The largest of the three parts (see RESIDUAL)."""
         pressure = point.state.pressure
         worst = 0.0
-        for (force, tangent, terms), free in zip(point.bodies, self.free, strict=True):
-            soft = 1.0 / tangent.diagonal()[free]
-            applied = soft * (terms.force @ pressure)[free]
-            worst = max(worst, _ratio(soft * force[free] - applied, applied))
+        parts = zip(self.bodies, point.bodies, self.free, strict=True)
+        for (body, _), (force, _, terms), free in parts:
+            applied = terms.force @ pressure
+            left = body.softness * (force - applied)
+            worst = max(worst, _ratio(left[free], (body.softness * applied)[free]))
         wanted = pressure - self.stiff * self.weighted_gap(point) / self.weights
         clipped = np.clip(wanted, 0.0, self.hardness)
         worst = max(worst, _ratio(pressure - clipped, pressure))

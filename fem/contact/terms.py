@@ -20,10 +20,13 @@ class Response(Protocol):
 
     held        (n, 2) whether the support holds a component
     symmetric   whether the tangent is symmetric
+    softness    weights of the 2n forces that are left: of bodies that are one response, the
+                smallest modulus over their own; else 1
     """
 
     held: np.ndarray
     symmetric: bool
+    softness: np.ndarray
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal nodal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa] from the accepted state.
@@ -39,7 +42,7 @@ class Response(Protocol):
 class LinearResponse:
     """An elastic body's linear response, K u."""
 
-    symmetric = True
+    symmetric, softness = True, np.ones(1)
 
     def __init__(self, body: ElasticBody) -> None:
         self.held, self._matrix = body.held, body.stiffness()

@@ -126,7 +126,8 @@ def press_finitely(
     own = FiniteElementCompliance(body, hats, far=far)
     if isinstance(roller, FiniteElementCompliance):
         other = roller.body
-        bodies = TwoBodies(HyperelasticBody(body), HyperelasticBody(other))
+        moduli = body.material.youngs_modulus, other.material.youngs_modulus
+        bodies = TwoBodies(HyperelasticBody(body), HyperelasticBody(other), moduli)
         contact = PairContact(body, hats, other, friction)
         moved = np.vstack([_started(own, start, friction), _started(roller, start, -friction)])
     else:

@@ -30,7 +30,7 @@ class HyperelasticBody:
     """The response of `body` at finite strains, by the law of its material. Raises FemError on more
     than one process."""
 
-    symmetric = True
+    symmetric, softness = True, np.ones(1)
 
     def __init__(self, body: ElasticBody) -> None:
         import ufl

@@ -130,7 +130,7 @@ class PlasticBody:
     not quadratic.
     """
 
-    symmetric = True
+    symmetric, softness = True, np.ones(1)
 
     def __init__(self, body: ElasticBody, metal: ElasticPlastic) -> None:
         if body.coating is not None or metal.elastic != body.material:

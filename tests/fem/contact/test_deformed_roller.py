@@ -159,7 +159,8 @@ class Pressed:
         on_rough=False,
         friction=0.0,
         far=True,
-        **mesh,
+        size=60.0,
+        aside=0.0,
     ):
         self.modulus = MODULUS / sum(1.0 / m for m in moduli)
         self.peak = 0.5 * self.modulus * curvature
@@ -167,7 +168,7 @@ class Pressed:
         self.hats = hat_nodes(-count * edge, edge, 2 * count + 1)
         self.x = self.hats[1:-1]
         radii = (1.0 / curvature, None) if on_rough else (None, 1.0 / curvature)
-        self.rough = body(edge, radii[0], moduli[0], size=size)
+        self.rough = body(edge, radii[0], moduli[0], 0.0, size)
         self.roller = body(edge, radii[1], moduli[1], aside, size)
         fields = [
             FarField(each, self.hats[0], self.hats[-1]) if far else None

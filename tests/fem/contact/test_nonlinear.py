@@ -66,7 +66,7 @@ def test_friction_is_coupled(grid, block, dense, contact, solve):
 class Stiffening:
     """K u (1 + s |u|^2): a smooth nonlinear body whose tangent is known, as a stand-in."""
 
-    symmetric = True
+    symmetric, softness = True, np.ones(1)
 
     def __init__(self, body, stiffening, limit=np.inf):
         self.held, self.limit = body.held, limit

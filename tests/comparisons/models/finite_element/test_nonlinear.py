@@ -18,7 +18,7 @@ RIGID = {
     "load": {"hertz_peak_pressure": 2e9},
 }
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
-WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None, hats=None))
+WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None, hats=None, far=None))
 
 
 def pressed(problem, shift: float):
