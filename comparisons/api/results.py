@@ -72,9 +72,10 @@ class Run(Printed):
         """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
         from comparisons.models.level import deformed_height
 
-        if model not in self.outcome.runs:
-            raise InputError(f"model: is {model}; allowed is {' or '.join(self.outcome.runs)}")
-        level = self.outcome.runs[model].finest
+        levels = self.outcome.levels(self.outcome.deciding_friction)
+        if model not in levels:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
+        level = levels[model]
         return {
             "x": level.grid.x,
             "pressure": level.solution.pressure,

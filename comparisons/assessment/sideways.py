@@ -29,13 +29,13 @@ class SidewaysShift:
 
     shift    [m] at x = 0, positive towards +x
     stretch  further shift by x [1]
-    at_peak  [m] of what comes to lie where the reference is highest
+    mean     [m] size of the movement, by the reference's pressures
     left     relative L2 norm of the difference after it
     """
 
     shift: float
     stretch: float
-    at_peak: float
+    mean: float
     left: float
 
 
@@ -66,5 +66,5 @@ def sideways_shift(grid: HatGrid, pressure: np.ndarray, reference: np.ndarray) -
     options = {"xatol": SETTLED, "fatol": 1.0, "initial_simplex": simplex}
     found = minimize(left, best, method="Nelder-Mead", options=options).x
     shift, stretch = map(float, min((best, found), key=left) * per_pitch)
-    at_peak = (shift + stretch * float(x[np.argmax(reference)])) / (1.0 + stretch)
-    return SidewaysShift(shift, stretch, at_peak, left(np.array([shift, stretch]) / per_pitch))
+    mean = float(np.average(np.abs(shift + stretch * x) / (1.0 + stretch), weights=reference))
+    return SidewaysShift(shift, stretch, mean, left(np.array([shift, stretch]) / per_pitch))

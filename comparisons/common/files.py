@@ -19,14 +19,17 @@ from pathlib import Path
 from comparisons.common.errors import InputError
 
 # What a run may write; those that a repetition does not write again are removed.
-OWN_FOLDERS = ("half_plane", "finite_element")
+OWN_FOLDERS = ("half_plane", "finite_element", "whole")
 OWN_FILES = (
     *("result.json", "report.html", "report.npz", "report.pdf", "record.json"),
     *("run_in_profile.csv", "finite_element/mesh.msh"),
     *(f"{model}/{name}" for model in OWN_FOLDERS for name in ("contact.csv", "stress.vtu")),
 )
-# The same in formats that a run writes when it is asked to, or where a field is large.
+# The same in formats that a run writes when it is asked to, or where a field is large; and patterns
+# of what it writes for further friction coefficients.
 OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name in ("vtkhdf", "msh"))
+FURTHER = "whole/friction_*"
+OTHER_FILES += (f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*")
 RECORD = "record.json"  # of a run: its "files" are this program's
 STUDIES = ("cost", "map", "paper", "stability", "verify")  # whose own record is <name>.json
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
@@ -89,7 +92,7 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
     for folder in (unfinished(out), *(out / name for name in OWN_FOLDERS)):
         if os.path.lexists(folder):
             _check_folder(out, folder)
-    present = [name for name in own if os.path.lexists(out / name)]
+    present = _present(out, own)
     for name in present:
         if (out / name).is_dir():
             raise _cannot(out, f"{out / name} is a folder; allowed is none")
@@ -111,6 +114,11 @@ def _alone_in(out: Path) -> Iterator[None]:
             stack.callback(os.close, number)
             fcntl.flock(number, fcntl.LOCK_EX)
         yield
+
+
+def _present(out: Path, own: tuple[str, ...]) -> list[str]:
+    """Names in a folder that are among `own`, which may be patterns."""
+    return [name for pattern in own for name in glob.glob(pattern, root_dir=out)]
 
 
 def _cannot(out: Path, why: str) -> InputError:
@@ -203,7 +211,7 @@ def remove_leftovers(folder: Path) -> None:
 def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> Iterator[Path]:
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
-    own   files that are removed where they are not made again
+    own   names or patterns of files that are removed where they are not made again
     If the block fails or is interrupted nothing in `out` changes.
     """
     check_writable(out, own)
@@ -216,10 +224,10 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
             ours = claimed(out)
             for name in made:
                 _move(scratch / name, out / name)
-            for name in ours & set(own):
+            for name in ours & set(_present(out, own)):
                 if Path(name) not in made:
                     (out / name).unlink(missing_ok=True)
-            for folder in OWN_FOLDERS:
+            for folder in (*_present(out, (FURTHER,)), *OWN_FOLDERS):
                 with contextlib.suppress(OSError):  # absent, or holds something
                     (out / folder).rmdir()
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 MODELS = ("half_plane", "finite_element")
 HYPHENATED = {"half_plane": "half-plane", "finite_element": "finite-element"}  # the … model
-LABELS = {"half_plane": "half-plane", "finite_element": "finite elements"}
+WHOLE = "whole"  # model: the finite elements with every effect that matters
+LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE: "whole model"}
 
 
 @dataclass(frozen=True)

@@ -116,6 +116,10 @@ class ModelRun:
     def finest(self) -> Level:
         return self.levels[-1]
 
+    def beside(self, other: Level) -> Level:
+        """The level on the pressure elements of another model's, or on the nearest."""
+        return min(self.levels, key=lambda level: abs(level.grid.pitch - other.grid.pitch))
+
     @property
     def seconds(self) -> dict[str, float]:
         """By stage, all levels together."""

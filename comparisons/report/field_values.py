@@ -1,7 +1,8 @@
 """The fields as numbers in the page, for a reader who points at a picture or cuts a section.
 
-Integers of two bytes on a part of the window's points: the first model's field, and the difference
-of both on a separate scale, which preserves its digits. The page computes the second model's field.
+Integers of two bytes on a part of the window's points: the half-plane's field, and its difference
+from the other model that pictures show on a separate scale, which preserves its digits. The page
+computes the other model's field.
 """
 
 import base64
@@ -47,9 +48,9 @@ def field_explorer(outcome: Outcome) -> FieldExplorer | None:
     half_width, window = outcome.problem.hertz.half_width, outcome.window
     rows, columns = _spread(len(window.z), MOST_ROWS), _spread(len(window.x), MOST_COLUMNS)
     frictions = outcome.problem.scene.friction
-    largest = list(outcome.runs.values())[-1].finest.stress(frictions[-1]).extremes["tau1"]
+    last = list(outcome.levels(frictions[-1]).values())[-1]
+    largest = last.stress(frictions[-1]).extremes["tau1"]
     content = {
-        "models": [LABELS[name] for name in outcome.runs],
         "x": _places(window.x[columns] / half_width),
         "z": _places(window.z[rows] / half_width),
         "start": {"x": largest.x / half_width, "z": largest.z / half_width},
@@ -82,12 +83,17 @@ def _field(
     outcome: Outcome, component: Component, friction: float, rows: np.ndarray, columns: np.ndarray
 ) -> dict:
     p0 = outcome.problem.hertz.peak_pressure
+    pair = outcome.pair(friction)
     first, *others = (
-        component.of(run.finest.stress(friction).field)[np.ix_(rows, columns)] / p0
-        for run in outcome.runs.values()
+        component.of(level.stress(friction).field)[np.ix_(rows, columns)] / p0
+        for level in pair.values()
     )
     packed = [_packed(values) for values in (first, *(first - other for other in others))]
-    return {"scale": [scale for scale, _ in packed], "data": [text for _, text in packed]}
+    return {
+        "models": [LABELS[name] for name in pair],
+        "scale": [scale for scale, _ in packed],
+        "data": [text for _, text in packed],
+    }
 
 
 def _packed(values: np.ndarray) -> tuple[float, str]:

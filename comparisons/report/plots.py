@@ -65,15 +65,16 @@ class Plots:
 
         array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises
         """
-        if model not in self.outcome.runs:
-            raise InputError(f"model: is {model}; allowed is {' or '.join(self.outcome.runs)}")
+        levels = self.outcome.levels(self.outcome.deciding_friction)
+        if model not in levels:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
         if self.outcome.window is None:
             raise InputError("the scene has no field; allowed is a scene with [stress]")
         import pyvista
 
         from comparisons.results.field_files import field_of, vtk_grid
 
-        field = field_of(self.outcome, self.outcome.runs[model])
+        field = field_of(self.outcome, levels[model])
         if array not in field.arrays:
             raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")
         grid = pyvista.wrap(vtk_grid(field))

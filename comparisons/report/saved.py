@@ -1,6 +1,7 @@
 """report.npz: what the report shows and no other file of a run holds, so that it can be redrawn.
 
-Two stress components on the common window and the figures of all levels, exact. The mesh comes
+Two stress components on the common window and the figures of all levels, exact; the whole model
+where it is not the scene's own finite elements. The mesh comes
 from mesh.msh, figures and record from their own files; nothing is solved or meshed.
 """
 
@@ -14,6 +15,7 @@ from analytic.grid import roller_gap
 from analytic.profile import surface
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
+from comparisons.common.quantities import WHOLE
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
@@ -90,16 +92,23 @@ def _read(path: Path) -> dict:
 
 def _shown(outcome: Outcome) -> Outcome:
     """The outcome without what no picture and no table shows."""
-    runs = {}
+    runs, frictions = {}, outcome.problem.scene.friction
+    wholes = {mu: outcome.levels(mu)[WHOLE] for mu in frictions if WHOLE in outcome.levels(mu)}
+    drawn = [level for mu in frictions for level in outcome.pair(mu).values()]
     for name, run in outcome.runs.items():
-        levels = (*map(_reduced, run.levels[:-1]), _reduced(run.finest, with_fields=True))
+        shown = [level is run.finest or any(level is d for d in drawn) for level in run.levels]
+        levels = tuple(map(_reduced, run.levels, shown))
         check = None if run.far_boundary_check is None else _reduced(run.far_boundary_check)
         runs[name] = ModelRun(name, levels, check)
+    budget = outcome.budget
+    if budget is not None:
+        shown = {friction: _reduced(level, True) for friction, level in wholes.items()}
+        budget = replace(budget, wholes=shown)
     scene = outcome.problem.scene
     if scene.profile_info is not None:
         # the trace as read stands in record.json; the file that it came from is not everybody's
         scene = replace(scene, profile_info=replace(scene.profile_info, path=None, trace=None))
-    return replace(outcome, problem=replace(outcome.problem, scene=scene), runs=runs)
+    return replace(outcome, problem=replace(outcome.problem, scene=scene), runs=runs, budget=budget)
 
 
 def _reduced(level: Level, with_fields: bool = False) -> Level:

@@ -7,7 +7,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from comparisons.common.numbers import given_percent, percent, significant, with_unit
-from comparisons.common.quantities import LABELS, QUANTITIES, label
+from comparisons.common.quantities import LABELS, MODELS, QUANTITIES, label
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.problem import GROUPS
@@ -20,7 +20,7 @@ COLUMNS = {
     **{name: words.rpartition(", ")[2] for name, words in GROUPS.items()},
     **{name: label(name) for name in FIGURES},
     **{f"model_error_{name}": f"model error: {label(name)}" for name in QUANTITIES},
-    **{f"seconds_{name}": f"time, {words}" for name, words in LABELS.items()},
+    **{f"seconds_{name}": f"time, {LABELS[name]}" for name in MODELS},
     "seconds_error_budget": "time summed over cores, error budget",
 }
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import StressState
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Level
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
 
@@ -63,14 +63,13 @@ def scene_text(scene: ResolvedScene) -> str:
     return json.dumps(scene.as_dict(), ensure_ascii=False, allow_nan=False)
 
 
-def field_of(outcome: Outcome, run: ModelRun) -> FieldFile:
-    """Stresses at the model's own points, which lie in the plane y = 0.
+def field_of(outcome: Outcome, level: Level) -> FieldFile:
+    """Stresses at the points of a model's level, which lie in the plane y = 0.
 
-    Arrays sx, sz, sy, txz, tau1, von_mises [Pa] for the first friction coefficient; further
+    Arrays sx, sz, sy, txz, tau1, von_mises [Pa] for its first friction coefficient; further
     coefficients add arrays with the coefficient in the name. Where the body yields there are
     also what flow leaves behind when the roller is gone.
     """
-    level = run.finest
     nu = outcome.problem.scene.body.poissons_ratio
     if level.mesh_field is not None:
         plane, stresses = level.mesh_field.points, level.mesh_field.stresses

@@ -8,7 +8,8 @@ from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.errors import ExitStatus
-from comparisons.models.level import ModelRun
+from comparisons.common.quantities import WHOLE
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -50,6 +51,32 @@ class Outcome:
         solutions = [level.solution for run in self.runs.values() for level in run.levels]
         solutions += self.couplings if run_in is None else (*self.couplings, run_in)
         return all(each.converged for each in solutions)
+
+    def levels(self, friction: float) -> dict[str, Level]:
+        """The finest level of every model at a friction coefficient, last of the whole model where
+        it is not the scene's own finite elements."""
+        found = {name: run.finest for name, run in self.runs.items()}
+        whole = None if self.budget is None else self.budget.wholes.get(friction)
+        own = self.runs.get("finite_element")
+        if whole is not None and all(whole is not level for level in own.levels):
+            found[WHOLE] = whole
+        return found
+
+    def pair(self, friction: float) -> dict[str, Level]:
+        """The half-plane and the last of `levels`, on the same pressure elements; one model alone
+        where there is no other."""
+        name, last = list(self.levels(friction).items())[-1]
+        first = next(iter(self.runs.values()))
+        return {first.name: first.beside(last), name: last}
+
+    @property
+    def deciding_friction(self) -> float:
+        """The coefficient at which a judged model error exceeds its tolerance most, or comes
+        nearest to it; the last one without any."""
+        scene = self.problem.scene
+        checks = [] if self.budget is None else self.budget.tolerance_checks(scene.tolerance)
+        worst = max(checks, key=lambda check: abs(check.value) / check.tolerance, default=None)
+        return scene.friction[-1] if worst is None else worst.friction
 
     @property
     def exit_status(self) -> ExitStatus:

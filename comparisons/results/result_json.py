@@ -7,6 +7,7 @@ from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
+from comparisons.assessment.sideways import sideways_shift
 from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.assessment.verdict import Comparison, validity_verdict
 from comparisons.common.quantities import QUANTITIES
@@ -58,7 +59,7 @@ def result_of(
             for name, run in runs.items()
         },
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
-        "model_error": {} if budget is None else model_error_content(problem, budget),
+        "model_error": {} if budget is None else model_error_content(problem, runs, budget),
         "error_budget": budget and error_budget_content(problem, runs, comparisons, budget),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "refinement": refinement,
@@ -189,7 +190,9 @@ def _peak_memory(problem: Problem, run: ModelRun) -> int:
     return run.levels[min(last, len(run.levels)) - 1].peak_memory
 
 
-def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list[dict]]:
+def model_error_content(
+    problem: Problem, runs: dict[str, ModelRun], budget: ErrorBudget
+) -> dict[str, list[dict]]:
     """By quantity, one entry a friction coefficient; relative to the whole model, None for what is
     unknown or not judged."""
     tolerance = problem.scene.tolerance
@@ -211,7 +214,23 @@ def model_error_content(problem: Problem, budget: ErrorBudget) -> dict[str, list
                 "verdict": verdicts.get((error.quantity, error.friction)),
             }
         )
+    for entry in found.get("pressure_l2", ()):
+        entry |= _sideways(runs, budget.wholes.get(entry["friction"]))
     return found
+
+
+def _sideways(runs: dict[str, ModelRun], whole: Level | None) -> dict[str, float]:
+    """By how much the whole model's peaks of pressure lie beside the half-plane's, and what their
+    difference is without that."""
+    other = runs["finite_element"].finest if whole is None else whole
+    own = runs["half_plane"].beside(other).solution.pressure
+    found = sideways_shift(other.grid, own, other.solution.pressure)
+    return {
+        "shift": found.shift,
+        "stretch": found.stretch,
+        "mean_shift": found.mean,
+        "value_after_shift": found.left,
+    }
 
 
 def error_budget_content(

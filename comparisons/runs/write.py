@@ -26,13 +26,13 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
         return
     callback(Step("writing results", 0.0))
     with published(outcome.directory) as folder:
-        for name, run in outcome.runs.items():
+        for name, level in _written(outcome).items():
             (folder / name).mkdir()
-            write_contact(folder / name / "contact.csv", outcome.problem, run.finest)
+            write_contact(folder / name / "contact.csv", outcome.problem, level)
             if outcome.window is not None:
-                write_field(folder / name, field_of(outcome, run), fields)
-            if run.finest.mesh is not None:
-                write_mesh(folder / name / "mesh.msh", outcome, run.finest.mesh)
+                write_field(folder / name, field_of(outcome, level), fields)
+            if name in outcome.runs and level.mesh is not None:
+                write_mesh(folder / name / "mesh.msh", outcome, level.mesh)
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
@@ -45,6 +45,16 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
+
+
+def _written(outcome: Outcome) -> dict[str, Level]:
+    """Levels by their folders; whole models of further friction coefficients below the first's."""
+    found: dict[str, Level] = {}
+    for friction in outcome.problem.scene.friction:
+        for name, level in outcome.levels(friction).items():
+            if all(level is not known for known in found.values()):
+                found[name if name not in found else f"{name}/friction_{friction:g}"] = level
+    return found
 
 
 def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:

@@ -6,7 +6,7 @@ the odd ones: the larger change counts. The half-plane is enough, for both model
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
@@ -50,6 +50,8 @@ class ErrorBudget:
     model_errors  of each quantity at each friction coefficient
     sampling      by friction and quantity: what half the samples of the trace change
     seconds       that the effects took
+    wholes        by friction, the finite elements with every effect that matters, on the finest
+                  level of the effects, with their fields
     """
 
     selection: EffectSelection
@@ -58,6 +60,7 @@ class ErrorBudget:
     model_errors: tuple[ModelError, ...]
     sampling: dict[float, dict[str, float]]
     seconds: float
+    wholes: dict[float, Level] = field(default_factory=dict)
 
     def of(self, quantity: str, friction: float) -> ModelError:
         wanted = quantity, friction

@@ -1,8 +1,10 @@
-"""Subsurface fields of both models on one colour scale, and their difference on its own."""
+"""Subsurface fields of the half-plane and of the whole model, or of the finite elements where there
+is no other, on one colour scale; and their difference on its own."""
 
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import sub
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -212,15 +214,13 @@ def _pictures(outcome: Outcome, component: Component, view: FieldView) -> list[P
     p0 = outcome.problem.hertz.peak_pressure
     fields = [
         {
-            name: component.of(run.finest.stress(friction).field)[: view.rows] / p0
-            for name, run in outcome.runs.items()
+            name: component.of(level.stress(friction).field)[: view.rows] / p0
+            for name, level in outcome.pair(friction).items()
         }
         for friction in outcome.problem.scene.friction
     ]
     bands = round_bands([f for models in fields for f in models.values()], component.signed)
-    differences = [
-        models["half_plane"] - models["finite_element"] for models in fields if len(models) > 1
-    ]
+    differences = [sub(*models.values()) for models in fields if len(models) > 1]
     other_bands = round_bands(differences, signed=True) if differences else None
     return [
         _picture(outcome, friction, component, view, models, bands, other_bands)
@@ -240,9 +240,9 @@ def _picture(
     hertz, window = outcome.problem.hertz, outcome.window
     x, z = window.x / hertz.half_width, window.z[: view.rows] / hertz.half_width
     drawn, places, bars = layout(len(fields), view.height)
-    found = []
+    found, levels = [], outcome.pair(friction)
     for place, (name, values) in zip(places, fields.items(), strict=False):
-        extreme = outcome.runs[name].finest.stress(friction).extremes[component.name]
+        extreme = levels[name].stress(friction).extremes[component.name]
         shown = fill(place, x, z, values, bands, component.colours, component.signed)
         if extreme.z <= window.z[view.rows - 1]:
             cross(place, extreme.x / hertz.half_width, extreme.z / hertz.half_width)
@@ -251,13 +251,16 @@ def _picture(
     colour_bar(drawn, bars[0], shown, f"{component.symbol}/p₀", bands)
     largest = ""
     if len(fields) > 1:
-        difference = fields["half_plane"] - fields["finite_element"]
+        difference = sub(*fields.values())
         shown = fill(places[-1], x, z, difference, difference_bands, DIFFERENCE_COLOURS, True)
         largest = f" {_difference_said(x, z, difference, difference_bands[-1])}"
-        places[-1].set_title("half-plane − finite elements")
+        places[-1].set_title(" − ".join(LABELS[name] for name in fields))
         colour_bar(drawn, bars[1], shown, f"Δ{component.symbol}/p₀", difference_bands)
     places[-1].set_xlabel("x/a")
     words = f"{component.words.capitalize()} {component.symbol} {view.words}"
+    striped = ", stripes what is negative" if component.signed or largest else ""
+    cut = any(np.isnan(values).any() for values in fields.values())
+    largest += " White: hollows below the mean line, from which z counts." if cut else ""
     pointed = {
         "component": COMPONENTS.index(component),
         "friction": outcome.problem.scene.friction.index(friction),
@@ -269,8 +272,7 @@ def _picture(
         source=data_uri(drawn),
         alternative=f"{words}, friction {plain(friction)}. {'; '.join(found)}.{largest}",
         caption=(
-            f"{words}, friction {plain(friction)}; + marks the largest value"
-            f"{', stripes what is negative' if component.signed or largest else ''}.{largest}"
+            f"{words}, friction {plain(friction)}; + marks the largest value{striped}.{largest}"
         ),
         field=json.dumps(pointed),
     )

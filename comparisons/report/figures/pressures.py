@@ -1,19 +1,20 @@
 """Pressures over the profile, in the manner of Bailey and Sayles (1991), figure 1.
 
-From the top, over the same x: pressures of both models over the Hertz curve, their difference, the
-deformed surfaces; once over the whole contact, once around the highest peak or the edge, where the
-nodes of the piecewise-linear pressures can be seen.
+From the top, over the same x: pressures of all models over the Hertz curve, the half-plane's
+difference from the whole model, the deformed surfaces; once over the whole contact, once around the
+highest peak or the edge, where the nodes of the piecewise-linear pressures can be seen.
 """
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.numbers import Scale, percent, scale_of, significant, with_unit
+from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.models.level import Level
 from comparisons.report.figures import style
 from comparisons.report.figures.surfaces import draw_surfaces
+from comparisons.report.tables.model_error import moved_text
 from comparisons.report.tables.problem import hertz_text
 from comparisons.results.outcome import Outcome
 
@@ -26,12 +27,18 @@ FARTHEST_CAP = 2.0  # peak pressures: a hardness beyond would only flatten the c
 CLOSE_HATS = 14  # pressure elements to either side in the close-up, at least
 CLOSE_REACH = 0.1  # half-widths to either side, at most
 TICKS, STEPS = 7, (1, 2, 2.5, 5, 10)  # of x/a: how many at most, and how far apart, by tens
+MARKERS = {"half_plane": "o", "finite_element": "x", "whole": "d"}  # of nodes
 CLEAR = 0.04  # share of that axis at either end without one
 
 
+def shown_levels(outcome: Outcome) -> dict[str, Level]:
+    """Every model's finest level, at the friction coefficient that decides."""
+    return outcome.levels(outcome.deciding_friction)
+
+
 def reference_level(outcome: Outcome) -> Level:
-    """The finest level of the finite elements, or of the only model."""
-    return list(outcome.runs.values())[-1].finest
+    """The whole model's, the finite elements', or that of the only model."""
+    return list(shown_levels(outcome).values())[-1]
 
 
 def peak_position(level: Level) -> float:
@@ -42,13 +49,15 @@ def peak_position(level: Level) -> float:
 def pressure_picture(outcome: Outcome) -> style.Picture:
     """The whole contact."""
     x, hertz = reference_level(outcome).grid.x, outcome.problem.hertz
+    difference = " − ".join(LABELS[name] for name in outcome.pair(outcome.deciding_friction))
+    middle = f", their difference ({difference})," if len(outcome.runs) > 1 else ""
     beyond = 1.05 * hertz.half_width
     across = min(x[0], -beyond), max(x[-1], beyond)
     peaks = ", ".join(
         f"{LABELS[name]} "
-        f"{significant(run.finest.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
-        f"{with_unit(peak_position(run.finest), 'm')}"
-        for name, run in outcome.runs.items()
+        f"{significant(level.solution.pressure.max() / hertz.peak_pressure)} p₀ at x = "
+        f"{with_unit(peak_position(level), 'm')}"
+        for name, level in shown_levels(outcome).items()
     )
     return style.Picture(
         source=style.data_uri(_drawn(outcome, across, style.WIDE, 5.2)),
@@ -56,8 +65,8 @@ def pressure_picture(outcome: Outcome) -> style.Picture:
         wide=True,
         alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         caption=(
-            f"Contact pressure over the Hertz peak pressure p₀, and the surfaces under load. "
-            f"Largest pressure: {peaks}. {_norm(outcome)}"
+            f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
+            f"Largest pressure: {peaks}. {_norm(outcome)}{_moved(outcome)}"
             "Heights are stretched and known but for a constant; in contact both surfaces coincide."
         ),
     )
@@ -91,7 +100,20 @@ def _norm(outcome: Outcome) -> str:
     if row is None or row.difference is None:
         return ""
     size = percent(row.difference, uncertainty=row.uncertainty)
-    return f"The models differ by {size} (relative L2 norm). "
+    return f"Half-plane and finite elements differ by {size} (relative L2 norm). "
+
+
+def _moved(outcome: Outcome) -> str:
+    """That the peaks of the whole model stand elsewhere."""
+    if outcome.budget is None:
+        return ""
+    friction = outcome.deciding_friction
+    entries = outcome.result["model_error"]["pressure_l2"]
+    entry = next(each for each in entries if each["friction"] == friction)
+    size, said = percent(entry["value"], uncertainty=entry["uncertainty"]), moved_text(entry)
+    at = f" at friction {plain(friction)}" if len(entries) > 1 else ""
+    left = f", {said[0]} on average" if said else ""
+    return f"Half-plane and whole model{at} differ by {size}{left}. "
 
 
 def _drawn(
@@ -145,14 +167,14 @@ def draw_pressures(
     nodes  whether the nodes of the pressures are marked
     """
     hertz = outcome.problem.hertz
-    for name, run in outcome.runs.items():
-        x, pressure = _closed(run.finest)
-        shown = style.near(x, across, run.finest.grid.pitch)
+    for name, level in shown_levels(outcome).items():
+        x, pressure = _closed(level)
+        shown = style.near(x, across, level.grid.pitch)
         axes.plot(
             x[shown] / unit.factor,
             pressure[shown] / hertz.peak_pressure,
             label=LABELS[name],
-            marker={"half_plane": "o", "finite_element": "x"}[name] if nodes else None,
+            marker=MARKERS[name] if nodes else None,
             markersize=3.2,
             markerfacecolor="none",
             **style.LINES[name],
@@ -168,17 +190,20 @@ def draw_pressures(
 def _cap_and_legend(axes: "Axes", outcome: Outcome) -> None:
     """The hardness, if it is near; the lines' names above the curves, in two rows if narrow."""
     hardness, p0 = outcome.problem.scene.hardness, outcome.problem.hertz.peak_pressure
-    peak = max(run.finest.solution.pressure.max() for run in outcome.runs.values())
+    peak = max(level.solution.pressure.max() for level in shown_levels(outcome).values())
     if hardness is not None and hardness < FARTHEST_CAP * peak:
         look = {"color": "#777777", "linestyle": "-.", "linewidth": 0.9}
         axes.axhline(hardness / p0, label="hardness", **look)
+    names = len(axes.get_legend_handles_labels()[1])
     if axes.figure.get_figwidth() < 0.75 * style.WIDE:
-        side, corner, room = "upper left", (0.0, 0.91), 1.34
+        rows = 1 + (len(shown_levels(outcome)) > len(outcome.runs))
+        side, corner, room = "upper left", (0.0, 0.91), 1.22 + 0.12 * rows
+        columns = -(-names // rows)
     else:
-        side, corner, room = "upper right", (1.0, 1.02), 1.17
+        side, corner, room, columns = "upper right", (1.0, 1.02), 1.17, names
     axes.set_ylim(0.0, room * axes.dataLim.y1)
     gaps = {"borderaxespad": 0.1, "columnspacing": 1.0, "handlelength": 2.0, "handletextpad": 0.5}
-    axes.legend(loc=side, bbox_to_anchor=corner, ncols=4, **gaps)
+    axes.legend(loc=side, bbox_to_anchor=corner, ncols=columns, **gaps)
 
 
 def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
@@ -190,8 +215,9 @@ def _closed(level: Level) -> tuple[np.ndarray, np.ndarray]:
 def draw_difference(
     axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale
 ) -> None:
-    """Pressures of the half-plane less those of the finite elements, at the nodes of the latter."""
-    one, other = outcome.runs["half_plane"].finest, outcome.runs["finite_element"].finest
+    """Pressures of the half-plane less those of the whole model, or of the finite elements where
+    there is no other, on the same pressure elements."""
+    one, other = outcome.pair(outcome.deciding_friction).values()
     x, reference = _closed(other)
     difference = np.interp(x, *_closed(one)) - reference
     difference /= outcome.problem.hertz.peak_pressure

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 NEAR = 0.1  # half-widths: depth of the enlarged part of a rough section
-TOP, TITLE, TALL, FOOT = 0.06, 0.3, 1.85, 0.46  # inches
+TOP, TITLE, TALL, FOOT = 0.24, 0.3, 1.85, 0.46  # inches
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
 
 
@@ -62,14 +62,14 @@ def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
     for panels in columns:
         panels[-1].set_xlabel("z/a")
     lines, place = drawn.axes[0].get_legend_handles_labels(), (0.985, 1.0)
-    room = {"ncols": 3, "borderaxespad": 0.1, "columnspacing": 1.2}
+    room = {"ncols": len(lines[0]), "borderaxespad": 0.1, "columnspacing": 1.2}
     drawn.legend(*lines, loc="upper right", bbox_to_anchor=place, **room)
     at = decimal(outcome.window.x[column] / hertz.half_width)
     largest = "; ".join(
         f"friction {plain(mu)}: "
         + ", ".join(
             f"{LABELS[name]} {significant(np.nanmax(_tau1(outcome, name, mu, column)), 3)} p₀"
-            for name in outcome.runs
+            for name in outcome.levels(mu)
         )
         for mu in frictions
     )
@@ -85,7 +85,7 @@ def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
 
 
 def _tau1(outcome: Outcome, name: str, friction: float, column: int) -> np.ndarray:
-    field = outcome.runs[name].finest.stress(friction).field
+    field = outcome.levels(friction)[name].stress(friction).field
     return field.tau1[:, column] / outcome.problem.hertz.peak_pressure
 
 
@@ -93,7 +93,7 @@ def _section(axes: "Axes", outcome: Outcome, column: int, friction: float, depth
     hertz = outcome.problem.hertz
     x, z = outcome.window.x[column], outcome.window.z
     shown = z <= 1.000001 * depth * hertz.half_width
-    for name in outcome.runs:
+    for name in outcome.levels(friction):
         values = _tau1(outcome, name, friction, column)[shown]
         axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **style.LINES[name])
     exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure

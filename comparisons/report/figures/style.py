@@ -25,6 +25,7 @@ WIDE = 11.4  # inches: a picture across the page
 LINES = {
     "half_plane": {"color": "#0072B2", "linestyle": "-", "linewidth": 1.5},
     "finite_element": {"color": "#D55E00", "linestyle": (0, (4, 1.6)), "linewidth": 1.1},
+    "whole": {"color": "#009E73", "linestyle": (0, (7, 1.2, 1.4, 1.2)), "linewidth": 1.3},
 }
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}

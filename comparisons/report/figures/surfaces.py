@@ -51,8 +51,9 @@ def surfaces_of(problem: Problem, level: Level) -> Surfaces:
 
 def surface_picture(outcome: Outcome) -> style.Picture:
     """Surfaces of the last model before and under load; below, the gaps of all."""
-    name, run = list(outcome.runs.items())[-1]
-    found = surfaces_of(outcome.problem, run.finest)
+    levels = outcome.levels(outcome.deciding_friction)
+    name, level = list(levels.items())[-1]
+    found = surfaces_of(outcome.problem, level)
     drawn = style.figure(style.COLUMN, 5.6)
     axes, below = style.stacked(drawn, [(0.22, 3.08), (0.28, 1.51)], 0.7, 0.14)
     along, up = scale_of(found.x, "m"), scale_of([np.ptp(found.roller), np.ptp(found.body)], "m")
@@ -73,10 +74,10 @@ def surface_picture(outcome: Outcome) -> style.Picture:
     axes.text(0.5, 0.95, "roller", transform=axes.transAxes, ha="center", va="top")
     axes.legend(loc="lower right", borderaxespad=0.2)
     axes.tick_params(labelbottom=False)
-    gaps = {key: np.maximum(r.finest.solution.gap, 0.0) for key, r in outcome.runs.items()}
+    gaps = {key: np.maximum(each.solution.gap, 0.0) for key, each in levels.items()}
     unit = scale_of([np.max(gap) for gap in gaps.values()], "m")
     for key, gap in gaps.items():
-        place = outcome.runs[key].finest.grid.x / along.factor
+        place = levels[key].grid.x / along.factor
         below.plot(place, gap / unit.factor, label=LABELS[key], **style.LINES[key])
     below.set(xlim=axes.get_xlim(), xlabel=f"x [{along.name}]", ylabel=f"gap [{unit.name}]")
     below.set_ylim(bottom=0.0)
@@ -100,9 +101,9 @@ def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], u
     """Every model's surfaces under load over `across` [m], x in `unit`; filled as those of the
     last model."""
     drawn: dict[str, tuple[np.ndarray, ...]] = {}
-    for name, run in reversed(outcome.runs.items()):
-        found = surfaces_of(outcome.problem, run.finest)
-        shown = style.near(found.x, across, run.finest.grid.pitch)
+    for name, level in reversed(outcome.levels(outcome.deciding_friction).items()):
+        found = surfaces_of(outcome.problem, level)
+        shown = style.near(found.x, across, level.grid.pitch)
         x, body, roller = found.x[shown], found.body[shown], found.roller[shown]
         if drawn:
             # displacements are known but for a constant: laid on each other at their mean

@@ -4,11 +4,12 @@ from dataclasses import dataclass
 
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.model_error import ModelError
-from comparisons.common.numbers import given_percent, percent
+from comparisons.common.numbers import given_percent, percent, with_unit
 from comparisons.common.quantities import QUANTITIES, label
 from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
+WORTH_A_MOVE = 0.75  # of the pressures' difference that is left without it, at most
 SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not listed
 
 
@@ -32,6 +33,7 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
     """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
     tolerance = outcome.problem.scene.tolerance
     rows = []
+    moved = {e["friction"]: e for e in outcome.result["model_error"].get("pressure_l2", ())}
     for name in QUANTITIES:
         errors = [e for e in outcome.budget.model_errors if e.quantity == name]
         if judged and name not in tolerance:
@@ -46,7 +48,8 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
                     error=error,
                     uncertainty=uncertainty,
                     tolerance=given_percent(tolerance[name]) if name in tolerance else "",
-                    contributions=contributions,
+                    contributions=contributions
+                    + (moved_text(moved[same[0].friction]) if name == "pressure_l2" else ()),
                 )
             )
     return rows
@@ -72,6 +75,17 @@ def contributions_in_words(error: ModelError) -> tuple[str, ...]:
         for name, size in sorted(sizes.items(), key=lambda item: -abs(item[1]))
         if abs(size) >= least
     )
+
+
+def moved_text(entry: dict) -> tuple[str, ...]:
+    """What is left of the pressures' difference once peaks are moved; nothing where that is most.
+
+    entry  of the pressures in result.json
+    """
+    if entry["value_after_shift"] > WORTH_A_MOVE * entry["value"]:
+        return ()
+    mean, left = with_unit(entry["mean_shift"], "m", 2), percent(entry["value_after_shift"])
+    return (f"{left} with peaks moved by {mean}",)
 
 
 def not_modelled_line(outcome: Outcome) -> str:

@@ -3,8 +3,8 @@
 // Values of the fields under the pointer, and sections over x at a depth of the reader's choice.
 // Without this script the page is whole: what it shows is also in the pictures.
 const NOTHING = -32768;
-const MODELS = { "half-plane": "#0072B2", "finite elements": "#D55E00" };
-const DASHES = { "finite elements": "6 3" };
+const MODELS = { "half-plane": "#0072B2", "finite elements": "#D55E00", "whole model": "#009E73" };
+const DASHES = { "finite elements": "6 3", "whole model": "9 2 2 2" };
 const MARGIN = { left: 62, right: 12, top: 24, bottom: 40 };
 
 function numbers(text, scale) {
@@ -37,9 +37,9 @@ function look(fields) {
     if (!opened.has(key)) {
       const kept = fields.components[component].fields[friction];
       const [first, difference] = kept.data.map((text, k) => numbers(text, kept.scale[k]));
-      const found = { [fields.models[0]]: first };
+      const found = { [kept.models[0]]: first };
       if (difference) {
-        found[fields.models[1]] = first.map((value, k) => value - difference[k]);
+        found[kept.models[1]] = first.map((value, k) => value - difference[k]);
         found.difference = difference;
       }
       opened.set(key, found);

@@ -5,7 +5,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import MINUS, UNKNOWN, significant
-from comparisons.common.quantities import LABELS
+from comparisons.common.quantities import LABELS, MODELS
 from comparisons.report.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.paper.claims.judgement import (
     CONFIRMED,
@@ -95,10 +95,10 @@ def paper_table(paper: "Paper") -> "RenderableType":
     from rich.console import Group
     from rich.text import Text
 
-    table = plain_table("claim", "figure", numbers=LABELS.values())
+    table = plain_table("claim", "figure", numbers=[LABELS[m] for m in MODELS])
     table.add_column("outcome")
     for row in map(claim_row, paper.judged):
-        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in LABELS))
+        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in MODELS))
         plain = [cell.replace("±", "+-").translate(PLAIN) for cell in cells]
         table.add_row(*plain, Text(row.outcome, style=STYLES[row.kind]))
     return Group(

@@ -48,13 +48,16 @@ def test_files_appear_at_the_end(tmp_path):
 
 def test_what_a_repetition_no_longer_makes_is_removed_and_strangers_stay(tmp_path):
     out = tmp_path / "results"
+    further = [f"whole/friction_{friction}/stress.vtu" for friction in ("0.1", "0.2")]
     fill(out, ["notes.txt"], "old")
-    fill_as_run(out, ["result.json", "finite_element/mesh.msh"], "old")
+    fill_as_run(out, ["result.json", "finite_element/mesh.msh", *further], "old")
     with published(out) as scratch:
-        fill_as_run(scratch, ["result.json"])
+        fill_as_run(scratch, ["result.json", further[0]])
     assert (out / "result.json").read_text() == "new"
     assert (out / "notes.txt").read_text() == "old"
     assert not (out / "finite_element").exists()
+    assert (out / further[0]).read_text() == "new"
+    assert not (out / further[1]).parent.exists()
 
 
 @pytest.mark.parametrize("error", [RuntimeError, KeyboardInterrupt])

@@ -52,7 +52,7 @@ def test_one_script_runs_and_none_but_that(wavy_page, half_plane_page):
         "style-src 'unsafe-inline'",
         f"script-src 'sha256-{seal(script)}'",
     ]
-    assert set(json.loads(fields)) == {"models", "x", "z", "start", "components"}
+    assert set(json.loads(fields)) == {"x", "z", "start", "components"}
     assert half_plane_page.scripts == []  # without a field
 
 

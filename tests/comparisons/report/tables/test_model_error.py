@@ -62,7 +62,7 @@ def split(wavy_outcome: Outcome) -> Outcome:
     problem = wavy_outcome.problem
     result = wavy_outcome.result | {
         "error_budget": error_budget_content(problem, wavy_outcome.runs, rows, budget),
-        "model_error": model_error_content(problem, budget),
+        "model_error": model_error_content(problem, wavy_outcome.runs, budget),
     }
     return replace(wavy_outcome, budget=budget, comparisons=rows, result=result)
 
