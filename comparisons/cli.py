@@ -47,13 +47,17 @@ WATCHED = {
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
 PLACES = ("--out", "--summary", "--junit")
-FINISHED = (ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE, ExitStatus.NOT_CONVERGED)
+FINISHED = (
+    *(ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE),
+    *(ExitStatus.NOT_CONVERGED, ExitStatus.INCONCLUSIVE),
+)
 
 app = typer.Typer(
     name="crosscheck",
     help="Checks the half-plane method for rough line contact against finite elements.",
-    epilog="Exit status: 0 done; 1 done, and a quantity is outside its tolerance; "
-    "2 wrong input; 3 a solver did not converge.",
+    epilog="Exit status: 0 done, and whatever was judged is within its tolerance; 1 done, and "
+    "something is outside; 2 wrong input; 3 a solver did not converge; 4 done, and a verdict is "
+    "inconclusive.",
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},

@@ -1,4 +1,11 @@
-"""From differences and uncertainties to verdicts."""
+"""From differences and uncertainties to verdicts, by one rule.
+
+A difference d with uncertainty U stands for the interval d +- U. The verdict is yes where the whole
+interval is within the tolerance, |d| + U <= tolerance; no where all of it is beyond,
+|d| - U > tolerance; and inconclusive where it reaches across, or where U is not known. Everything
+that is judged is judged so: the models' difference, the model error, points of maps, settings of a
+cost study, claims of the paper.
+"""
 
 import math
 from collections.abc import Sequence
@@ -33,15 +40,22 @@ class Comparison:
     verdict: Verdict | None
 
 
-def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
-    """Verdict on a relative difference.
+def is_within(value: float, uncertainty: float, low: float, high: float) -> bool | None:
+    """Whether value +- uncertainty lies between the bounds, which belong to the inside: all of it
+    (True), nothing (False), or neither (None), as where one of the two is not finite. All four in
+    one unit."""
+    first, last = value - uncertainty, value + uncertainty
+    if not (math.isfinite(first) and math.isfinite(last)):
+        return None
+    if low <= first and last <= high:
+        return True
+    return False if last < low or first > high else None
 
-    `inconclusive` when the difference is smaller than an uncertainty that exceeds the tolerance:
-    refine before you conclude. Otherwise the tolerance decides.
-    """
-    if abs(difference) < uncertainty and uncertainty > tolerance:
-        return "inconclusive"
-    return "agree" if abs(difference) <= tolerance else "differ"
+
+def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
+    """Verdict on a relative difference, by the rule above."""
+    verdicts = {True: "agree", False: "differ", None: "inconclusive"}
+    return verdicts[is_within(difference, uncertainty, -tolerance, tolerance)]
 
 
 @dataclass(frozen=True)
@@ -66,16 +80,10 @@ class ToleranceCheck:
         return self.uncertainty + math.hypot(*self.not_modelled.values())
 
     @property
-    def is_inside(self) -> bool:
-        return abs(self.value) + self.total_uncertainty <= self.tolerance
-
-    @property
-    def is_outside(self) -> bool:
-        return abs(self.value) - self.total_uncertainty > self.tolerance
-
-    @property
     def verdict(self) -> Validity:
-        return "holds" if self.is_inside else "fails" if self.is_outside else "inconclusive"
+        """By the rule of `judge`, with the whole uncertainty."""
+        judged = judge(self.value, self.total_uncertainty, self.tolerance)
+        return {"agree": "holds", "differ": "fails"}.get(judged, judged)
 
     @property
     def is_unresolved(self) -> bool:
@@ -87,10 +95,10 @@ def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:
     """Whether the half-plane's assumption holds in a scene, and which figures decide it."""
     if not checks:
         return "inconclusive", "no quantity was judged against a tolerance"
-    outside = [s for s in checks if s.is_outside]
+    outside = [s for s in checks if s.verdict == "fails"]
     if outside:
         return "fails", f"outside the tolerance: {_named(outside)}"
-    unclear = [s for s in checks if not s.is_inside]
+    unclear = [s for s in checks if s.verdict != "holds"]
     if not unclear:
         worst = max(checks, key=lambda s: (abs(s.value) + s.total_uncertainty) / s.tolerance)
         return "holds", f"every judged error is within its tolerance; nearest: {_named([worst])}"

@@ -2,6 +2,7 @@
 
 import sys
 from pathlib import Path
+from time import perf_counter
 from typing import Annotated, Literal
 
 import typer
@@ -39,20 +40,26 @@ def run(
     fields: Annotated[
         Fields, typer.Option(help="File format of the stress fields; auto is by their size.")
     ] = "auto",
+    junit: Annotated[
+        Path | None, typer.Option(help="File for JUnit XML: a testcase for each judged figure.")
+    ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
     """Solve a scene with both models, compare them and judge."""
     from comparisons.common.files import check_writable
+    from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
     from comparisons.results.plausibility import warnings_about, warnings_about_result
     from comparisons.scenes.resolve import load_scene, with_tolerance
 
+    began = perf_counter()
     chosen = models_named(models, "--models")
     resolved = from_first(lambda: load_scene(scene))
     if tolerance is not None:
         resolved = with_tolerance(resolved, tolerance)
     directory = out or RESULTS / resolved.name
     from_first(lambda: check_writable(directory))
+    from_first(lambda: check_place(junit))
     from comparisons.runs.run import run as run_scene
 
     warnings = warnings_about(resolved)
@@ -66,6 +73,9 @@ def run(
         if pdf and is_first():
             callback("printing the report")
             _print(directory)
+    if junit is not None:
+        seconds = perf_counter() - began
+        write_junit(junit, junit_xml(resolved.name, run_cases_of(outcome), seconds))
     if as_json:
         show_json(outcome.result)
     else:

@@ -33,7 +33,7 @@ def headline(outcome: Outcome) -> Headline:
         )
     if not outcome.plan.compares:
         return Headline("not compared", _one_model(outcome))
-    checks = outcome.budget.tolerance_checks(outcome.problem.scene.tolerance)
+    checks = outcome.tolerance_checks
     verdict, _ = validity_verdict(checks)
     several = len(outcome.problem.scene.friction) > 1
     if verdict == "holds":
@@ -41,7 +41,7 @@ def headline(outcome: Outcome) -> Headline:
         said = f"{_all_judged(checks)}; nearest to its tolerance, {nearest}"
         return Headline("holds", f"The half-plane holds here: {said}.")
     if verdict == "fails":
-        outside = [check for check in checks if check.is_outside]
+        outside = [check for check in checks if check.verdict == "fails"]
         worst, more = _nearest(outside), len(outside) - 1
         are = "are" if more > 1 else "is"
         others = f"; {more} more of {len(checks)} judged errors {are} outside" if more else ""
@@ -53,7 +53,7 @@ def headline(outcome: Outcome) -> Headline:
 
 def _inconclusive(checks: list[ToleranceCheck], several: bool) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
-    unclear = [check for check in checks if not check.is_inside]
+    unclear = [check for check in checks if check.verdict != "holds"]
     numerical = [check for check in unclear if check.is_unresolved]
     worst = _nearest(numerical or unclear)
     if numerical:

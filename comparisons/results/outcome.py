@@ -6,7 +6,7 @@ from pathlib import Path
 from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
-from comparisons.assessment.verdict import Comparison
+from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import WHOLE
 from comparisons.models.level import Level, ModelRun
@@ -79,11 +79,18 @@ class Outcome:
         return scene.friction[-1] if worst is None else worst.friction
 
     @property
+    def tolerance_checks(self) -> list[ToleranceCheck]:
+        """Every judged model error of the half-plane; none for one model."""
+        budget = self.budget
+        return budget.tolerance_checks(self.problem.scene.tolerance) if budget else []
+
+    @property
     def exit_status(self) -> ExitStatus:
-        """3: a solver did not converge; 1: the models differ by more than a tolerance; else 0,
-        whatever the model error of the half-plane."""
+        """3: a solver did not converge; 1: a judged figure differs, or the half-plane fails in it;
+        4: none does, but one is inconclusive; else 0."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
-        if any(c.verdict == "differ" for c in self.comparisons):
+        verdicts = {row.verdict for row in (*self.comparisons, *self.tolerance_checks)}
+        if verdicts & {"differ", "fails"}:
             return ExitStatus.OUTSIDE_TOLERANCE
-        return ExitStatus.DONE
+        return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE

@@ -11,14 +11,14 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING
-from xml.etree import ElementTree
 
-from comparisons.common.errors import ExitStatus, InputError, one_line
+from comparisons.common.errors import ExitStatus, one_line
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
 from comparisons.common.quantities import LABELS
+from comparisons.report.junit import JunitCase, check_place, junit_xml, write_junit
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -228,10 +228,7 @@ class CheckedStudy:
 def check_places(command: str, out: Path, junit: Path | None) -> None:
     """Raise InputError unless the command's files can be written in `out`, and the file `junit`."""
     check_writable(out, (f"{command}.json", f"{command}.html"))
-    if junit is not None:
-        if junit.is_dir():
-            raise InputError(f"{junit}: cannot be written: it is a folder; allowed is a file")
-        check_writable(junit.parent, ())
+    check_place(junit)
 
 
 def write_study(
@@ -246,9 +243,7 @@ def write_study(
     with published(out, tuple(files)) as folder:
         for name, text in files.items():
             (folder / name).write_text(text, encoding="utf-8")
-    if junit is not None:
-        with published(junit.parent, ()) as folder:
-            (folder / junit.name).write_text(junit_xml(study), encoding="utf-8")
+    write_junit(junit, study_junit(study))
 
 
 def _without_nan(value: object) -> object:
@@ -260,43 +255,23 @@ def _without_nan(value: object) -> object:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def junit_xml(study: CheckedStudy) -> str:
-    """JUnit XML for continuous integration: a testcase for each figure, or for an error."""
-    suites = ElementTree.Element("testsuites", name=f"crosscheck {study.command}")
-    suite = ElementTree.SubElement(suites, "testsuite", name=study.command)
-    for row in study.rows:
-        for name, text, failure in _testcases(row):
-            case = ElementTree.SubElement(
-                suite, "testcase", classname=f"{study.command}.{row.case.model}", name=name
-            )
-            if failure is not None:
-                ElementTree.SubElement(case, "failure", message=f"{failure}: {text}")
-            ElementTree.SubElement(case, "system-out").text = text
-    counts = {
-        "tests": len(suite),
-        "failures": len(suite.findall("testcase/failure")),
-        "errors": 0,
-        "skipped": 0,
-        "time": f"{study.seconds:.3f}",
-    }
-    suite.attrib.update({name: str(count) for name, count in counts.items()})
-    ElementTree.indent(suites)
-    return ElementTree.tostring(suites, encoding="unicode", xml_declaration=True) + "\n"
+def study_junit(study: CheckedStudy) -> str:
+    """JUnit XML with a testcase for each figure, or for an error."""
+    cases = (case for row in study.rows for case in _junit_cases(study.command, row))
+    return junit_xml(study.command, cases, study.seconds)
 
 
-def _testcases(row: CheckedRow) -> list[tuple[str, str, str | None]]:
-    """Name, text and failure of each testcase of a row."""
-    name = f"{row.case.group}: {row.case.name}"
+def _junit_cases(command: str, row: CheckedRow) -> list[JunitCase]:
+    name, group = f"{row.case.group}: {row.case.name}", f"{command}.{row.case.model}"
     if row.error is not None or not row.findings.figures:
-        return [(name, row.error or "no figures", "no figures")]
-    return [
-        (
-            f"{name}: {f.name}",
-            f"{f.value:.6g}, expected {f.bounds} ({f.reference}){f.note and '; '}{f.note}",
-            None if f.holds else "out of bounds",
-        )
-        for f in row.findings.figures
-    ]
+        text = row.error or "no figures"
+        return [JunitCase(group, name, text, "failure", f"no figures: {text}")]
+    cases = []
+    for f in row.findings.figures:
+        text = f"{f.value:.6g}, expected {f.bounds} ({f.reference}){f.note and '; '}{f.note}"
+        result = "passed" if f.holds else "failure"
+        cases.append(JunitCase(group, f"{name}: {f.name}", text, result, f"out of bounds: {text}"))
+    return cases
 
 
 def rows_table(rows: Sequence[CheckedRow]) -> "Table":

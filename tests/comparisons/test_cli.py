@@ -89,7 +89,7 @@ def test_json_instead_of_the_table(solver, capsys):
     assert err == ""
 
 
-@pytest.mark.parametrize("status", [0, 1, 3])
+@pytest.mark.parametrize("status", [0, 1, 3, 4])
 def test_the_outcome_decides_the_status(solver, status):
     solver.status = ExitStatus(status)
     assert main(["run", "smooth"]) == status

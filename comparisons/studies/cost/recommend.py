@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from comparisons.assessment.verdict import judge
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.finite_element.mesh import COARSER_GROWTH, STEEPEST_GROWTH
@@ -25,13 +26,13 @@ class AssessedRow:
     row: CostRow
     errors: dict[str, float | None]
 
-    def worst(self, floors: dict[str, float], tolerances: Tolerances) -> float | None:
-        """Largest error with its floor over its tolerance; None where one is unknown."""
-        found = [self.errors.get(name) for name in tolerances]
-        if any(error is None for error in found):
+    def meets(self, floors: dict[str, float], tolerances: Tolerances) -> bool | None:
+        """Whether every error agrees with none within its tolerance, with the reference's floor for
+        uncertainty; None where an error is unknown."""
+        found = {name: self.errors.get(name) for name in tolerances}
+        if None in found.values():
             return None
-        pairs = zip(found, tolerances.items(), strict=True)
-        return max((error + floors[name]) / tolerance for error, (name, tolerance) in pairs)
+        return all(judge(found[n], floors[n], t) == "agree" for n, t in tolerances.items())
 
 
 @dataclass(frozen=True)
@@ -99,10 +100,10 @@ def _meeting(
     for each in reversed([a for a in assessed if a.row.method.name == name]):
         if each.row.status != OK:
             continue
-        worst = each.worst(floors, tolerances)
-        if worst is None:  # itself the reference
+        meets = each.meets(floors, tolerances)
+        if meets is None:  # itself the reference
             continue
-        if worst > 1.0:
+        if not meets:
             break
         found.append(each)
     return found

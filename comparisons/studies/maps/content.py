@@ -5,6 +5,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from comparisons.assessment.verdict import judge
 from comparisons.common.cache import Cache
 from comparisons.common.provenance import versions
 from comparisons.common.quantities import QUANTITIES
@@ -67,8 +68,8 @@ def _axis(axis: Axis) -> dict:
 def significance(found: dict, quantity: str) -> dict:
     """How the model error at a solved point compares with its numerical uncertainty.
 
-    significant: it is larger; below tolerance: it is not, and the uncertainty is less than the
-    first tolerance; inconclusive: neither.
+    significant: it is larger; below tolerance: it is not, and both together are within the first
+    tolerance; inconclusive: neither.
     """
     if found["status"] != SOLVED:
         return {}
@@ -77,7 +78,8 @@ def significance(found: dict, quantity: str) -> dict:
         return {"error": INCONCLUSIVE}
     if abs(error["difference"]) > error["uncertainty"]:
         return {"error": SIGNIFICANT}
-    return {"error": BELOW if error["uncertainty"] <= TOLERANCES[0] else INCONCLUSIVE}
+    agrees = judge(error["difference"], error["uncertainty"], TOLERANCES[0]) == "agree"
+    return {"error": BELOW if agrees else INCONCLUSIVE}
 
 
 def map_table(content: dict, out: Path) -> "Group":

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from comparisons.assessment.verdict import ToleranceCheck, judge, validity_verdict
+from comparisons.assessment.verdict import ToleranceCheck, is_within, judge, validity_verdict
 
 LITTLE = 1e-15  # more than rounding of numbers below 1 loses
 
@@ -13,17 +13,45 @@ LITTLE = 1e-15  # more than rounding of numbers below 1 loses
     ("difference", "uncertainty", "tolerance", "verdict"),
     [
         (0.001, 0.002, 0.02, "agree"),
-        (-0.019, 0.002, 0.02, "agree"),
+        (-0.019, 0.0009, 0.02, "agree"),
+        (-0.019, 0.002, 0.02, "inconclusive"),
         (0.03, 0.002, 0.02, "differ"),
         (-0.03, 0.002, 0.02, "differ"),
+        (0.03, 0.025, 0.02, "inconclusive"),  # by its size alone it would differ
         (0.01, 0.03, 0.02, "inconclusive"),
-        (0.025, 0.03, 0.02, "inconclusive"),
-        (0.05, 0.03, 0.02, "differ"),
-        (0.015, 0.019, 0.02, "agree"),
+        (0.06, 0.03, 0.02, "differ"),
+        (0.015, 0.019, 0.02, "inconclusive"),
+        (0.5, math.inf, 0.02, "inconclusive"),
+        (math.inf, 0.001, 0.02, "inconclusive"),
     ],
 )
 def test_judge(difference, uncertainty, tolerance, verdict):
     assert judge(difference, uncertainty, tolerance) == verdict
+
+
+@pytest.mark.parametrize(
+    ("value", "uncertainty", "within"),
+    [
+        (2.0, 1.0, True),  # from 1 to 3, bounds included
+        (2.0, 1.5, None),
+        (4.0, 1.0, None),  # touches the bound
+        (4.0, 0.75, False),
+        (0.0, 0.75, False),
+        (2.0, math.nan, None),
+    ],
+)
+def test_an_interval_lies_within_bounds_beyond_them_or_across(value, uncertainty, within):
+    assert is_within(value, uncertainty, 1.0, 3.0) is within
+
+
+@pytest.mark.parametrize("value", [0.0, 0.01, -0.019, 0.021, -0.05])
+@pytest.mark.parametrize("uncertainty", [0.0, 0.001, 0.0011, 0.015, 0.03, math.inf])
+def test_both_tables_are_judged_alike(value, uncertainty):
+    words = {"agree": "holds", "differ": "fails", "inconclusive": "inconclusive"}
+    assert (
+        judged(value=value, uncertainty=uncertainty).verdict
+        == words[judge(value, uncertainty, 0.02)]
+    )
 
 
 def judged(

@@ -16,11 +16,11 @@ from comparisons.studies.checks import (
     CheckedCase,
     CheckedRow,
     Findings,
-    junit_xml,
     order_figure,
     relative_error,
     rows_table,
     run_case,
+    study_junit,
     verdict_lines,
 )
 from comparisons.studies.robustness import run as robustness
@@ -132,7 +132,7 @@ def test_json_holds_all_rows_beside_the_other_files_of_the_folder(written):
 def test_junit_has_a_testcase_for_each_figure_and_error(written):
     study, folder, _ = written
     text = (folder / "ci" / "rows.xml").read_text()
-    assert text == junit_xml(study)
+    assert text == study_junit(study)
     [suite] = ElementTree.fromstring(text.encode())
     assert (suite.get("tests"), suite.get("failures")) == ("3", "2")
     first, raised, good = suite

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite
 
 from comparisons.assessment.uncertainty import far_boundary, grid_convergence, largest_iteration
+from comparisons.assessment.verdict import is_within
 from comparisons.common.numbers import plain
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.results.outcome import Outcome
@@ -187,18 +188,15 @@ def judgement(claim: Claim, numbers: dict[str, MeasuredNumber]) -> tuple[str, st
 
 def _place(claim: Claim, number: MeasuredNumber) -> str:
     """Where a number with its uncertainty lies: inside | outside | between | on a bound."""
-    low, high = number.value - number.uncertainty, number.value + number.uncertainty
-    inner, outer = claim.confirms, claim.allows or claim.confirms
-    if not (isfinite(low) and isfinite(high)):
-        return "on a bound"
-    if inner[0] <= low and high <= inner[1]:
+    inner, outer = (
+        is_within(number.value, number.uncertainty, *bounds)
+        for bounds in (claim.confirms, claim.allows or claim.confirms)
+    )
+    if inner:
         return "inside"
-    if high < outer[0] or low > outer[1]:
+    if outer is False:
         return "outside"
-    clear_of_inner = high < inner[0] or low > inner[1]
-    if clear_of_inner and outer[0] <= low and high <= outer[1]:
-        return "between"
-    return "on a bound"
+    return "between" if outer and inner is False else "on a bound"
 
 
 def _range(bounds: Bounds, unit: str) -> str:

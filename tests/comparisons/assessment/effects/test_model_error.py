@@ -122,10 +122,23 @@ class TestSmooth:
         strict = last.budget.tolerance_checks({"peak_pressure": 1e-3})
         assert validity_verdict(strict)[0] == "fails"
 
-    def test_the_exit_status_is_the_comparisons(self, outcomes):
-        """What both models lack is no difference of theirs."""
-        fails = outcomes[1].result | {"validity": {"verdict": "fails", "why": ""}}
-        assert replace(outcomes[1], result=fails).exit_status == ExitStatus.DONE
+    def test_the_exit_status_counts_both_tables(self, outcomes):
+        """The models agree; with this model error the half-plane holds, fails, or neither."""
+
+        def status(model_error, verdict="agree"):
+            budget, rows = outcomes[1].budget, outcomes[1].comparisons
+            errors = [replace(e, value=model_error, uncertainty=1e-3) for e in budget.model_errors]
+            return replace(
+                outcomes[1],
+                budget=replace(budget, model_errors=tuple(errors)),
+                comparisons=tuple(replace(row, verdict=row.tolerance and verdict) for row in rows),
+            ).exit_status
+
+        assert outcomes[1].exit_status == status(1e-3) == ExitStatus.DONE
+        assert status(0.02) == status(1e-3, "inconclusive") == ExitStatus.INCONCLUSIVE
+        for found in (status(-0.05), status(1e-3, "differ"), status(0.02, "differ")):
+            assert found == ExitStatus.OUTSIDE_TOLERANCE
+        assert status(-0.05, "inconclusive") == ExitStatus.OUTSIDE_TOLERANCE
 
     def test_models_and_comparison_are_those_without_effects(self, outcomes):
         plain = outcome_of(smooth(2.0e9, budget={"effects": False}))
