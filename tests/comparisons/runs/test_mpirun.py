@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from comparisons.cli import main
+from comparisons.common.errors import ExitStatus
 
 SCENE = """
 [roller]
@@ -78,9 +79,10 @@ def test_two_processes_report_what_one_reports(tmp_path, launch, capsys, monkeyp
     scene, outs = tmp_path / "small.toml", (tmp_path / "one", tmp_path / "two")
     scene.write_text(SCENE)
     end = launch(2, "-c", UNDRAWN, "run", scene, "--out", outs[1])
-    assert end.returncode == 0, end.stderr
+    # two levels state no uncertainty
+    assert end.returncode == ExitStatus.INCONCLUSIVE, end.stderr
     monkeypatch.setattr("comparisons.report.page.render", lambda outcome: "page")
-    assert main(["run", str(scene), "--out", str(outs[0])]) == 0
+    assert main(["run", str(scene), "--out", str(outs[0])]) == ExitStatus.INCONCLUSIVE
     assert table(end.stdout) == table(capsys.readouterr().out)
     assert files(outs[0]) == files(outs[1])
     assert {path.name for path in tmp_path.iterdir()} == {"small.toml", "one", "two"}
