@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from comparisons.assessment.convergence import IRREGULAR, LOWEST_ORDER, REGULAR, TWO_GRIDS
 from comparisons.assessment.effects.catalogue import EFFECTS
 from comparisons.assessment.effects.error_budget import SHARE_OF_TOLERANCE as SHARE_OF_EFFECTS
 from comparisons.assessment.effects.selection import SHARE_OF_TOLERANCE
-from comparisons.assessment.uncertainty import DOMAIN, LOWEST_ORDER, PRESSURE_PER_RESIDUAL
+from comparisons.assessment.uncertainty import DOMAIN, PRESSURE_PER_RESIDUAL
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.schema.finite_element import HELD_BLOCK
 
@@ -63,7 +64,10 @@ class TestVerdict:
         text = TEXT["verdict"]
         assert "times 2000" in text and PRESSURE_PER_RESIDUAL == 2000
         assert "2.4 times what half the block changes" in text and round(DOMAIN, 1) == 2.4
-        assert "between 1 and the formal one" in text and LOWEST_ORDER == 1
+        assert "between 1/2 and the formal one" in text and LOWEST_ORDER == 0.5
+        assert "times a factor of safety, 1.25" in text and REGULAR == 1.25
+        assert "else 3" in text and IRREGULAR == 3
+        assert "On two levels it is 3 times their difference" in text and TWO_GRIDS == 3
         assert "exceeds a tenth of a tolerance" in text and SHARE_OF_TOLERANCE == 0.1
         assert "less than a third of the tolerance" in text
         assert pytest.approx(1 / 3) == SHARE_OF_EFFECTS

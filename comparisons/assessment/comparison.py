@@ -4,13 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
     LENGTHS,
     Uncertainty,
     difference_of_figures,
     far_boundary,
-    grid_convergence,
-    largest_iteration,
+    iteration,
     length_resolution,
 )
 from comparisons.assessment.verdict import Comparison, judge
@@ -113,7 +113,7 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
         convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         scale = abs(value) or QUANTITIES[name].scale(problem.hertz)
         found[name] = Uncertainty(
-            iteration=largest_iteration(run.finest),
+            iteration=iteration(run.finest),
             discretisation=convergence.uncertainty / scale,
             domain=far_boundary(moved[name], history[0][name]) / scale,
             convergence=convergence,
@@ -136,7 +136,7 @@ def pair_history(
     for name in history[-1]:
         convergence = grid_convergence([h[name] for h in history], QUANTITIES[name].formal_order)
         found[name] = Uncertainty(
-            iteration=largest_iteration(half_plane.finest, finite_element.finest),
+            iteration=iteration(half_plane.finest, finite_element.finest),
             discretisation=convergence.uncertainty,
             domain=far_boundary(moved.get(name, 0.0)),
             convergence=convergence,

@@ -28,7 +28,8 @@ class Quantity:
     unit          of the figure in SI; "" for ratios
     scale         of the smooth contact: what a figure that vanishes is measured by
     formal_order  of convergence under refinement: 2 for the quadratic elements' smooth figures,
-                  1 where the square-root edge of a contact governs, or how well it is found
+                  1 where the square-root edge of a contact governs, or how well it is found, and of
+                  the place of a maximum: there the slope of the stress, of order 1, is zero
     of_pair       a norm of a difference, no figure of one model
     needs_stress  only with a [stress] table
     """
@@ -55,7 +56,7 @@ QUANTITIES: dict[str, Quantity] = {
     "pressure_l2": Quantity("pressures, relative L2 difference", "", _one, 1.0, of_pair=True),
     "tau1_max": Quantity("largest principal shear stress", "Pa", _pressure, 2.0, needs_stress=True),
     "tau1_max_depth": Quantity(
-        "depth of the largest principal shear", "m", _half_width, 2.0, needs_stress=True
+        "depth of the largest principal shear", "m", _half_width, 1.0, needs_stress=True
     ),
     "txz_max_abs": Quantity(
         "largest orthogonal shear stress", "Pa", _pressure, 2.0, needs_stress=True

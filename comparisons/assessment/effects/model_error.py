@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from comparisons.assessment.comparison import pair_history
+from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.effects.contributions import EffectContributions
 from comparisons.assessment.effects.quantities_of_interest import (
     QuantitiesOfInterest,
@@ -23,9 +24,8 @@ from comparisons.assessment.uncertainty import (
     LENGTHS,
     difference_of_figures,
     difference_of_norms,
-    effect_discretisation,
-    effect_resolution,
-    largest_iteration,
+    iteration,
+    relative_resolution,
 )
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.quantities import QUANTITIES
@@ -79,10 +79,11 @@ def model_errors(
     number = len(history) - 1
     levels = runs["half_plane"].levels[: len(history)]
     half_plane = [quantities_of(level, problem, friction) for level in levels]
-    iteration = largest_iteration(
+    unsolved = iteration(
         *(level for run in runs.values() for level in (run.finest, run.levels[number]))
     )
-    edge = effect_resolution(runs["finite_element"].levels[number])
+    reference = runs["finite_element"].levels[number]
+    edge = relative_resolution(reference, reference)
 
     def share(name: str, changes: list[QuantitiesOfInterest]) -> Estimate:
         if QUANTITIES[name].of_pair:
@@ -96,8 +97,8 @@ def model_errors(
         if not any(values):
             return Estimate(0.0, 0.0)
         resolution = edge if name in LENGTHS else 0.0
-        refined = effect_discretisation(values, QUANTITIES[name].formal_order, resolution)
-        return Estimate(values[-1], refined + iteration)
+        refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+        return Estimate(values[-1], refined.uncertainty + unsolved)
 
     not_contained = [parts.not_contained for parts in history]
     own = [one - other for one, other in zip(half_plane, whole, strict=True)]

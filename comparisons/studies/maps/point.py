@@ -15,12 +15,12 @@ from time import perf_counter
 import numpy as np
 
 from comparisons.assessment.comparison import figures, norms
+from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
     LENGTHS,
     far_boundary,
-    grid_convergence,
+    iteration,
     relative_resolution,
-    summed_iteration,
 )
 from comparisons.common.errors import one_line
 from comparisons.common.progress import Stages
@@ -189,7 +189,7 @@ def model_errors(
         resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
         convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         domain = far_boundary(moved[name], history[0][name])
-        uncertainty = convergence.uncertainty + domain + summed_iteration(*finest)
+        uncertainty = convergence.uncertainty + domain + iteration(*finest)
         known = float(uncertainty) if np.isfinite(uncertainty) else None
         found[name] = PointError(one.get(name), other.get(name), values[-1], known)
     return found

@@ -18,10 +18,10 @@ from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
+from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
     PRESSURE_PER_RESIDUAL,
     Uncertainty,
-    grid_convergence,
     length_resolution,
 )
 from comparisons.common.quantities import QUANTITIES

@@ -8,7 +8,7 @@ import pytest
 
 from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures
-from comparisons.assessment.uncertainty import grid_convergence
+from comparisons.assessment.convergence import grid_convergence
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS

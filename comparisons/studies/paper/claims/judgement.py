@@ -9,7 +9,8 @@ stand-in profile was made to show what the claim says.
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 
-from comparisons.assessment.uncertainty import far_boundary, grid_convergence, largest_iteration
+from comparisons.assessment.convergence import grid_convergence
+from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import is_within
 from comparisons.common.numbers import plain
 from comparisons.common.quantities import LABELS, MODELS
@@ -152,7 +153,7 @@ def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False
     if exact:
         return MeasuredNumber(value, 0.0, converged)
     uncertainty = grid_convergence(values, ORDER).uncertainty
-    uncertainty += largest_iteration(run.finest) * abs(value)
+    uncertainty += iteration(run.finest) * abs(value)
     uncertainty += abs(reading(replace(views[-1], every=2)) - value)
     if run.far_boundary_check is not None:
         check = LevelView(model, outcome.problem, run.far_boundary_check, outcome.window)

@@ -10,7 +10,7 @@ import pytest
 
 from analytic.exact.layers import layer_references
 from comparisons import cli
-from comparisons.assessment import uncertainty
+from comparisons.assessment import convergence
 from comparisons.common.errors import ExitStatus
 from comparisons.studies.verify import run
 from comparisons.studies.verify.coverage import LEAST_COVERAGE, Verification
@@ -120,7 +120,7 @@ class TestWhole:
         assert all("relative error" in c.find("system-out").text for c in suite[: len(found.pairs)])
 
     def test_a_stated_uncertainty_that_is_too_small_is_seen(self, monkeypatch, tmp_path):
-        monkeypatch.setattr(uncertainty, "FACTOR", 0.0)
+        monkeypatch.setattr(convergence, "REGULAR", 0.0)
         found = verify(tmp_path / "out", scope=half_plane_scope())
         assert not found.holds
         assert any("share covered: 0." in line for line in found.faults)
