@@ -100,7 +100,8 @@ class TestMeasured:
         assert plain.value == 1.01
         assert plain.uncertainty == pytest.approx(1.25 * 0.01)  # order 1: 1.25 times the last step
         fast = measured(self.outcome([1.05, 1.01, 1.0]), "m", lambda view: view.level.value)
-        assert fast.uncertainty == pytest.approx(0.02)  # half the step before: no order is trusted
+        # faster than order 1: no order is trusted, and the fit with order 1 scatters
+        assert fast.uncertainty == pytest.approx(0.02533, abs=1e-5)
         read = measured(self.outcome([1.04, 1.02, 1.01]), "m", reading)
         assert read.uncertainty == pytest.approx(plain.uncertainty + 0.01)
         bound = measured(self.outcome([1.04, 1.02, 1.01], check=1.05), "m", reading)

@@ -6,9 +6,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from comparisons.assessment.uncertainty import Convergence, Uncertainty
+from comparisons.assessment.convergence import Convergence
+from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.errors import ExitStatus
-from comparisons.studies.checks import CheckedCase, CheckedRow, junit_xml
+from comparisons.studies.checks import CheckedCase, CheckedRow, study_junit
 from comparisons.studies.verify.coverage import (
     Pair,
     Verification,
@@ -22,7 +23,7 @@ from comparisons.studies.verify.pages import coverage_line, verify_page
 
 
 def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
-    uncertainty = Uncertainty(0.0, stated, 0.0, Convergence(2.0, 2.0, 0.0, 1.0, "monotone"))
+    uncertainty = Uncertainty(0.0, stated, 0.0, Convergence(2.0, 2.0, 0.0, 1.0, 1.0, "monotone"))
     made = Pair(
         *("case <&>", "source", "Hertz", "half_plane", "contact_length"),
         levels=(1.9, 1.95, 2.0 * (1.0 + error)),
@@ -96,14 +97,14 @@ def test_all_must_hold(pairs, error):
     broken = whole(pairs, error)
     assert not broken.holds and len(broken.faults) == 1
     assert broken.exit_status == ExitStatus.OUTSIDE_TOLERANCE
-    [suite] = ElementTree.fromstring(junit_xml(broken).encode())
+    [suite] = ElementTree.fromstring(study_junit(broken).encode())
     assert suite.get("failures") == str(len(suite.findall("testcase/failure"))) == "1"
     assert "Does not hold" in verify_page(broken)
 
 
 def test_one_miss_among_many_is_reported_but_does_not_fail():
     missed = whole([*ENOUGH, pair(stated=0.0)])
-    [suite] = ElementTree.fromstring(junit_xml(missed).encode())
+    [suite] = ElementTree.fromstring(study_junit(missed).encode())
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
     assert "case &lt;&amp;&gt;" in verify_page(missed)
