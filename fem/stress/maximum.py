@@ -1,9 +1,11 @@
 """The largest value of a stress quantity in a body, and its place.
 
 Nodes alone miss the place of a flat maximum by half an element. Elements with a high node are
-sampled, the best of them finely. Away from the surface a cubic fitted to the stresses around the
-best sample gives the maximum. Hertz's largest shear stress at 10 to 80 edges a half-width: value
-within 1e-3, depth within 6e-3 (the best sample: 1.5e-2).
+sampled, the best of them finely. Away from the surface a polynomial fitted to the stresses around
+the best sample gives the maximum: of degree 5 to two rings of elements, next to the surface or
+where that does not fit of degree 3 to one ring, which amplifies the waves of the elements. On six
+Hertz contacts of quadratic elements, friction 0 to 0.3, 55 to 130 edges a half-width, the depth of
+tau1 errs by 5e-4 in root mean square with two rings, by 3e-3 with one; its value by 1.2e-5, 2.6e-5.
 """
 
 from collections.abc import Callable
@@ -23,9 +25,10 @@ UNSEEN = 0.25  # largest excess over an element's highest node, as a part of the
 COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
 BEST = 16  # elements sampled finely
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
-# the cubic: it uses those around all of them.
+# the polynomial: it uses those around all of them.
 ALIKE = 1e-8
-# Largest misfit of the cubic at its nodes, relative to the maximum: beyond it the sample is better.
+# Largest misfit of the polynomial at its nodes, relative to the maximum: beyond it the sample is
+# better.
 MISFIT = 0.01
 
 
@@ -66,13 +69,21 @@ def maximum(
     away = np.linalg.norm(place - place[element, point], axis=-1)
     size = np.ptp(place[element], axis=0).max()
     sharing = best[(high & (away < ALIKE * size)).any(axis=1)]
-    touching = np.isin(triangles, triangles[sharing]).any(axis=1)
-    patch = np.unique(triangles[touching])
-    if np.isin(nodal.nodes.point[patch], body.top.point).any():
-        return found
     nu = body.poissons_ratio[best[element]]
-    smooth = _smooth_maximum(points[patch], nodal.values[patch], nu, quantity, found)
-    return smooth if smooth and _inside(np.array([smooth.x, smooth.z]), window) else found
+    once = _ring(triangles, triangles[sharing])
+    for around, degree in ((_ring(triangles, once), 5), (once, 3)):
+        patch = np.unique(around)
+        if np.isin(nodal.nodes.point[patch], body.top.point).any():
+            continue
+        smooth = _smooth_maximum(points[patch], nodal.values[patch], degree, nu, quantity, found)
+        if smooth and _inside(np.array([smooth.x, smooth.z]), window):
+            return smooth
+    return found
+
+
+def _ring(triangles: np.ndarray, inner: np.ndarray) -> np.ndarray:
+    """Nodes (k, 6) of the triangles that touch the nodes of `inner`, these included."""
+    return triangles[np.isin(triangles, inner).any(axis=1)]
 
 
 def _lattice(count: int) -> np.ndarray:
@@ -87,9 +98,15 @@ def _inside(place: np.ndarray, window: Window | None) -> np.ndarray:
 
 
 def _smooth_maximum(
-    points: np.ndarray, stress: np.ndarray, nu: float, quantity: Quantity, start: Extremum
+    points: np.ndarray,
+    stress: np.ndarray,
+    degree: int,
+    nu: float,
+    quantity: Quantity,
+    start: Extremum,
 ) -> Extremum | None:
-    """Largest value of the cubics through `stress` (k, 3) at `points`; None if they do not fit."""
+    """Largest value of the polynomials through `stress` (k, 3) at `points`; None if they do not
+    fit."""
     from scipy.optimize import minimize
 
     def of(values: np.ndarray) -> np.ndarray:
@@ -98,7 +115,7 @@ def _smooth_maximum(
     origin = np.array([start.x, start.z])
     unit = np.abs(points - origin).max()
     offset = (points - origin) / unit
-    terms = _cubic(offset)
+    terms = _terms(offset, degree)
     if start.value == 0.0 or len(points) <= terms.shape[1]:
         return None
     fit, *_ = np.linalg.lstsq(terms, stress, rcond=None)
@@ -107,7 +124,7 @@ def _smooth_maximum(
         return None
 
     def loss(at: np.ndarray) -> float:
-        return -float(of(_cubic(at[None]) @ fit)[0]) / abs(start.value)
+        return -float(of(_terms(at[None], degree) @ fit)[0]) / abs(start.value)
 
     low, high = offset.min(axis=0), offset.max(axis=0)
     bounds = list(zip(low, high, strict=True))
@@ -119,7 +136,8 @@ def _smooth_maximum(
     return Extremum(-float(top.fun) * abs(start.value), float(place[0]), float(place[1]))
 
 
-def _cubic(at: np.ndarray) -> np.ndarray:
-    """Terms (k, 10) of a cubic at points (k, 2)."""
+def _terms(at: np.ndarray, degree: int) -> np.ndarray:
+    """Terms (k, n) of a polynomial at points (k, 2)."""
     x, z = at.T
-    return np.stack([x**i * z ** (d - i) for d in range(4) for i in range(d + 1)], axis=-1)
+    powers = [(i, d - i) for d in range(degree + 1) for i in range(d + 1)]
+    return np.stack([x**i * z**j for i, j in powers], axis=-1)
