@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from comparisons.common.numbers import Scale, percent, plain, scale_of, significant, with_unit
-from comparisons.common.quantities import LABELS
+from comparisons.common.quantities import LABELS, WHOLE
 from comparisons.models.level import Level
 from comparisons.report.figures import style
 from comparisons.report.figures.surfaces import draw_surfaces
@@ -66,7 +66,7 @@ def pressure_picture(outcome: Outcome) -> style.Picture:
         alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
         caption=(
             f"Contact pressure over Hertz's peak pressure p₀{middle} and the surfaces under load. "
-            f"Largest pressure: {peaks}. {_norm(outcome)}{_moved(outcome)}"
+            f"Largest pressure: {peaks}. {_norm(outcome)}"
             "Heights are stretched and known but for a constant; in contact both surfaces coincide."
         ),
     )
@@ -96,24 +96,24 @@ def close_up_picture(outcome: Outcome) -> style.Picture:
 
 
 def _norm(outcome: Outcome) -> str:
-    row = next((c for c in outcome.comparisons if c.quantity == "pressure_l2"), None)
-    if row is None or row.difference is None:
-        return ""
-    size = percent(row.difference, uncertainty=row.uncertainty)
-    return f"Half-plane and finite elements differ by {size} (relative L2 norm). "
-
-
-def _moved(outcome: Outcome) -> str:
-    """That the peaks of the whole model stand elsewhere."""
+    """How far the half-plane's pressures are from the scene's own finite elements, and from the
+    whole model where that is another."""
     if outcome.budget is None:
         return ""
     friction = outcome.deciding_friction
-    entries = outcome.result["model_error"]["pressure_l2"]
-    entry = next(each for each in entries if each["friction"] == friction)
-    size, said = percent(entry["value"], uncertainty=entry["uncertainty"]), moved_text(entry)
-    at = f" at friction {plain(friction)}" if len(entries) > 1 else ""
-    left = f", {said[0]} on average" if said else ""
-    return f"Half-plane and whole model{at} differ by {size}{left}. "
+    wanted = "pressure_l2", friction
+    rows = {(row.quantity, row.friction): row for row in outcome.comparisons}
+    own, error = rows[wanted], outcome.budget.of(*wanted)
+    sizes = [percent(own.difference, uncertainty=own.uncertainty)]
+    if WHOLE in shown_levels(outcome):
+        sizes.append(percent(error.value, uncertainty=error.uncertainty))
+    names = list(shown_levels(outcome))[1:]
+    said = " and ".join(
+        f"{size} from the {LABELS[name]}" for size, name in zip(sizes, names, strict=True)
+    )
+    left = "".join(f" ({text} on average)" for text in moved_text(outcome, friction))
+    at = f" at friction {plain(friction)}" if len(outcome.problem.scene.friction) > 1 else ""
+    return f"The half-plane's pressures differ by {said}{left}{at} (relative L2 norms). "
 
 
 def _drawn(

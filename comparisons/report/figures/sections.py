@@ -61,7 +61,8 @@ def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
         panels[0].set_title(f"friction {plain(friction)}")
     for panels in columns:
         panels[-1].set_xlabel("z/a")
-    lines, place = drawn.axes[0].get_legend_handles_labels(), (0.985, 1.0)
+    every = [axes.get_legend_handles_labels() for axes in drawn.axes]
+    lines, place = max(every, key=lambda known: len(known[1])), (0.985, 1.0)
     room = {"ncols": len(lines[0]), "borderaxespad": 0.1, "columnspacing": 1.2}
     drawn.legend(*lines, loc="upper right", bbox_to_anchor=place, **room)
     at = decimal(outcome.window.x[column] / hertz.half_width)

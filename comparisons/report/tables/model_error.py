@@ -17,7 +17,8 @@ SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not list
 class ModelErrorRow:
     """The half-plane's model error in a quantity, at one or more friction coefficients.
 
-    contributions  what makes it up, the largest first, each with its sign
+    contributions  what makes it up, the largest first, each with its sign; of pressures before
+                   these what is left with peaks moved
     """
 
     quantity: str
@@ -33,13 +34,13 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
     """In the order of quantities, then of friction coefficients; only `judged` ones, if asked."""
     tolerance = outcome.problem.scene.tolerance
     rows = []
-    moved = {e["friction"]: e for e in outcome.result["model_error"].get("pressure_l2", ())}
     for name in QUANTITIES:
         errors = [e for e in outcome.budget.model_errors if e.quantity == name]
         if judged and name not in tolerance:
             continue
         for same in grouped(errors, _shown):
             error, uncertainty, contributions = _shown(same[0])
+            without = moved_text(outcome, same[0].friction) if name == "pressure_l2" else ()
             rows.append(
                 ModelErrorRow(
                     quantity=name,
@@ -48,8 +49,7 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
                     error=error,
                     uncertainty=uncertainty,
                     tolerance=given_percent(tolerance[name]) if name in tolerance else "",
-                    contributions=contributions
-                    + (moved_text(moved[same[0].friction]) if name == "pressure_l2" else ()),
+                    contributions=(*without, *contributions),
                 )
             )
     return rows
@@ -77,11 +77,13 @@ def contributions_in_words(error: ModelError) -> tuple[str, ...]:
     )
 
 
-def moved_text(entry: dict) -> tuple[str, ...]:
-    """What is left of the pressures' difference once peaks are moved; nothing where that is most.
-
-    entry  of the pressures in result.json
-    """
+def moved_text(outcome: Outcome, friction: float) -> tuple[str, ...]:
+    """What is left of the pressures' difference once peaks are moved; nothing where that is most of
+    it, or no asperity makes peaks."""
+    entries = outcome.result["model_error"].get("pressure_l2", ())
+    entry = next((each for each in entries if each["friction"] == friction), None)
+    if entry is None or outcome.problem.scene.profile is None:
+        return ()
     if entry["value_after_shift"] > WORTH_A_MOVE * entry["value"]:
         return ()
     mean, left = with_unit(entry["mean_shift"], "m", 2), percent(entry["value_after_shift"])

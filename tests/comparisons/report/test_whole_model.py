@@ -8,16 +8,17 @@ import numpy as np
 import pytest
 from matplotlib import pyplot
 
+from comparisons.common.numbers import percent
 from comparisons.common.progress import no_progress
 from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.fields import field_pictures
 from comparisons.report.figures.pressures import pressure_picture
 from comparisons.report.figures.sections import section_pictures
-from comparisons.report.figures.style import collected_figures
+from comparisons.report.figures.style import collected_figures, drawing
 from comparisons.report.page import render
 from comparisons.report.plots import Plots
 from comparisons.report.saved import read_outcome
-from comparisons.report.tables.model_error import moved_text
+from comparisons.report.tables.model_error import model_error_rows, moved_text
 from comparisons.results.outcome import Outcome
 from comparisons.results.result_json import model_error_content
 from comparisons.runs.write import write_files
@@ -39,7 +40,12 @@ def outcome(wavy_outcome: Outcome) -> Outcome:
         solution=replace(level.solution, pressure=moved),
         stresses=(replace(stress, field=field),),
     )
-    budget = replace(wavy_outcome.budget, wholes={0.0: own.finest, 0.1: whole})
+    errors = (
+        replace(e, value=0.5) if (e.quantity, e.friction) == ("pressure_l2", 0.1) else e
+        for e in wavy_outcome.budget.model_errors
+    )
+    wholes = {0.0: own.finest, 0.1: whole}
+    budget = replace(wavy_outcome.budget, model_errors=tuple(errors), wholes=wholes)
     content = model_error_content(wavy_outcome.problem, wavy_outcome.runs, budget)
     result = wavy_outcome.result | {"model_error": content}
     return replace(wavy_outcome, budget=budget, result=result)
@@ -102,7 +108,8 @@ def test_the_pages_values_are_those_of_the_pictures(outcome: Outcome):
     assert np.abs(packed * sliding["scale"][1]).max() == pytest.approx(wanted, rel=0.02)
 
 
-def test_how_far_its_peaks_stand_aside_is_said(outcome: Outcome):
+def test_how_far_its_peaks_stand_aside_is_said(outcome: Outcome, monkeypatch):
+    monkeypatch.setattr(Outcome, "deciding_friction", 0.1)
     plain, sliding = outcome.result["model_error"]["pressure_l2"]
     pitch = outcome.budget.wholes[0.1].grid.pitch
     assert sliding["shift"] == pytest.approx(MOVED * pitch, rel=0.05)
@@ -110,8 +117,13 @@ def test_how_far_its_peaks_stand_aside_is_said(outcome: Outcome):
     # the body one per cent stiffer, and pressures five per cent higher
     assert 0.03 < sliding["value_after_shift"] < 0.06
     assert abs(plain["shift"]) < 0.01 * pitch
-    assert moved_text({**sliding, "value": 0.5})[0].endswith("% with peaks moved by 4.7 µm")
-    assert moved_text({**sliding, "value": sliding["value_after_shift"]}) == ()
+    [said] = moved_text(outcome, 0.1)
+    assert said == f"{percent(sliding['value_after_shift'])} with peaks moved by 4.7 µm"
+    assert moved_text(outcome, 0.0) == ()  # there it explains nothing
+    _, row = (row for row in model_error_rows(outcome) if row.quantity == "pressure_l2")
+    assert (row.friction, row.error) == ("0.1", "50 %") and row.contributions[0] == said
+    with drawing():
+        assert said in pressure_picture(outcome).caption
 
 
 def test_it_is_saved_and_the_page_drawn_again_is_the_same(outcome: Outcome, tmp_path):
