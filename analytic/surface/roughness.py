@@ -91,6 +91,16 @@ def turning_points(curve: PPoly) -> np.ndarray:
     return np.sort(np.append(curve.x, crossings(curve.derivative(1))))
 
 
+def summits(profile: Profile) -> tuple[float, float]:
+    """Standard deviation [m] of the heights of the spline's summits (its maxima, ends aside), and
+    the mean of their curvatures [1/m], positive; both 0 without any."""
+    curve = profile.spline()
+    place = np.unique(crossings(curve.derivative(1)))
+    bend = curve(place, 2)
+    place, bend = place[bend < 0.0], bend[bend < 0.0]
+    return (float(np.std(curve(place))), float(-bend.mean())) if len(place) else (0.0, 0.0)
+
+
 def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:
     """The part of a piecewise cubic between two places [m]."""
     inside = curve.x[(curve.x > start) & (curve.x < stop)]

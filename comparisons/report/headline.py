@@ -10,6 +10,7 @@ from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.report.tables.text import error_text
+from comparisons.report.tables.yielding import flow_sentence
 from comparisons.results.outcome import Outcome
 
 Kind = Literal["holds", "fails", "inconclusive", "not compared", "not converged"]
@@ -24,7 +25,21 @@ class Headline:
 
 
 def headline(outcome: Outcome) -> Headline:
-    """What the reader needs first."""
+    """What the reader needs first: the verdict, and what there is to say of flow."""
+    said, flow = _verdict(outcome), flow_sentence(outcome)
+    if not outcome.converged:
+        return said
+    if outcome.plan.compares and outcome.flow.beyond_doubt:
+        rest = f"{said.sentence[0].lower()}{said.sentence[1:]}"
+        return Headline("fails", f"{_sentence(flow)} Were it elastic: {rest}")
+    return Headline(said.kind, f"{said.sentence} {_sentence(flow)}")
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _verdict(outcome: Outcome) -> Headline:
     if not outcome.converged:
         return Headline(
             "not converged",

@@ -29,6 +29,7 @@ from comparisons.report.tables.verification import (
     record_rows,
     refinement_text,
 )
+from comparisons.report.tables.yielding import flow_table
 from comparisons.results.outcome import Outcome
 
 # Each gives one picture, a list, or None where it does not apply.
@@ -69,6 +70,7 @@ def render(outcome: Outcome) -> str:
         coupling=coupling_table(outcome),
         model_errors=[] if outcome.budget is None else model_error_rows(outcome),
         effects=effects_table(outcome),
+        flow=flow_table(outcome),
         checks=check_table(outcome),
         operator=operator_table(outcome),
         operator_note=operator_note(outcome),

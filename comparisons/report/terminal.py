@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.assessment.yielding import FlowAssessment
 from comparisons.common.errors import one_line
-from comparisons.common.numbers import with_unit
+from comparisons.common.numbers import significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
@@ -146,6 +147,16 @@ def run_in_text(outcome: Outcome) -> str:
     return text
 
 
+def yield_text(flow: FlowAssessment) -> str:
+    """Shakedown and, of a rough body, its plasticity, at the largest shear."""
+    worst = flow.worst
+    pressure = significant(2.0 * worst.peak / flow.yield_stress, 3)
+    text = f"peak pressure {pressure} k, elastic shakedown up to {worst.shakedown:.3g} k"
+    indices = {"summits": flow.summit_index, "slope": flow.slope_index}
+    known = [f"{significant(v, 2)} ({name})" for name, v in indices.items() if v is not None]
+    return f"{text}; plasticity index {', '.join(known)}" if known else text
+
+
 def _facts(outcome: Outcome) -> "Table":
     from rich.table import Table
     from rich.text import Text
@@ -160,6 +171,8 @@ def _facts(outcome: Outcome) -> "Table":
         rows.append(("not modelled", not_modelled_line(outcome)))
     if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
+    if (flow := outcome.flow).ratio is not None:
+        rows.append(("yield", yield_text(flow)))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}
     times = ", ".join(f"{name} {with_unit(time, 's', 3)}" for name, time in seconds.items())
     if outcome.budget is not None and outcome.budget.seconds:

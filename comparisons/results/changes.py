@@ -178,6 +178,8 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return Stated(share * abs(value), "itself", abs(value) or 1.0)
         case ("error_budget", "quantities", _, int(_), *_):
             return Stated(abs(value), "itself", 1.0)
+        case ("yield", "by_friction", int(_), str(part)) if part != "friction":
+            return _largest(recorded, 1.0 if part == "share_at_hardness" else abs(value) or 1.0)
         case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):

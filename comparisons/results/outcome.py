@@ -1,12 +1,14 @@
 """What a finished run holds: everything that its files, table and report are made of."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
+from comparisons.assessment.yielding import FlowAssessment, flow_assessment
 from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import WHOLE
 from comparisons.models.level import Level, ModelRun
@@ -43,6 +45,11 @@ class Outcome:
     couplings: tuple[Coupling, ...] = ()
     budget: ErrorBudget | None = None
     pairs: tuple[PairHistory, ...] = ()
+
+    @cached_property
+    def flow(self) -> FlowAssessment:
+        """Whether the body would flow."""
+        return flow_assessment(self.problem, self.runs)
 
     @property
     def converged(self) -> bool:

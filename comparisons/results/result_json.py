@@ -10,6 +10,7 @@ from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.sideways import sideways_shift
 from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.assessment.verdict import Comparison, validity_verdict
+from comparisons.assessment.yielding import flow_assessment
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.plan import Plan, no_coupling
@@ -36,7 +37,9 @@ def result_of(
     """
     hertz = problem.hertz
     tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
+    flow = flow_assessment(problem, runs)
     verdict, why = validity_verdict(tolerance_checks)
+    verdict, why = (verdict, why) if budget is None else flow.judged(verdict, why)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
         figures = asdict(row)
@@ -61,6 +64,7 @@ def result_of(
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
         "model_error": {} if budget is None else model_error_content(problem, runs, budget),
         "error_budget": budget and error_budget_content(problem, runs, comparisons, budget),
+        "yield": flow.as_dict(),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "refinement": refinement,
         "skipped": [asdict(skipped) for skipped in plan.skipped],

@@ -114,7 +114,7 @@ EFFECTS: dict[str, Effect] = {
         "flow in place of the cap on the pressure",
         lambda scene: scene.finite_element.plastic,
         lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
-        lambda scene, whole: replace(_with(scene, plastic=True), yielding=whole.yielding),
+        lambda scene, whole: _with(scene, plastic=True),
     ),
 }
 
@@ -148,7 +148,7 @@ def plain(scene: ResolvedScene) -> ResolvedScene:
         deformation="linear",
         plastic=False,
     )
-    bare = dict.fromkeys(("thickness", "width", "base", "coating", "yielding"))
+    bare = dict.fromkeys(("thickness", "width", "base", "coating"))
     return replace(scene, **bare, finite_element=settings)
 
 

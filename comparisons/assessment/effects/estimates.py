@@ -234,11 +234,14 @@ def _layered_beta(problem: Problem) -> float:
 # the pressure, hardnesses from 2.4 Y to 3 Y fit what flow does, none of them everywhere
 # (`comparisons.benchmarks.hardness_cap`).
 FIRST_FLOW, CAP = 0.6, 0.1
+TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
 
 
 def _plastic_flow(problem: Problem, peak: float) -> Sizes:
     scene = problem.scene
-    if scene.yielding is not None or scene.hardness is None:
+    hardness = scene.hardness or (scene.yielding and TABOR * scene.yielding.stress)
+    if scene.finite_element.plastic or not hardness:
         return {}  # the scene's own finite elements flow, or nothing does
-    beyond = (peak / scene.hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)
-    return _equal(CAP * min(1.0, beyond)) if beyond > 0.0 else {}
+    beyond = (peak / hardness - FIRST_FLOW) / (1.0 - FIRST_FLOW)
+    # without a cap the peak itself is as much too high
+    return _equal(CAP * min(1.0, beyond) + max(0.0, peak / hardness - 1.0)) if beyond > 0.0 else {}

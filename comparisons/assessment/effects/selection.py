@@ -93,7 +93,9 @@ def why_not(name: str, problem: Problem) -> str | None:
     """Why an effect cannot be computed in a scene, or None."""
     scene = problem.scene
     if name == "plastic_flow":
-        return None if scene.yielding is not None else "the body has no yield stress"
+        if scene.yielding is None:
+            return "the body has no yield stress"
+        return "the scene says finite_element.plastic = false"
     if name != "finite_strain":
         return None
     reasons = {

@@ -94,8 +94,6 @@ class FiniteElementSection(SceneSection):
             yield "geometry", 'is "flat" at finite deformation with a profile; allowed is "rough"'
         if finite and slides and not coupled:
             yield "coupled", "is false at finite deformation with friction; allowed is true"
-        if body.yield_stress is not None and not self.plastic:
-            yield "plastic", "is false, but the body has a yield stress; allowed is true"
         if self.plastic and load.kind == "approach":
             yield "plastic", "is true with load.approach; allowed with per_length"
         if self.plastic and slides and not coupled:

@@ -8,7 +8,7 @@ from scenes import MEASURED, PROFILES
 
 from analytic.profile import Profile
 from analytic.surface.readers.columns import read_profile
-from analytic.surface.roughness import roughness, shortest_wavelength
+from analytic.surface.roughness import roughness, shortest_wavelength, summits
 from analytic.surface.synthetic import self_affine, sinusoid
 
 UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
@@ -213,3 +213,13 @@ def test_measured_profiles_have_their_certified_figures(name):
     assert slope <= found.rms_slope <= 1.06 * slope
     spacing = profile.spacing
     assert 2.0 * spacing * 0.9 <= shortest_wavelength(profile) <= 20.0 * spacing
+
+
+def test_summits_of_two_waves():
+    """cos x + cos(x/2)/10: summits alternate between 1.1 and 0.9, near enough to their places."""
+    x = np.linspace(-2.0 * np.pi, 14.0 * np.pi, 6401)
+    profile = Profile(x, np.cos(x) + 0.1 * np.cos(0.5 * x))
+    spread, curvature = summits(profile)
+    assert spread == pytest.approx(0.1, rel=0.02)
+    assert curvature == pytest.approx(1.0, rel=1e-2)
+    assert summits(Profile(x, 0.1 * x)) == (0.0, 0.0)

@@ -15,8 +15,8 @@ from comparisons.report.page import render
 from comparisons.results.outcome import Outcome
 
 ROOT = "{http://www.w3.org/2000/svg}"
-SECTIONS = ["problem", "comparison", "model-error", "contact", "stresses", "convergence", "mesh"]
-SECTIONS += ["cost", "checks", "skipped", "record"]
+SECTIONS = ["problem", "comparison", "model-error", "contact", "yield", "stresses", "convergence"]
+SECTIONS += ["mesh", "cost", "checks", "skipped", "record"]
 LINK = "{http://www.w3.org/1999/xlink}href"
 
 

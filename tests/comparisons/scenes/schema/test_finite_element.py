@@ -124,7 +124,6 @@ def test_coupling_is_that_of_the_load_unless_it_is_said(load, own):
         ),
         (RIGID, {"deformation": "finite"}, {}, "coupled: is false at finite deformation"),
         (ELASTIC, {"geometry": "rough"}, {}, 'geometry: is "rough" for a smooth body'),
-        (ELASTIC, {}, {"body": {"yield_stress": 1e9}}, "plastic: is false, but the body has a"),
         (
             ELASTIC,
             {"plastic": True, "far_field": "half-plane"},
