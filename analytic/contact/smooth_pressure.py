@@ -63,15 +63,19 @@ class Patch:
         return float(value[best]), float(x[best])
 
 
-def smooth_pressure(hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> tuple[Patch, ...]:
-    """The patches of contact from left to right, with the curve of pressure on each."""
+def smooth_pressure(
+    hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray, fewest: int = 1
+) -> tuple[Patch, ...]:
+    """The patches of contact of at least `fewest` touching nodes from left to right, with the curve
+    of pressure on each."""
     first, after = runs_of(pressure > 0.0)
     last = after - 1
     nodal = nodal_values(hats, pressure)
     whole = np.concatenate([[0.0], pressure, [0.0]])
     bound = np.concatenate([[-1], last, first[1:], [len(pressure)]])
     patches = []
-    for k, (i, j) in enumerate(zip(first, last, strict=True)):
+    for k in np.flatnonzero(after - first >= fewest):
+        i, j = first[k], last[k]
         before, beyond = bound[k], bound[len(first) + 1 + k]
         ends = _end(hats, gap, i, -1, i - before - 1), _end(hats, gap, j, 1, beyond - j - 1)
         patches.append(_patch(hats, whole, nodal, int(i), int(j), ends))
@@ -134,6 +138,20 @@ def _mean_power(local: np.ndarray, nodes: np.ndarray, end: float, power: float) 
     return 2.0 * total / (before + after)
 
 
+def curve_between(
+    ends: Interval, places: np.ndarray, values: np.ndarray
+) -> Callable[[np.ndarray], np.ndarray]:
+    """p [Pa] at places [m] on a patch with these ends [m], through `values` (k,) at `places` (k,)
+    inside; zero beyond the ends."""
+    shape = CubicSpline(places, values / np.sqrt((places - ends[0]) * (ends[1] - places)))
+
+    def curve(at: np.ndarray) -> np.ndarray:
+        inside = np.maximum((at - ends[0]) * (ends[1] - at), 0.0)
+        return np.sqrt(inside) * shape(np.clip(at, places[0], places[-1]))
+
+    return curve
+
+
 def _patch(
     hats: np.ndarray, whole: np.ndarray, nodal: np.ndarray, first: int, last: int, ends: Interval
 ) -> Patch:
@@ -147,13 +165,7 @@ def _patch(
 
     curve = piecewise
     if smooth:
-        root = np.sqrt((places - ends[0]) * (ends[1] - places))
-        shape = CubicSpline(places, nodal[held] / root)
-
-        def curve(at: np.ndarray) -> np.ndarray:
-            inside = np.maximum((at - ends[0]) * (ends[1] - at), 0.0)
-            return np.sqrt(inside) * shape(np.clip(at, places[0], places[-1]))
-
+        curve = curve_between(ends, places, nodal[held])
     low, high = hats[first], hats[last + 2]
     breaks = np.unique(np.clip([*hats[first : last + 3], *ends], low, high))
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0])

@@ -42,6 +42,10 @@ class FrictionStress:
         """sx, sz, txz under p and sx under q [Pa]."""
         return self.normal.sx, self.normal.sz, self.normal.txz, self.traction_sx
 
+    def plus(self, parts: np.ndarray) -> "FrictionStress":
+        """With those of another load, given as to `of`."""
+        return FrictionStress.of(np.array(self.parts) + parts)
+
     @property
     def traction(self) -> StressState:
         """Under q = p in +x alone."""

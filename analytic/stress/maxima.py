@@ -41,8 +41,11 @@ def stress_maxima(
     *,
     traction: np.ndarray | None = None,
     periodic: bool = False,
+    beside: Callable[[np.ndarray, np.ndarray], StressState] | None = None,
 ) -> StressMaxima:
     """The three maxima [Pa] inside the field's window, under its loads, given as to `stress_at`.
+
+    `beside` gives further stresses [Pa] at x, z [m], which the field has already.
 
     The field's highest local maxima, up to STARTS of them, are each followed off the grid by
     `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
@@ -67,6 +70,7 @@ def stress_maxima(
         x, z = place[..., 0], place[..., 1]
         loads = {"traction": traction, "periodic": periodic}
         stress = stress_at(x_nodes, pressure, friction, x, z, element, **loads)
+        stress = stress if beside is None else stress.plus(1.0, beside(x, z))
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):
             mine = owner == index

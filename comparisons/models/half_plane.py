@@ -11,7 +11,7 @@ from analytic.stress.maxima import stress_maxima
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult
 from comparisons.models.nearest_operator import solve_on
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, ends_of
 from comparisons.models.window import Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes.
@@ -81,9 +81,15 @@ def _stresses(
         )
         for points in (window, search_window(problem, window))
     )
+    ends = ends_of(problem, level.grid, level.solution)
+    shown, searched = (
+        replace(f, stress=f.stress.plus(ends.parts(f.x, f.z[:, None]))) for f in (shown, searched)
+    )
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
-        found = stress_maxima(x, pressure, friction, searched.at(friction), nu)
+        found = stress_maxima(
+            x, pressure, friction, searched.at(friction), nu, beside=ends.at(friction)
+        )
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
         results.append(StressResult(friction, extremes, shown.at(friction).stress))
     return tuple(results)

@@ -10,8 +10,10 @@ from functools import cached_property
 
 import numpy as np
 
+from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
+from analytic.contact.problem import ContactSolution
 from analytic.exact.hertz import HertzContact, hertz_from_load, hertz_from_peak_pressure
 from analytic.grid import HatGrid, roller_gap
 from analytic.material import combined_modulus, dundurs_constants
@@ -118,6 +120,15 @@ def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
     if problem.scene.profile is None:
         return np.zeros(grid.count)
     return grid.hat_integrals(problem.scene.profile.spline(), problem.knots) / grid.weights
+
+
+def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndStress:
+    """What the hats of a solution leave out of the stresses next to the ends of contact: both
+    models' own, for both have hats. Nothing where the hardness holds a pressure."""
+    pressure, hardness = solution.pressure, problem.constraints().hardness
+    if np.any(pressure >= hardness):
+        return EndStress(grid.x, pressure, ())
+    return end_stress(grid.x, pressure, solution.gap)
 
 
 def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:

@@ -1,5 +1,6 @@
 """Stresses of a solved body at its nodes and at any point."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +14,25 @@ from fem.stress.kinks import Kinks
 from fem.stress.recovery import MaterialStress, StressNodes, recovered_stress, stress_nodes
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
+Beside = Callable[[np.ndarray, np.ndarray], StressState]
+
+
+@dataclass(frozen=True)
+class FurtherStress:
+    """Stresses `of` x and depth [m] [Pa], along and across the surface under a `load`, which the
+    body's displacement does not have."""
+
+    load: SurfaceLoad
+    of: Beside
+
+    def at(self, place: np.ndarray) -> np.ndarray:
+        """sx, sz, txz (…, 3) [Pa] at places (…, 2) [m]."""
+        flat = place.reshape(-1, 2)
+        x = flat[:, 0]
+        own = self.of(x, np.maximum(flat[:, 1] - self.load.height(x), 0.0))
+        found = from_surface(self.load.tangent(x), own.sx, own.sz, -own.txz)
+        return found.reshape(*place.shape[:-1], 3)
+
 
 @dataclass(frozen=True)
 class NodalStress:
@@ -21,6 +41,7 @@ class NodalStress:
     stress: MaterialStress  # (k,) at the nodes [Pa], with Poisson's ratio there
     nodes: StressNodes  # their mesh points, and the nodes of each triangle
     kinks: Kinks | None = None  # of the pressure; None: stresses are quadratic in every element
+    further: FurtherStress | None = None  # that the nodes have already
 
     @cached_property
     def values(self) -> np.ndarray:
@@ -35,13 +56,15 @@ def nodal_stress(
     pressure: np.ndarray,
     friction: float = 0.0,
     direction: Direction = straight_down,
+    beside: Beside | None = None,
 ) -> NodalStress:
     """Stresses under the displacement (n, 2) [m] due to a pressure and its sliding traction.
 
     `pressure` (count,) [Pa], `hats`, `friction` and `direction` as in `fem.compliance.operator`.
     They give the stresses across the surface: on a flat one sz = -p and txz = -friction p exactly.
     The stress along the surface and all stresses below it are recovered from the displacement
-    (`fem.stress.recovery`).
+    (`fem.stress.recovery`). `beside` gives what the hats leave out of the stresses [Pa] of the
+    pressure that they stand for, at x [m] and depths [m] below the surface.
     """
     nodes = stress_nodes(body)
     load = SurfaceLoad(body, hats, pressure, friction, direction)
@@ -50,7 +73,10 @@ def nodal_stress(
     t = load.tangent(x)
     s_tt, _, _ = to_surface(t, values[top])
     values[top] = from_surface(t, s_tt, *load.across(x))
-    return _nodal(body, StressState(*values.T), load.kinks)
+    further = None if beside is None else FurtherStress(load, beside)
+    if further is not None:
+        values += further.at(body.points[nodes.point])
+    return _nodal(body, StressState(*values.T), load.kinks, further)
 
 
 def at_mesh_points(body: ElasticBody, stress: StressState) -> NodalStress:
@@ -76,7 +102,7 @@ def within(
     """sx, sz, txz (r, q, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
 
     Quadratic between the nodes, plus the difference between the stress of the kinks near the
-    element and its quadratic interpolation.
+    element, and of what is further, and its quadratic interpolation.
     """
     share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
     held, which = np.unique(element, return_inverse=True)
@@ -91,14 +117,23 @@ def within(
     weights = nodal.kinks.weights(centre, radius, seen)
     every = np.arange(len(held))
     value = value - nodal.kinks.stress(weights, every, body.points, triangles)
+    if nodal.further is not None:
+        value -= nodal.further.at(body.points[triangles])
     place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
     number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
-    return share @ value[which] + nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+    found = share @ value[which]
+    found += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
+    return found if nodal.further is None else found + nodal.further.at(place)
 
 
-def _nodal(body: ElasticBody, stress: StressState, kinks: Kinks | None = None) -> NodalStress:
+def _nodal(
+    body: ElasticBody,
+    stress: StressState,
+    kinks: Kinks | None = None,
+    further: FurtherStress | None = None,
+) -> NodalStress:
     """Stresses with Poisson's ratio of the material at each node."""
     nodes = stress_nodes(body)
     nu = np.empty(len(nodes.point))
     nu[nodes.triangles] = body.poissons_ratio[:, None]
-    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes, kinks)
+    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes, kinks, further)

@@ -42,6 +42,10 @@ class SurfaceLoad:
         rise = self._surface(x, 1)
         return np.column_stack([np.ones_like(rise), rise]) / np.hypot(1.0, rise)[:, None]
 
+    def height(self, x: np.ndarray) -> np.ndarray:
+        """z (k,) [m] of the surface at x (k,) [m]."""
+        return self._surface(x)
+
     def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
         t = self.tangent(x)

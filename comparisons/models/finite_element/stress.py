@@ -12,7 +12,7 @@ from analytic.stress_state import Extremum, StressState
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import MeshField, StressResult
-from comparisons.models.problem import Problem, mean_height
+from comparisons.models.problem import Problem, ends_of, mean_height
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
@@ -55,11 +55,14 @@ def pressed_linearly(
     displaced = settings.gap == "displaced"
     direction = roller_normal(problem) if displaced else straight_down
     pressure, x = solution.pressure, grid.x
+    ends = ends_of(problem, grid, solution)
 
     def stress(friction: float) -> NodalStress:
         moved = rough.displacement(pressure, friction)
         return from_first(
-            lambda: nodal_stress(rough.body, moved, rough.hats, pressure, friction, direction)
+            lambda: nodal_stress(
+                rough.body, moved, rough.hats, pressure, friction, direction, ends.at(friction)
+            )
         )
 
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
