@@ -93,11 +93,12 @@ class Outcome:
 
     @property
     def exit_status(self) -> ExitStatus:
-        """3: a solver did not converge; 1: a judged figure differs, or the half-plane fails in it;
-        4: none does, but one is inconclusive; else 0."""
+        """3: a solver did not converge; 1: a judged figure differs, the half-plane fails in it, or
+        the body flows beyond doubt; 4: none does, but one is inconclusive; else 0."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
         verdicts = {row.verdict for row in (*self.comparisons, *self.tolerance_checks)}
-        if verdicts & {"differ", "fails"}:
+        flows = self.budget is not None and self.flow.beyond_doubt
+        if flows or verdicts & {"differ", "fails"}:
             return ExitStatus.OUTSIDE_TOLERANCE
         return ExitStatus.INCONCLUSIVE if "inconclusive" in verdicts else ExitStatus.DONE

@@ -7,6 +7,7 @@ import pytest
 from scenes import STEEL, resolved
 
 from analytic.material import Material
+from comparisons.common.errors import ExitStatus
 from comparisons.report.headline import headline
 from comparisons.report.tables.yielding import flow_sentence, flow_table
 from comparisons.runs.run import run
@@ -116,6 +117,7 @@ def test_the_verdict_fails_where_nothing_stands_for_flow(smooth_outcome, finish,
     validity = weak.result["validity"]
     assert validity["verdict"] == headline(weak).kind == "fails"
     assert validity["why"].startswith("the elastic half-plane does not apply: its largest shear")
+    assert weak.exit_status == ExitStatus.OUTSIDE_TOLERANCE
     strong = finish({**smooth_tables, "body": {**STEEL, "yield_stress": 5e9}})
     assert strong.result["validity"]["verdict"] != "fails"
 
