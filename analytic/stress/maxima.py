@@ -1,6 +1,6 @@
 """Largest stresses of a field, and where they stand between the points of its grid."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
 
+NEAR = 0.5  # of the largest value: cells whose own are below it are not followed off the grid
 STARTS = 4  # local maxima of the grid that are followed
 # The search around a point of the grid: nine points, half a cell apart at first; the parabola
 # through them gives the next centre. The spacing shrinks when that lies among them or nothing
@@ -24,11 +25,15 @@ _MOST_ROUNDS = 30  # 6 where no ridge is walked along, up to 11 where one is
 
 @dataclass(frozen=True)
 class StressMaxima:
-    """Largest principal shear, largest amount of the orthogonal shear, largest von Mises."""
+    """Largest principal shear, largest amount of the orthogonal shear, largest von Mises.
+
+    cells  by the names of the first two, in each cell of x: value, x and z (3, k + 1)
+    """
 
     tau1: Extremum
     txz_abs: Extremum
     von_mises: Extremum
+    cells: dict[str, np.ndarray]
 
 
 def stress_maxima(
@@ -42,10 +47,14 @@ def stress_maxima(
     traction: np.ndarray | None = None,
     periodic: bool = False,
     beside: Callable[[np.ndarray, np.ndarray], StressState] | None = None,
+    cells: Sequence[float] = (),
 ) -> StressMaxima:
     """The three maxima [Pa] inside the field's window, under its loads, given as to `stress_at`.
 
     `beside` gives further stresses [Pa] at x, z [m], which the field has already.
+    `cells` (k,) [m] are where one cell of x ends and the next begins, ascending. Where the highest
+    point of one is below NEAR of the highest of all, that point is taken; a cell without a point
+    has the value 0 and no place.
 
     The field's highest local maxima, up to STARTS of them, are each followed off the grid by
     `stress_at`, no further than the window, and the highest wins: the place is good to 1e-5 of a
@@ -57,12 +66,22 @@ def stress_maxima(
         lambda stress: np.abs(stress.txz),
         lambda stress: stress.von_mises(poissons_ratio),
     )
-    rows, columns, owner = [], [], []
+    rows, columns, owner = [], [], []  # an owner is a quantity in a cell
+    cell, count = np.searchsorted(cells, field.x), len(cells) + 1
+    found = np.full((len(quantities), 3, count), np.nan)
+    found[:, 0] = 0.0
     for index, quantity in enumerate(quantities):
-        row, column = _local_maxima(quantity(field.stress))
+        values = quantity(field.stress)
+        row, column = _local_maxima(values)
+        for k in np.unique(cell) if count > 1 else ():
+            mine = np.where(cell == k, values, -np.inf)
+            i, j = np.unravel_index(np.argmax(mine), values.shape)
+            found[index, :, k] = values[i, j], field.x[j], field.z[i]
+            if mine[i, j] >= NEAR * values.max() and not np.any(cell[column] == k):
+                row, column = np.append(row, i), np.append(column, j)
         rows.append(row)
         columns.append(column)
-        owner.append(np.full(len(row), index))
+        owner.append(count * index + cell[column])
     rows, columns, owner = (np.concatenate(parts) for parts in (rows, columns, owner))
 
     def evaluate(place: np.ndarray, owner: np.ndarray) -> np.ndarray:
@@ -73,17 +92,19 @@ def stress_maxima(
         stress = stress if beside is None else stress.plus(1.0, beside(x, z))
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):
-            mine = owner == index
+            mine = owner // count == index
             value[mine] = quantity(StressState(stress.sx[mine], stress.sz[mine], stress.txz[mine]))
         return value
 
-    top, place = _climb(evaluate, field, rows, columns, owner)
-    found = []
-    for index in range(len(quantities)):
-        mine = np.flatnonzero(owner == index)
+    ends = np.clip([field.x[0], *cells, field.x[-1]], field.x[0], field.x[-1])
+    bounds = np.column_stack([ends[:-1], ends[1:]])[owner % count]
+    top, place = _climb(evaluate, field, rows, columns, owner, bounds)
+    for one in np.unique(owner):
+        mine = np.flatnonzero(owner == one)
         best = mine[np.argmax(top[mine])]
-        found.append(Extremum(float(top[best]), float(place[best, 0]), float(place[best, 1])))
-    return StressMaxima(*found)
+        found[one // count, :, one % count] = top[best], *place[best]
+    best = (Extremum(*map(float, each[:, np.argmax(each[0])])) for each in found)
+    return StressMaxima(*best, dict(zip(("tau1", "txz_abs"), found, strict=False)))
 
 
 def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -106,8 +127,10 @@ def _climb(
     rows: np.ndarray,
     columns: np.ndarray,
     owner: np.ndarray,
+    bounds: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Highest values (k,) that are met uphill from points of the grid, and their x, z (k, 2).
+    """Highest values (k,) that are met uphill from points of the grid, and their x, z (k, 2), each
+    between its own `bounds` (k, 2) of x [m].
 
     A climb ends early when a quarter of what its last nine points differ by does not lift it to
     the top of another one of the same owner.
@@ -115,7 +138,9 @@ def _climb(
     grids, indices = (field.x, field.z), (columns, rows)
     centre = np.column_stack([g[i] for g, i in zip(grids, indices, strict=True)])
     width = np.column_stack([_cells(g, i) for g, i in zip(grids, indices, strict=True)])
-    low, high = (np.array([grid[end] for grid in grids]) for end in (0, -1))
+    low, high = (
+        np.column_stack([bounds[:, end], np.full(len(rows), field.z[end])]) for end in (0, -1)
+    )
     top, best = np.full(len(centre), -np.inf), centre.copy()
     step = _FIRST_STEP * width
     # values on the stencil to the coefficients of 1, u, v, u^2, uv, v^2 by least squares
@@ -123,10 +148,11 @@ def _climb(
     fit = np.linalg.pinv(np.column_stack([np.ones(9), u, v, u**2, u * v, v**2]))
     going, left = np.arange(len(centre)), np.full(len(centre), _SPACINGS)
     for _ in range(_MOST_ROUNDS):
-        at, h = centre[going], step[going]
+        at, h, floor, roof = centre[going], step[going], low[going], high[going]
         # a stencil across the window's side is moved in as a whole
-        middle = np.clip(at, np.minimum(low + h, high), np.maximum(high - h, low))
-        place = np.clip(middle[:, None] + _STENCIL * h[:, None], low, high)
+        middle = np.clip(at, np.minimum(floor + h, roof), np.maximum(roof - h, floor))
+        spread = middle[:, None] + _STENCIL * h[:, None]
+        place = np.clip(spread, floor[:, None], roof[:, None])
         value = evaluate(place, owner[going])
         first = np.arange(len(going)), value.argmax(axis=1)
         better = value[first] > top[going]
@@ -139,7 +165,7 @@ def _climb(
         move = np.column_stack([uv * along_v - 2 * vv * along_u, uv * along_u - 2 * uu * along_v])
         move = move / np.where(peaked, bend, 1.0)[:, None]
         vertex = middle + np.clip(move, -_FARTHEST, _FARTHEST) * h
-        centre[going] = np.clip(np.where(peaked[:, None], vertex, best[going]), low, high)
+        centre[going] = np.clip(np.where(peaked[:, None], vertex, best[going]), floor, roof)
         walks = better & (np.abs(centre[going] - middle) > h).any(axis=1)
         step[going[~walks]] *= _SHRINKAGE
         left[going[~walks]] -= 1

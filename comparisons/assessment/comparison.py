@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
@@ -15,7 +16,7 @@ from comparisons.assessment.uncertainty import (
 )
 from comparisons.assessment.verdict import Comparison, judge
 from comparisons.common.quantities import QUANTITIES
-from comparisons.models.level import Level, ModelRun, StressResult
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
@@ -45,17 +46,18 @@ def figures(level: Level, problem: Problem, friction: float) -> dict[str, float]
     stress = level.stress(friction)
     if stress is not None:
         found["tau1_max"] = stress.extremes["tau1"].value
-        found["tau1_max_depth"] = stress.extremes["tau1"].z + _rise(problem, level, stress)
+        tau1 = stress.extremes["tau1"]
+        found["tau1_max_depth"] = tau1.z + float(boundary_rise(problem, level, tau1.x))
         found["txz_max_abs"] = abs(stress.extremes["txz"].value)
     return found
 
 
-def _rise(problem: Problem, level: Level, stress: StressResult) -> float:
-    """Height [m] of the boundary above the largest tau1, from which a depth counts."""
+def boundary_rise(problem: Problem, level: Level, x: ArrayLike) -> np.ndarray:
+    """Height [m] of the level's boundary above places x [m], from which depths count."""
     scene = problem.scene
     if level.mesh is None or scene.finite_element.geometry == "flat":
-        return 0.0
-    return float(scene.profile.spline()(stress.extremes["tau1"].x))
+        return np.zeros(np.shape(x))
+    return scene.profile.spline()(x)
 
 
 def norms(

@@ -16,7 +16,8 @@ LAW_NAMES = {
 def assumptions_of(problem: Problem) -> tuple[str, ...]:
     """One sentence an assumption; where the finite elements drop one, what they have instead."""
     scene, settings = problem.scene, problem.scene.finite_element
-    listed = [_deformation(scene), _gap(settings), _boundary(settings)]
+    listed = ["elastic"] if scene.hardness is None and not settings.plastic else []
+    listed += [_law(scene), _deformation(scene), _gap(settings), _boundary(settings)]
     listed.append(_roller(settings, rigid=scene.roller is None))
     if scene.coating is not None:
         coated = "a coating is bonded to the body of another"
@@ -31,6 +32,23 @@ def assumptions_of(problem: Problem) -> tuple[str, ...]:
     return tuple(listed)
 
 
+def without_law(scene: ResolvedScene) -> list[str]:
+    """The elastic bodies, `body` and `roller`, of which the scene says no law of elasticity."""
+    elastic = ("body",) if scene.roller is None else ("body", "roller")
+    return [name for name in elastic if "law" not in scene.tables[name]]
+
+
+def laws(scene: ResolvedScene) -> str:
+    """The laws of elasticity of both bodies at finite strain, in words."""
+    found = {body.law.name: None for body in (scene.body, scene.roller) if body is not None}
+    return " and ".join(LAW_NAMES[law] for law in found)
+
+
+def _law(scene: ResolvedScene) -> str:
+    missing = " and ".join(without_law(scene))
+    return f"law of elasticity: {laws(scene)}" + (f" (not given: {missing})" if missing else "")
+
+
 def _split(half_plane: str, finite_elements: str) -> str:
     return f"half-plane: {half_plane}; finite elements: {finite_elements}"
 
@@ -42,9 +60,7 @@ def _deformation(scene: ResolvedScene) -> str:
         flow = "von Mises' yield with isotropic hardening"
         return f"{small}, plane strain; {_split(linear, flow)}"
     if settings.deformation == "finite":
-        laws = {body.law.name: None for body in (scene.body, scene.roller) if body is not None}
-        named = " and ".join(LAW_NAMES[law] for law in laws)
-        finite = f"{named} elasticity, finite deformation"
+        finite = f"{laws(scene)} elasticity, finite deformation"
         return f"plane strain; {_split(f'{linear}, {small}', finite)}"
     return f"{linear}, {small}, plane strain"
 

@@ -87,9 +87,9 @@ def _stresses(
     )
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
-        found = stress_maxima(
-            x, pressure, friction, searched.at(friction), nu, beside=ends.at(friction)
-        )
+        how = {"beside": ends.at(friction), "cells": problem.asperities}
+        found = stress_maxima(x, pressure, friction, searched.at(friction), nu, **how)
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
-        results.append(StressResult(friction, extremes, shown.at(friction).stress))
+        maxima = {"tau1": found.cells["tau1"], "txz": found.cells["txz_abs"]}
+        results.append(StressResult(friction, extremes, shown.at(friction).stress, maxima))
     return tuple(results)

@@ -27,11 +27,29 @@ class StressResult:
 
     extremes  largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     field     (m, k) on the common window
+    maxima    largest tau1 and |txz| of each asperity of the problem: value, x and z (3, k); empty
+              where there is one
     """
 
     friction: float
     extremes: dict[str, Extremum]
     field: StressState
+    maxima: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
+        """Value [Pa], x and z [m] (3, k) of the largest tau1 or |txz| of each asperity; where that
+        is known for all together only, 0 of the others. `cells` are the problem's asperities."""
+        if name in self.maxima:
+            return self.maxima[name]
+        found, largest = np.full((3, len(cells) + 1), np.nan), self.extremes[name]
+        found[0] = 0.0
+        found[:, np.searchsorted(cells, largest.x)] = abs(largest.value), largest.x, largest.z
+        return found
+
+
+def highest(maxima: np.ndarray) -> Extremum:
+    """The largest of values with their x and z (3, k)."""
+    return Extremum(*map(float, maxima[:, np.argmax(maxima[0])]))
 
 
 @dataclass(frozen=True)
@@ -69,6 +87,7 @@ class Level:
     mesh          finite elements only: the BlockMesh solved on
     mesh_field    finite elements only, with stresses
     operator      finite elements only: their compliance before the contact, where it was checked
+    material      (n,) [m] where what now stands at the grid's nodes stood without load; None: there
     """
 
     grid: HatGrid
@@ -85,6 +104,7 @@ class Level:
     mesh: BlockMesh | None = None
     mesh_field: MeshField | None = None
     operator: ComplianceCheck | None = None
+    material: np.ndarray | None = None
 
     @property
     def contact_length(self) -> float:

@@ -7,8 +7,10 @@ half-width and peak pressure of the smooth (Hertz) contact under the same load.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
+from scipy.signal import find_peaks
 
 from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.equilibrium import Constraints
@@ -33,6 +35,7 @@ FEWEST_ELEMENTS, MOST_ELEMENTS = 8, 2_000_000  # of the coarsest and of the fine
 SEARCH_HATS = 2000  # of the solutions that search for the extent of the contact
 FULL = 0.99  # of what a stretch carries at the hardness; its hats leave out a little at the ends
 FIRST_TOUCH_POINTS = 100_001
+STANDS_OUT = 0.25  # of the largest pressure: prominence that makes a peak an asperity of its own
 FIGURES = 5  # decimal, of the pressure elements on a half-width at the third level
 NARROW = 8.0  # stretch over contact beyond which the extent is searched again
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
@@ -54,6 +57,8 @@ class Problem:
     knots      (k,) [m] places where the gap's third derivative jumps, None if smooth
     extent     (2,) [m] stretch of the surface that contact may reach
     pitches    of the first levels, coarse to fine, each half of the one before [m]
+    asperities (k,) [m] where one ends and the next begins, ascending: largest values are compared
+               at the same asperity
     """
 
     scene: ResolvedScene
@@ -63,6 +68,7 @@ class Problem:
     knots: np.ndarray | None
     extent: tuple[float, float]
     pitches: tuple[float, ...]
+    asperities: tuple[float, ...] = ()
 
     @property
     def reference_pitch(self) -> float:
@@ -159,7 +165,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     problem = replace(problem, pitches=_pitches(problem))
     _check_count(problem)
     _check_circle(problem)
-    return problem
+    return replace(problem, asperities=_asperities(problem))
 
 
 def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) -> HertzContact:
@@ -259,6 +265,24 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     # what the rounding of a spectrum leaves would otherwise end in another mesh on another machine
     finest = problem.hertz.half_width / float(f"{problem.hertz.half_width / finest:.{FIGURES}g}")
     return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
+
+
+def _asperities(problem: Problem) -> tuple[float, ...]:
+    """Between the half-plane's peaks of pressure that stand out, in the middle of what lies lowest:
+    the open gap, mostly. It moves no figure, so that the coarsest pressures are enough."""
+    if problem.scene.profile is None:
+        return ()
+    grid = problem.grid(problem.pitches[0])
+    operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+    gap = grid.hat_integrals(problem.gap, problem.knots)
+    pressure = solve_on(operator, gap, grid.weights, problem.constraints()).pressure
+    peaks, _ = find_peaks(pressure, prominence=STANDS_OUT * pressure.max())
+    valleys = []
+    for start, stop in pairwise(peaks):
+        between = pressure[start : stop + 1]
+        lowest = start + np.flatnonzero(between == between.min())
+        valleys.append(float(grid.x[lowest[[0, -1]]].mean()))
+    return tuple(valleys)
 
 
 def _check_circle(problem: Problem) -> None:

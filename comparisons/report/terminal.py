@@ -82,7 +82,8 @@ def _model_errors(outcome: Outcome) -> "Table":
     table.title = "model error of the half-plane"
     table.caption = "minus: the half-plane's figure is too low"
     for row in model_error_rows(outcome, judged=True):
-        cells = (SHORT[row.quantity], row.friction, row.error, row.uncertainty, row.tolerance)
+        name = f"{SHORT[row.quantity]}\n{row.note}".strip()
+        cells = (name, row.friction, row.error, row.uncertainty, row.tolerance)
         largest = "\n".join(row.contributions[:LISTED]).replace(" %", "")
         table.add_row(*map(_cell, cells), _cell(largest))
     return table
@@ -169,6 +170,9 @@ def _facts(outcome: Outcome) -> "Table":
         rows.append(("run in", run_in_text(outcome)))
     if outcome.budget is not None:
         rows.append(("not modelled", not_modelled_line(outcome)))
+        moves = [row for row in model_error_rows(outcome, judged=True) if row.moved]
+        said = (f"{SHORT[row.quantity]}, friction {row.friction}: {row.moved}" for row in moves)
+        rows += [("another asperity", line) for line in said]
     if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
     if (flow := outcome.flow).ratio is not None:

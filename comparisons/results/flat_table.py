@@ -34,7 +34,7 @@ GROUPS = (
     *("a_over_thickness", "a_over_radius", "a_over_width", "rms_slope", "max_slope"),
     *("friction_dundurs", "peak_pressure_over_hardness"),
 )
-EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS}
+EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS if name != "law_of_elasticity"}
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
 COLUMNS = (
@@ -42,7 +42,7 @@ COLUMNS = (
     *("difference", "uncertainty", "tolerance", "verdict", "validity"),
     *("model_error", "model_error_uncertainty", "model_error_verdict"),
     *EFFECT_COLUMNS.values(),
-    "interaction",
+    *("interaction", "jump"),
     *GROUPS,
 )
 
@@ -168,6 +168,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "model_error_verdict": error["verdict"],
                 **{EFFECT_COLUMNS[n]: sign * e["value"] for n, e in error["effects"].items()},
                 "interaction": sign * error["interaction"],
+                "jump": error["jump"],
             }
 
 

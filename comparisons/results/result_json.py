@@ -1,10 +1,11 @@
 """The content of result.json, by the names that other people's scripts rely on."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import asdict
 
 from comparisons.assessment.comparison import uncertainties
-from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.sideways import sideways_shift
@@ -42,8 +43,12 @@ def result_of(
     verdict, why = (verdict, why) if budget is None else flow.judged(verdict, why)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
-        figures = asdict(row)
-        by_quantity[figures.pop("quantity")].append(figures)
+        figures, name = asdict(row), row.quantity
+        del figures["quantity"]
+        if budget is not None:
+            exceeds = _exceeds(budget, problem.scene.tolerance, name)
+            figures["not_modelled_exceeds_tolerance"] = exceeds
+        by_quantity[name].append(figures)
     return {
         "schema": SCHEMA,
         "scene": problem.scene.as_dict(),
@@ -209,11 +214,14 @@ def model_error_content(
                 "value": error.value,
                 "uncertainty": _known(error.uncertainty),
                 "effects": {
-                    name: {"value": effect.value, "uncertainty": _known(effect.uncertainty)}
+                    name: asdict(effect) | {"uncertainty": _known(effect.uncertainty)}
                     for name, effect in error.effects.items()
                 },
                 "interaction": error.interaction,
+                "jump": error.jump,
+                "maximum_moves": error.moved,
                 "not_modelled": budget.selection.not_modelled(error.quantity),
+                "not_modelled_exceeds_tolerance": _exceeds(budget, tolerance, error.quantity),
                 "tolerance": tolerance.get(error.quantity),
                 "verdict": verdicts.get((error.quantity, error.friction)),
             }
@@ -221,6 +229,11 @@ def model_error_content(
     for entry in found.get("pressure_l2", ()):
         entry |= _sideways(runs, budget.wholes.get(entry["friction"]))
     return found
+
+
+def _exceeds(budget: ErrorBudget, tolerance: Mapping[str, float], quantity: str) -> bool | None:
+    """Whether effects that no model has may exceed a tolerance; None where nothing is judged."""
+    return budget.beyond(quantity, tolerance) is not None if quantity in tolerance else None
 
 
 def _sideways(runs: dict[str, ModelRun], whole: Level | None) -> dict[str, float]:
@@ -275,6 +288,10 @@ def _effect(name: str, budget: ErrorBudget) -> dict:
         status, why = "not computed", selection.impossible[name]
     elif name in selection.negligible:
         status, why = "negligible", "its estimate is below a tenth of every tolerance"
+    elif name == COUPLED and name in selection.estimates:  # with friction, it cannot be without
+        status, why = "contained", f"it is a part of {EFFECTS['finite_strain'].label}"
+    elif name in KINEMATIC:
+        status, why = "does not apply", f"it counts in {EFFECTS['finite_strain'].label}"
     else:
         status, why = "does not apply", "it does not apply, or has no size"
     return {"status": status, "because": why, "estimate": selection.estimates.get(name)}

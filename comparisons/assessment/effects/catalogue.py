@@ -2,9 +2,10 @@
 
 A new finite-element effect gets its entry in EFFECTS, an estimate in `estimates`, and its place in
 the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and given any
-effects (`with_effects`): so each is measured alone. Finite strain cannot be alone: at finite
-deformation the gap is on the deformed surface, the boundary is rough and sliding traction moves it,
-so that it is measured beside a linear body with these effects.
+effects (`with_effects`): so each is measured alone. What makes finite deformation is one effect: at
+finite strain the gap is on the deformed surface and the boundary is rough. Its parts by themselves
+are linear bodies that have one of them without the others, with largest stresses on the flanks of
+asperities that do not flatten; no model error is put together of these.
 """
 
 from collections.abc import Callable, Iterable
@@ -107,7 +108,16 @@ EFFECTS: dict[str, Effect] = {
         lambda scene, whole: _with(scene, coupled=True),
     ),
     "finite_strain": _switch(
-        "finite strain", "strains and rotations that are not small", deformation="finite"
+        "finite deformation",
+        "strains and rotations that are not small, on the deformed surface of the trace",
+        deformation="finite",
+    ),
+    "law_of_elasticity": Effect(
+        "law of elasticity",
+        "another law of finite strain with the same constants",
+        lambda scene: False,
+        lambda problem: True,
+        lambda scene, whole: scene,
     ),
     "plastic_flow": Effect(
         "plastic flow",
@@ -118,8 +128,15 @@ EFFECTS: dict[str, Effect] = {
     ),
 }
 
-# What finite deformation contains in any scene.
+# What finite deformation contains in any scene, and with a profile.
 IN_FINITE_STRAIN = "deformed_gap"
+COUPLED = "normal_tangential_coupling"
+KINEMATIC = ("deformed_gap", "rough_boundary", "finite_strain")
+
+
+def kinematic(scene: ResolvedScene) -> frozenset[str]:
+    """The effects of a scene that are finite deformation together."""
+    return frozenset(KINEMATIC if scene.profile is not None else ("deformed_gap", "finite_strain"))
 
 
 def contained(scene: ResolvedScene) -> frozenset[str]:

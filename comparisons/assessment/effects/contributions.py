@@ -1,44 +1,93 @@
 """What each effect contributes, alone and jointly, on each level: differences of solutions.
 
-With F(S) the finite elements' solution with the effects S, L the linear effects, 0 none of them:
+With F(S) the finite elements' solution with the effects S, W all of them, K those that are finite
+deformation together, c normal-tangential coupling, 0 none:
 
-    a linear effect i      F({i}) - F(0)
-    a nonlinear effect n   F(L + n) - F(L), beside what n cannot be without; times r on a stand-in
-    interaction            F(L) - F(0) - the linear contributions
-    whole                  F(L) + the nonlinear contributions - F(0): the sum of all these
+    an effect i            F({i}) - F(0)
+    finite deformation     F(K + c) - F(c), c only under friction, where sliding traction moves it
+    plastic flow           F(flow + c) - F(c)
+    interaction            F(W) - F(0) - the sum of these
 
-The scene's own finite elements do not contain F(0) + whole - F(scene).
+These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
+F(W) - F(scene).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import reduce
-from operator import add, sub
+from operator import sub
 from typing import Protocol
 
-import numpy as np
-
+from comparisons.assessment.effects.catalogue import COUPLED, KINEMATIC, kinematic
 from comparisons.assessment.effects.quantities_of_interest import QuantitiesOfInterest
-from comparisons.assessment.effects.selection import LINEAR, NONLINEAR, EffectSelection
-from comparisons.assessment.effects.variants import ModelVariant, strain_share
+from comparisons.assessment.effects.selection import NONLINEAR, ORDER, EffectSelection
+from comparisons.assessment.effects.variants import STRAINED, ModelVariant
 from comparisons.models.problem import Problem
 
-COUPLED = "normal_tangential_coupling"
+
+class NotComputedError(Exception):
+    """A model variant has no solution; the message says why."""
+
+    def __init__(self, variant: ModelVariant, why: str) -> None:
+        super().__init__(variant, why)
+        self.variant = variant
+
+    def __str__(self) -> str:
+        return " ".join(str(self.args[1]).split())
+
+
+@dataclass(frozen=True)
+class SplitVariants:
+    """The variants that the split takes at one friction coefficient.
+
+    whole    with all effects
+    own      that stands for the scene's own finite elements, None: these
+    nothing  without any effect
+    pairs    by effect, with and without it
+    """
+
+    whole: ModelVariant
+    own: ModelVariant | None
+    nothing: ModelVariant
+    pairs: dict[str, tuple[ModelVariant, ModelVariant]]
+
+    @property
+    def all(self) -> tuple[ModelVariant, ...]:
+        """Each once, the whole first."""
+        of_pairs = (variant for pair in self.pairs.values() for variant in pair)
+        own = () if self.own is None else (self.own,)
+        return tuple(dict.fromkeys((self.whole, *own, self.nothing, *of_pairs)))
 
 
 @dataclass(frozen=True)
 class EffectContributions:
     """At one friction coefficient, on one level.
 
-    effects        by name, as far as they apply at this friction
-    interaction    of the linear effects
-    not_contained  what the scene's own finite elements lack of the whole
-    own            the scene's own finite elements
+    whole    the finite elements with all effects
+    own      the scene's own
+    nothing  without any effect, None where that has no solution: nothing is split then
+    pairs    by effect, the solutions with and without it, as far as there are any
+    unsplit  why there is no split, else None
     """
 
-    effects: dict[str, QuantitiesOfInterest]
-    interaction: QuantitiesOfInterest
-    not_contained: QuantitiesOfInterest
+    whole: QuantitiesOfInterest
     own: QuantitiesOfInterest
+    nothing: QuantitiesOfInterest | None
+    pairs: dict[str, tuple[QuantitiesOfInterest, QuantitiesOfInterest]]
+    unsplit: str | None = None
+
+    @property
+    def not_contained(self) -> QuantitiesOfInterest:
+        """What the scene's own finite elements lack of the whole."""
+        return self.whole - self.own
+
+    def effect(self, name: str) -> QuantitiesOfInterest:
+        """What an effect changes by itself."""
+        return sub(*self.pairs[name])
+
+    def interaction(self, names: Iterable[str]) -> QuantitiesOfInterest:
+        """What the effects change jointly beyond the sum of the named ones."""
+        return reduce(sub, map(self.effect, names), self.whole - self.nothing)
 
 
 class VariantSolutions(Protocol):
@@ -48,91 +97,55 @@ class VariantSolutions(Protocol):
         """Of the scene's own finite elements."""
 
     def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
-        """Of a variant."""
+        """Of a variant; raises NotComputedError."""
 
 
-class _RequestedVariants:
-    """Notes which variants are asked for, and solves none."""
+def split_variants(problem: Problem, selection: EffectSelection, friction: float) -> SplitVariants:
+    """The variants at a friction coefficient, the same on every level."""
+    chosen = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
+    quadratic = problem.scene.finite_element.element != STRAINED and "finite_strain" in chosen
 
-    def __init__(self) -> None:
-        self.asked: dict[ModelVariant, None] = {}
+    def variant(effects: frozenset[str]) -> ModelVariant:
+        shaped = effects & {COUPLED, *NONLINEAR}
+        return ModelVariant(effects, friction if shaped else None, quadratic)
 
-    def scene_solution(self, number: int, friction: float) -> QuantitiesOfInterest:
-        return QuantitiesOfInterest({}, np.zeros(0), None)
+    def grown(effects: frozenset[str]) -> frozenset[str]:
+        """With what nonlinear bodies cannot be without."""
+        if "finite_strain" in effects:
+            effects |= kinematic(problem.scene)
+        return effects | ({COUPLED} if friction and effects & set(NONLINEAR) else frozenset())
 
-    def solution(self, variant: ModelVariant, number: int, friction: float) -> QuantitiesOfInterest:
-        self.asked[variant] = None
-        return self.scene_solution(number, friction)
-
-
-def variants_for(problem: Problem, selection: EffectSelection) -> list[ModelVariant]:
-    """The variants that `contributions_of` needs at all friction coefficients, each once; the same
-    on every level."""
-    requested = _RequestedVariants()
-    for friction in problem.scene.friction:
-        contributions_of(problem, requested, selection, friction, 1)
-    return list(requested.asked)
+    nothing, pairs = frozenset(), {}
+    for name in ORDER:
+        inside = name in KINEMATIC[:-1] and "finite_strain" in chosen
+        if name in chosen and not inside:
+            beside = chosen & {COUPLED} if name in NONLINEAR else nothing
+            pairs[name] = variant(grown(beside | {name})), variant(beside)
+    own = None
+    if quadratic:
+        own = variant(selection.contained - ({COUPLED} if friction == 0.0 else frozenset()))
+    return SplitVariants(variant(grown(chosen)), own, variant(nothing), pairs)
 
 
 def contributions_of(
-    problem: Problem,
-    solutions: VariantSolutions,
-    selection: EffectSelection,
-    friction: float,
-    level: int,
+    solutions: VariantSolutions, split: SplitVariants, friction: float, level: int
 ) -> EffectContributions:
-    """All contributions on a level; raises what `solutions` raises for a variant without one."""
-    whole = selection.whole - ({COUPLED} if friction == 0.0 else frozenset())
-    names = [name for name in LINEAR if name in whole]
-    linear = frozenset(names)
+    """All contributions on a level; raises NotComputedError where the whole has no solution. An
+    effect without a solution by itself counts in the interaction."""
 
-    def solved(effects: frozenset[str]) -> QuantitiesOfInterest:
-        shaping = friction if COUPLED in effects else None
-        return solutions.solution(ModelVariant(effects, shaping), level, friction)
+    def solved(variant: ModelVariant) -> QuantitiesOfInterest:
+        return solutions.solution(variant, level, friction)
 
-    nothing, jointly = solved(frozenset()), solved(linear)
-    effects = {name: solved(frozenset({name})) - nothing for name in names}
-    interaction = reduce(sub, effects.values(), jointly - nothing)
-    nonlinear = {}
-    for name in NONLINEAR:
-        if name in whole:
-            add_to = _flow if name == "plastic_flow" else _strain
-            with_it, without, share = add_to(problem, selection, linear, friction)
-            pair = (solutions.solution(each, level, friction) for each in (with_it, without))
-            change = sub(*pair)
-            nonlinear[name] = change if share is None else change * share
-    own = solutions.scene_solution(level, friction)
-    not_contained = reduce(add, nonlinear.values(), jointly) - own
-    return EffectContributions(effects | nonlinear, interaction, not_contained, own)
-
-
-_Pair = tuple[ModelVariant, ModelVariant, float | None]
-
-
-def _flow(
-    problem: Problem, selection: EffectSelection, linear: frozenset[str], friction: float
-) -> _Pair:
-    """Variants with and without plastic flow, which only the scene's own body has: beside what that
-    contains."""
-    beside = (selection.contained & linear) | ({COUPLED} if friction else frozenset())
-    shaping = friction or None
-    return ModelVariant(beside | {"plastic_flow"}, shaping), ModelVariant(beside, shaping), None
-
-
-def _strain(
-    problem: Problem, selection: EffectSelection, linear: frozenset[str], friction: float
-) -> _Pair:
-    """Variants with and without finite strain, beside the linear effects that it cannot be without;
-    and the share of their difference that the scene's own bodies have."""
-    scene, settings = problem.scene, problem.scene.finite_element
-    beside = linear | {"deformed_gap"}
-    beside |= {"rough_boundary"} if scene.profile is not None else frozenset()
-    beside |= {COUPLED} if friction else frozenset()
-    held = settings.far_field != "held" or settings.element != "P2"
-    stand_in = scene.roller is not None
-    if stand_in:  # of unbounded bodies: a layer's compliance does not grow with the roller's
-        beside -= {"finite_size", "finite_roller"}
-    # where nothing else needs the same variant, for no other friction coefficient either
-    shaping = friction if friction or held or stand_in else None
-    strained = ModelVariant(beside | {"finite_strain"}, shaping, stand_in, held)
-    return strained, ModelVariant(beside, shaping, stand_in, held), strain_share(problem)
+    whole = solved(split.whole)
+    own = solved(split.own) if split.own else solutions.scene_solution(level, friction)
+    try:
+        nothing = solved(split.nothing)
+    except NotComputedError as error:
+        return EffectContributions(whole, own, None, {}, str(error))
+    pairs = {}
+    for name, (with_it, without) in split.pairs.items():
+        try:
+            pairs[name] = solved(with_it), solved(without)
+        except NotComputedError:
+            continue
+    return EffectContributions(whole, own, nothing, pairs)

@@ -12,17 +12,15 @@ from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
 from comparisons.assessment.effects.contributions import (
     EffectContributions,
+    NotComputedError,
+    SplitVariants,
     contributions_of,
-    variants_for,
+    split_variants,
 )
 from comparisons.assessment.effects.model_error import ModelError, model_errors
 from comparisons.assessment.effects.quantities_of_interest import quantities_of, relative_sizes
-from comparisons.assessment.effects.selection import NONLINEAR, EffectSelection, select_effects
-from comparisons.assessment.effects.solutions import (
-    NotComputedError,
-    SolvedVariants,
-    processes_beside,
-)
+from comparisons.assessment.effects.selection import EffectSelection, select_effects
+from comparisons.assessment.effects.solutions import SolvedVariants, processes_beside
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.cache import Cache
@@ -45,8 +43,8 @@ class ErrorBudget:
     """What separates the half-plane from the whole model, and both from the surface.
 
     selection     which effects were computed
-    levels        that the effects were taken to; 0 where the difference could not be split
-    unsplit       why it could not, else None
+    levels        that the effects were taken to; 0 where there is no solution of the whole
+    unsplit       why the difference of the models could not be split, else None
     model_errors  of each quantity at each friction coefficient
     sampling      by friction and quantity: what half the samples of the trace change
     seconds       that the effects took
@@ -65,6 +63,12 @@ class ErrorBudget:
     def of(self, quantity: str, friction: float) -> ModelError:
         wanted = quantity, friction
         return next(e for e in self.model_errors if (e.quantity, e.friction) == wanted)
+
+    def beyond(self, quantity: str, tolerance: Mapping[str, float]) -> float | None:
+        """Root of the sum of squares of what is estimated and not modelled, where it exceeds the
+        tolerance of a quantity: the figure then says little, whatever it is; else None."""
+        size = math.hypot(*self.selection.not_modelled(quantity).values())
+        return size if size > tolerance.get(quantity, math.inf) else None
 
     def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
         """Of every model error that has a tolerance."""
@@ -91,29 +95,34 @@ def error_budget(
 
     An effect that cannot be solved is not modelled: its estimate and the reason are kept.
     """
-    peak = float(runs["half_plane"].finest.solution.pressure.max())
-    selection = select_effects(problem, peak, couplings)
+    pressure = runs["half_plane"].finest.solution.pressure
+    mean = float(pressure @ pressure / pressure.sum())
+    selection = select_effects(problem, float(pressure.max()), couplings, mean)
     if not plan.effects:
-        asked = selection.added | set(selection.impossible)
+        asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
         selection = selection.without(asked, "not asked for (budget.effects)")
     unsplit = None
     with processes_beside() as beside:
         solved = SolvedVariants(problem, window, runs["finite_element"], cache, callback, beside)
         while True:
+            splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
+            solved.keep(split.whole for split in splits.values())
             try:
-                levels, own = _refined(problem, window, runs, rows, selection, solved)
+                levels, own, unsplit = _refined(problem, window, runs, rows, splits, solved)
+                wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
                 break
             except NotComputedError as error:
-                dropped = _given_up(selection, error)
+                dropped = _given_up(selection, splits, solved)
                 if not dropped:  # what the scene itself has cannot be taken apart
                     levels, own, unsplit = 0, _unsplit(rows), str(error)
+                    wholes = dict.fromkeys(splits, runs["finite_element"].finest)
                     break
                 selection = selection.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
         callback("error budget: sampling of the trace")
         sampling = from_first(lambda: sampling_changes(problem, window, runs["half_plane"].levels))
-    return ErrorBudget(selection, levels, unsplit, tuple(own), sampling, solved.seconds)
+    return ErrorBudget(selection, levels, unsplit, tuple(own), sampling, solved.seconds, wholes)
 
 
 def _refined(
@@ -121,21 +130,22 @@ def _refined(
     window: Window | None,
     runs: dict[str, ModelRun],
     rows: tuple[Comparison, ...],
-    selection: EffectSelection,
+    splits: dict[float, SplitVariants],
     solved: SolvedVariants,
-) -> tuple[int, list[ModelError]]:
-    """The level that the effects were taken to, and the model errors.
+) -> tuple[int, list[ModelError], str | None]:
+    """The level that the effects were taken to, the model errors, and why these are not split.
 
-    Raises NotComputedError where a variant has no solution on the least levels.
+    Raises NotComputedError where a whole has no solution on the least levels.
     """
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
-    asked = problem.scene.budget.levels or MOST_LEVELS
-    most = min(MOST_LEVELS, asked, len(runs["finite_element"].levels))
+    wanted = problem.scene.budget.levels or MOST_LEVELS
+    most = min(MOST_LEVELS, wanted, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
-        solved.prepare(variants_for(problem, selection), number)
+        asked = dict.fromkeys(each for split in splits.values() for each in split.all)
+        solved.prepare(asked, number)
         try:
-            new = {mu: contributions_of(problem, solved, selection, mu, number) for mu in history}
+            new = {mu: contributions_of(solved, splits[mu], mu, number) for mu in history}
         except NotComputedError:
             if number <= LEAST_LEVELS:
                 raise
@@ -150,7 +160,9 @@ def _refined(
             _settled(rows, own) or _is_beyond(problem, runs, solved, number)
         ):
             break
-    return len(next(iter(history.values()))), own
+    every = [parts for of_friction in history.values() for parts in of_friction]
+    unsplit = next((parts.unsplit for parts in every if parts.unsplit), None)
+    return len(next(iter(history.values()))), own, unsplit
 
 
 def _is_beyond(
@@ -175,7 +187,7 @@ def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:
 
 def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
     """Whether the effects add little to the uncertainty of every judged figure."""
-    found = {(e.quantity, e.friction): e.uncertainty - e.stand_in for e in own}
+    found = {(e.quantity, e.friction): e.uncertainty for e in own}
     return all(
         found[row.quantity, row.friction]
         <= (row.uncertainty or 0.0) + SHARE_OF_TOLERANCE * row.tolerance
@@ -184,15 +196,21 @@ def _settled(rows: tuple[Comparison, ...], own: list[ModelError]) -> bool:
     )
 
 
-def _given_up(selection: EffectSelection, error: NotComputedError) -> frozenset[str]:
-    """The added effects without which the variant that has no solution is not needed: a nonlinear
-    effect or a single linear one for its own variant, all where they fail jointly."""
-    effects = error.variant.effects & selection.added
-    nonlinear = effects & set(NONLINEAR)
-    if nonlinear:
-        return nonlinear
-    if len(error.variant.effects) == 1 and effects:
-        return effects
+def _given_up(
+    selection: EffectSelection, splits: dict[float, SplitVariants], solved: SolvedVariants
+) -> frozenset[str]:
+    """The added effects to leave out where the whole has no solution: those that have none by
+    themselves, else finite deformation, else all."""
+    failed = {variant for variant, _ in solved.failed}
+    alone = {
+        name
+        for split in splits.values()
+        for name, (with_it, _) in split.pairs.items()
+        if with_it in failed
+    }
+    for fewer in (alone, {"finite_strain"}):
+        if selection.added & fewer:
+            return selection.added & fewer
     return selection.added
 
 
@@ -209,8 +227,8 @@ def sampling_changes(
         thinned = _thinned(problem, first)
         other = half_plane_level(thinned, level.grid.pitch, window, Stages())
         for friction in frictions:
-            whole = quantities_of(level, problem, friction)
-            change = quantities_of(other, thinned, friction) - whole
+            whole = quantities_of(level, problem, friction).largest()
+            change = quantities_of(other, thinned, friction).largest() - whole
             for name, size in relative_sizes(change, whole, problem, window).items():
                 found[friction][name] = max(found[friction].get(name, 0.0), abs(size))
     return found

@@ -19,6 +19,7 @@ from analytic.material import dundurs_constants
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.common.quantities import QUANTITIES
+from comparisons.models.assumptions import without_law
 from comparisons.models.problem import Problem
 
 Sizes = dict[str, float]
@@ -29,23 +30,27 @@ NORMS = ("pressure_l2", "tau1_field_near", "tau1_field_deep")
 
 
 def estimates(
-    problem: Problem, peak: float, linear: Iterable[str], couplings: tuple[Coupling, ...] = ()
+    problem: Problem,
+    peak: float,
+    mean: float,
+    contained: Iterable[str] = (),
+    couplings: tuple[Coupling, ...] = (),
 ) -> dict[str, Sizes]:
     """By effect and quantity, without those of no size.
 
     peak       largest pressure [Pa] of the half-plane
-    linear     names of the effects that the linear body has, beside which strain is not small
+    mean       of its contact [Pa]: the pressure that the load stands under on average
+    contained  names of the effects that the scene's own finite elements have
     couplings  of the half-plane, one a friction coefficient
     """
     found = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),
-        "rough_boundary": _rough_boundary(problem),
-        "deformed_gap": _deformed_gap(problem, peak),
         "exact_circle": _exact_circle(problem),
         "finite_roller": _finite_roller(problem),
         "normal_tangential_coupling": _coupling(problem, couplings),
-        "finite_strain": _finite_strain(problem, peak, set(linear)),
+        "finite_strain": _finite_deformation(problem, peak, set(contained)),
+        "law_of_elasticity": _law_of_elasticity(problem, peak, mean),
         "plastic_flow": _plastic_flow(problem, peak),
     }
     sized = {
@@ -161,21 +166,45 @@ def _finite_roller(problem: Problem) -> Sizes:
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
-# at 0.035 (`comparisons.benchmarks.finite_deformation`); 2 % in tau1 at 0.038. Beside a
-# linear body that has the deformed gap or the rough boundary without strain it takes back what
-# these overestimate.
+# at 0.035 (`comparisons.benchmarks.finite_deformation`); 2 % in tau1 at 0.038. From a linear body
+# that has the deformed gap or the rough boundary without strain it takes back what these overdo.
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
 
-def _finite_strain(problem: Problem, peak: float, linear: set[str]) -> Sizes:
+def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> Sizes:
     pressure = peak / problem.scene.body.youngs_modulus
     found = _equal(STRAIN * pressure) | dict.fromkeys(STRESSES, STRAIN_OF_STRESS * pressure)
-    if "deformed_gap" in linear:
+    parts = []
+    if "deformed_gap" not in contained:
+        parts.append(_deformed_gap(problem, peak))
+    else:
         found["tau1_field_near"] += UNTURNED * _curvature(problem)
-    if "rough_boundary" in linear:
-        for name, size in _unflattened(_slope(problem)).items():
-            found[name] += size
+    if "rough_boundary" not in contained:
+        parts.append(_rough_boundary(problem))
+    else:
+        parts.append(_unflattened(_slope(problem)))
+    for sizes in parts:
+        found = {name: size + sizes.get(name, 0.0) for name, size in found.items()}
     return found
+
+
+# Laws with the same constants of small strain: -0.9 to +0.95 times p/E from neo-Hookean's, in peak
+# pressure and tau1, at the pressure that makes them.
+LAW = 0.95
+
+
+def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
+    """Of the bodies whose law is not given, each by its share of what closes the gap."""
+    scene = problem.scene
+    bodies = [getattr(scene, name) for name in without_law(scene)]
+    strained = sum(
+        problem.modulus / (body.plane_strain_modulus * body.youngs_modulus) for body in bodies
+    )
+    if scene.finite_element.plastic:
+        return {}
+    return _equal(LAW * strained * mean) | dict.fromkeys(
+        ("peak_pressure", *STRESSES[:2]), LAW * strained * peak
+    )
 
 
 # Coupling where it is not measured on the half-plane: 1.4 % in contact

@@ -1,13 +1,17 @@
 """The half-plane's model error: its error beyond the numerical ones, split into effects.
 
 All is relative to the whole, the finite elements with every effect that matters, so that the error
-is the same whether an effect is added here or switched on in the scene. A figure's error is the
-models' difference on their finest level plus what the scene's own finite elements do not contain of
-the whole, on the level of the effects. Norms do not add: their error is the norm of the half-plane
-against the whole on that level, with the far boundary of the models' difference.
+is the same whether an effect is added here or switched on in the scene. The whole is the scene's
+own finite elements on their finest level, and what these do not contain of it on the level of the
+effects. A largest value is followed asperity by asperity, and the whole's is the largest of these
+in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
+value at another one, what lies between the two is the jump, no effect. Norms do not add: their
+error is the norm of the half-plane against the whole on the level of the effects, with the far
+boundary of the models' difference.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,11 +19,11 @@ from comparisons.assessment.comparison import pair_history
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.effects.contributions import EffectContributions
 from comparisons.assessment.effects.quantities_of_interest import (
+    LARGEST,
     QuantitiesOfInterest,
     quantities_of,
     relative_sizes,
 )
-from comparisons.assessment.effects.variants import strain_share_uncertainty
 from comparisons.assessment.uncertainty import (
     LENGTHS,
     difference_of_figures,
@@ -33,13 +37,19 @@ from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
+NEAR = 0.5  # of the largest value: asperities below it do not compete
+
 
 @dataclass(frozen=True)
 class Estimate:
-    """A relative size with its uncertainty, absolute in the same measure."""
+    """A relative size with its uncertainty, absolute in the same measure.
+
+    moves_maximum  whether the effect by itself moves the largest value to another asperity
+    """
 
     value: float
     uncertainty: float
+    moves_maximum: bool = False
 
 
 @dataclass(frozen=True)
@@ -47,10 +57,13 @@ class ModelError:
     """Of one quantity at one friction coefficient, relative to the whole.
 
     effects      by name, what each changes in the finite elements
-    interaction  what the linear effects change jointly beyond their sum
+    interaction  what they change jointly beyond their sum
     value        (half-plane - whole) / whole, or the norm of that difference
     uncertainty  of `value`
-    stand_in     its part that refinement cannot lower: finite strain measured on a stand-in
+    jump         of a largest value: what the half-plane's own exceeds its value at the whole's
+                 asperity
+    moved        x [m] of the half-plane's largest value and of the whole's, where these are at two
+                 asperities, else None
     """
 
     quantity: str
@@ -59,7 +72,14 @@ class ModelError:
     interaction: float
     value: float
     uncertainty: float
-    stand_in: float = 0.0
+    jump: float = 0.0
+    moved: tuple[float, float] | None = None
+
+    @property
+    def interacts(self) -> bool:
+        """Whether no effect explains the error: they change more jointly than any by itself."""
+        sizes = [abs(effect.value) for effect in self.effects.values()]
+        return bool(sizes) and abs(self.interaction) > max(sizes)
 
 
 def model_errors(
@@ -75,80 +95,125 @@ def model_errors(
     history  the effects there on the first levels, coarse to fine
     """
     friction, last = rows[0].friction, history[-1]
-    whole = [parts.own + parts.not_contained for parts in history]
-    number = len(history) - 1
-    levels = runs["half_plane"].levels[: len(history)]
-    half_plane = [quantities_of(level, problem, friction) for level in levels]
+    number, names = len(history) - 1, list(last.pairs)
+    names = [name for name in names if all(name in parts.pairs for parts in history)]
+    levels = {
+        model: [quantities_of(level, problem, friction) for level in run.levels]
+        for model, run in runs.items()
+    }
+    half_plane, own = levels["half_plane"], levels["finite_element"]
+    wholes, missing = [parts.whole for parts in history], [p.not_contained for p in history]
+    contains_all = not (
+        missing[-1].pressure.any() or any(map(np.any, missing[-1].figures.values()))
+    )
+    figures = {name: own[-1].figures[name] + each for name, each in missing[-1].figures.items()}
+    whole = QuantitiesOfInterest(figures, wholes[-1].pressure, wholes[-1].tau1)
     unsolved = iteration(
         *(level for run in runs.values() for level in (run.finest, run.levels[number]))
     )
     reference = runs["finite_element"].levels[number]
     edge = relative_resolution(reference, reference)
 
-    def share(name: str, changes: list[QuantitiesOfInterest]) -> Estimate:
+    def share(name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         if QUANTITIES[name].of_pair:
             values = [
                 relative_sizes(change, reference, problem, window)[name]
-                for change, reference in zip(changes, whole, strict=True)
+                for change, reference in zip(changes, wholes, strict=True)
             ]
         else:  # by one scale: a place may jump to the surface on one level alone
-            scale = _scale(whole[-1].figures[name], name, problem)
-            values = [change.figures[name] / scale for change in changes]
+            scale = _scale(whole.figures[name][at], name, problem)
+            values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
         resolution = edge if name in LENGTHS else 0.0
         refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         return Estimate(values[-1], refined.uncertainty + unsolved)
 
-    not_contained = [parts.not_contained for parts in history]
-    own = [one - other for one, other in zip(half_plane, whole, strict=True)]
+    def of_effect(name: str, effect: str, at: int) -> Estimate:
+        found = share(name, [parts.effect(effect) for parts in history], at)
+        with_it, without = (each.figures.get(LARGEST.get(name)) for each in last.pairs[effect])
+        if with_it is None:
+            return found
+        ahead = with_it.max() / with_it[np.argmax(without)] - 1.0
+        return replace(found, moves_maximum=bool(ahead > found.uncertainty))
+
+    def of_figure(row: Comparison, numerical: float, at: int) -> tuple[float, float]:
+        """Error of a figure and its uncertainty."""
+        name, figure = row.quantity, whole.figures[row.quantity][at]
+        scale = _scale(figure, name, problem)
+        numerical *= _scale(row.finite_element, name, problem) / scale
+        if at != own[-1].leading(name):  # the comparison is at another asperity
+            values = [each.figures[name][at] / scale for each in own]
+            numerical = max(
+                numerical,
+                unsolved + grid_convergence(values, QUANTITIES[name].formal_order).uncertainty,
+            )
+        lacking = share(name, missing, at).uncertainty
+        uncertainty = difference_of_figures(numerical, row.half_plane / scale, lacking)
+        if name in LARGEST:
+            largest = LARGEST[name]
+            others = _competing(whole, name, at, numerical, lambda k: share(largest, missing, k))
+            uncertainty += others / scale
+        return float((row.half_plane - figure) / scale), float(uncertainty)
+
     pair = pair_history(runs["half_plane"], runs["finite_element"], problem, friction, window)
-    interaction = relative_sizes(last.interaction, whole[-1], problem, window)
     found = []
     for row in rows:
-        name = row.quantity
-        effects = {
-            effect: share(name, [parts.effects[effect] for parts in history])
-            for effect in last.effects
-        }
-        stand_in = 0.0
-        if "finite_strain" in effects:
-            strain = effects["finite_strain"]
-            stand_in = strain_share_uncertainty(problem) * abs(strain.value)
-            effects["finite_strain"] = Estimate(strain.value, strain.uncertainty + stand_in)
+        name, at = row.quantity, whole.leading(row.quantity)
+        effects = {effect: of_effect(name, effect, at) for effect in names}
         numerical = np.inf if row.uncertainty is None else row.uncertainty
-        missing = share(name, not_contained)
+        jump, moved, joint = 0.0, None, 0.0
+        if last.nothing is not None:
+            joint = share(name, [parts.interaction(names) for parts in history], at).value
         if not QUANTITIES[name].of_pair:
-            added = last.not_contained.figures[name]
-            value, uncertainty = _of_figure(row, numerical, added, missing, problem)
-        elif last.not_contained.pressure.any() or any(last.not_contained.figures.values()):
-            norm, there = share(name, own), pair.norms[number][name]
-            parts = numerical, abs(there - row.difference), missing.uncertainty
-            value = norm.value
-            domain = pair.uncertainties[name].domain
+            value, uncertainty = of_figure(row, numerical, at)
+            before = half_plane[-1].leading(name)
+            if before != at:
+                largest, figure = LARGEST[name], half_plane[-1].figures
+                apart = figure[name][before] - figure[name][at]
+                jump = float(apart / _scale(whole.figures[name][at], name, problem))
+                if figure[largest][before] / figure[largest][at] - 1.0 > numerical:  # no twin peaks
+                    places = half_plane[-1].places[largest][before], wholes[-1].places[largest][at]
+                    moved = float(places[0]), float(places[1])
+        elif not contains_all:
+            differences = [a - b for a, b in zip(half_plane[: len(wholes)], wholes, strict=True)]
+            norm, there = share(name, differences, at), pair.norms[number][name]
+            lacking = share(name, missing, at).uncertainty
+            parts = numerical, abs(there - row.difference), lacking
+            value, domain = norm.value, pair.uncertainties[name].domain
             uncertainty = difference_of_norms(norm.uncertainty, domain, parts)
         else:
             value, uncertainty = row.difference, numerical
-        joint = interaction[name]
-        found.append(
-            ModelError(name, friction, effects, joint, value, uncertainty + stand_in, stand_in)
-        )
+        error = ModelError(name, friction, effects, joint, value, uncertainty, jump, moved)
+        found.append(error)
     return found
 
 
-def _of_figure(
-    row: Comparison, numerical: float, added: float, missing: Estimate, problem: Problem
-) -> tuple[float, float]:
-    """Error of a figure and its uncertainty, relative to the whole.
+def _competing(
+    whole: QuantitiesOfInterest,
+    name: str,
+    at: int,
+    numerical: float,
+    missing: Callable[[int], Estimate],
+) -> float:
+    """What asperities that may have the largest value add to the uncertainty of a figure [SI].
 
-    numerical  uncertainty of the models' difference, relative to the finite elements
-    added      what the whole adds to these [SI]; `missing` the same, relative to the whole
+    numerical  relative uncertainty of the scene's own finite elements
+    missing    by asperity, what the whole has beside these, relative to the largest value
     """
-    whole = row.finite_element + added
-    scale = _scale(whole, row.quantity, problem)
-    numerical *= _scale(row.finite_element, row.quantity, problem) / scale
-    uncertainty = difference_of_figures(numerical, row.half_plane / scale, missing.uncertainty)
-    return (row.half_plane - whole) / scale, uncertainty
+    values = whole.figures[LARGEST[name]]
+    top = values[at]
+    if not np.isfinite(numerical + missing(at).uncertainty):
+        return 0.0  # it is unknown already
+
+    def doubt(k: int) -> float:
+        return numerical * abs(values[k]) + missing(k).uncertainty * abs(top)
+
+    least = top - doubt(at)
+    near = [k for k in np.flatnonzero(values > NEAR * top) if values[k] + doubt(k) >= least]
+    if name == LARGEST[name]:
+        return max(values[k] + doubt(k) for k in near) - top - doubt(at)
+    return max(abs(whole.figures[name][k] - whole.figures[name][at]) for k in near)
 
 
 def _scale(figure: float, name: str, problem: Problem) -> float:

@@ -2,16 +2,16 @@
 
 from dataclasses import dataclass, replace
 
-from comparisons.assessment.effects.catalogue import EFFECTS, contained
+from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, contained
 from comparisons.assessment.effects.estimates import Sizes, estimates
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.common.mpi import is_several
 from comparisons.models.problem import Problem
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
-# Effects in the order of the sums of their contributions, whose last bit depends on it. The
-# nonlinear ones are measured beside the linear ones.
-LINEAR = (
+# Effects in the order of the sums of their contributions, whose last bit depends on it.
+NONLINEAR = ("finite_strain", "plastic_flow")
+ORDER = (
     "exact_circle",
     "coating",
     "normal_tangential_coupling",
@@ -19,8 +19,8 @@ LINEAR = (
     "deformed_gap",
     "finite_size",
     "rough_boundary",
+    *NONLINEAR,
 )
-NONLINEAR = ("finite_strain", "plastic_flow")
 
 
 @dataclass(frozen=True)
@@ -61,37 +61,35 @@ class EffectSelection:
 
 
 def select_effects(
-    problem: Problem, peak: float, couplings: tuple[Coupling, ...]
+    problem: Problem, peak: float, couplings: tuple[Coupling, ...], mean: float | None = None
 ) -> EffectSelection:
-    """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure."""
+    """Decide by the estimates; `peak` [Pa] is the half-plane's largest pressure, `mean` the mean of
+    its contact, by default the same."""
     own, tolerance = contained(problem.scene), problem.scene.tolerance
-    applying = {name for name, effect in EFFECTS.items() if effect.applies(problem)}
-
-    def matters(sizes: Sizes) -> bool:
-        return any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
-
-    # strain is judged beside the linear effects, so these are settled first
-    first = estimates(problem, peak, own, couplings)
-    linear = own | {name for name in applying & set(LINEAR) if matters(first.get(name, {}))}
-    second = estimates(problem, peak, linear, couplings)
-    sized = {name: sizes for name, sizes in second.items() if name in applying}
+    found = estimates(problem, peak, peak if mean is None else mean, own, couplings)
+    sized = {name: sizes for name, sizes in found.items() if EFFECTS[name].applies(problem)}
     added, negligible, impossible = set(), {}, {}
     for name, sizes in sized.items():
         if name in own:
             continue
+        matters = any(sizes.get(q, 0.0) > SHARE_OF_TOLERANCE * t for q, t in tolerance.items())
         why = why_not(name, problem)
-        if not matters(sizes):
+        if not matters:
             negligible[name] = sizes
         elif why is not None:
             impossible[name] = why
         else:
             added.add(name)
+    if any(problem.scene.friction) and (added | own) & set(NONLINEAR):
+        negligible.pop(COUPLED, None)  # these bodies have it
     return EffectSelection(own, frozenset(added), negligible, impossible, sized)
 
 
 def why_not(name: str, problem: Problem) -> str | None:
     """Why an effect cannot be computed in a scene, or None."""
     scene = problem.scene
+    if name == "law_of_elasticity":
+        return "no law is given: it is taken for neo-Hookean"
     if name == "plastic_flow":
         if scene.yielding is None:
             return "the body has no yield stress"

@@ -14,13 +14,14 @@ import numpy as np
 
 from analytic.contact.problem import ContactError
 from comparisons.assessment.effects.catalogue import EFFECTS, contained, is_taken_apart
+from comparisons.assessment.effects.contributions import NotComputedError
 from comparisons.assessment.effects.quantities_of_interest import (
     QuantitiesOfInterest,
     quantities_of,
 )
 from comparisons.assessment.effects.variants import ModelVariant, problem_with
 from comparisons.common.cache import Cache
-from comparisons.common.errors import InputError, one_line
+from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import Call, fresh_process, share_out
 from comparisons.common.progress import ProgressCallback, Stages, Step, machine_memory
@@ -43,20 +44,9 @@ LARGEST = 3.0  # memory of a variant over that of the scene's own: a finite roll
 BEHIND = (0.0, 0.15, 0.4, 1.0)
 
 
-class NotComputedError(Exception):
-    """A model variant has no solution; the message says why."""
-
-    def __init__(self, variant: ModelVariant, why: str) -> None:
-        super().__init__(variant, why)
-        self.variant = variant
-
-    def __str__(self) -> str:
-        return one_line(self.args[1])
-
-
 @dataclass
 class SolvedVariants:
-    """Quantities of interest of model variants on the levels of a problem, without their fields.
+    """Quantities of interest of model variants on the levels of a problem.
 
     own       the scene's own finite elements, already solved
     cache     of levels
@@ -65,6 +55,7 @@ class SolvedVariants:
     failed    why a variant has no solution, by variant and number of the level
     seconds   that the variants took, of all processes together
     expected  the same by the laws of cost [s], by variant and number of the level
+    wholes    the variants whose finest level is kept, with its fields; by these, the level
     """
 
     problem: Problem
@@ -79,6 +70,7 @@ class SolvedVariants:
     failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
     seconds: float = 0.0
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
+    wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._body_cache: BodyCache | None = None
@@ -111,7 +103,7 @@ class SolvedVariants:
             self._solve_here(variant, number, stop - (stop - start) * left / len(new))
 
         def there(call: Call, variant: ModelVariant) -> None:
-            given = self.problem, self.window, variant, number
+            given = self.problem, self.window, variant, number, variant in self.wholes
             self._keep(variant, number, lambda: call(_solved_there, *given))
 
         share_out(new, here, [partial(there, call) for call in self._helpers(number, len(new))])
@@ -134,10 +126,18 @@ class SolvedVariants:
         return not solved and (variant, number) not in self.failed
 
     def _is_own(self, variant: ModelVariant) -> bool:
-        plain = not (variant.stand_in or variant.held)
         frictions = self.problem.scene.friction
         shaped = variant.friction is None or frictions == (variant.friction,)
-        return plain and shaped and variant.effects == self._own_effects
+        return shaped and not variant.quadratic and variant.effects == self._own_effects
+
+    def keep(self, wholes: Iterable[ModelVariant]) -> None:
+        """Take these for `wholes`, from their first level on."""
+        self.wholes = dict.fromkeys(wholes)
+        self.solved = {key: each for key, each in self.solved.items() if key[0] not in self.wholes}
+
+    def finest(self, variant: ModelVariant) -> Level:
+        """The finest level of one of the `wholes`."""
+        return self.own.finest if self._is_own(variant) else self.wholes[variant]
 
     def _solve_here(self, variant: ModelVariant, number: int, behind: float) -> None:
         from comparisons.models.finite_element.bodies import BodyCache
@@ -145,12 +145,13 @@ class SolvedVariants:
         words = ", ".join(EFFECTS[name].label for name in sorted(variant.effects)) or "no effect"
         self.callback(Step(f"error budget: finite elements with {words}, level {number}", behind))
         body_cache = self._body_cache = self._body_cache or BodyCache()
-        given = self.problem, self.window, variant, number, body_cache
-        self._keep(variant, number, lambda: _solved(*given))
+        given = self.problem, self.window, variant, number, variant in self.wholes
+        self._keep(variant, number, lambda: _solved(*given, body_cache))
 
     def _keep(self, variant: ModelVariant, number: int, solve: Callable[[], Level]) -> None:
         """Note the solution of a variant on a level, or why it has none."""
-        kept, problem = f"{variant.name}-{number}", problem_with(self.problem, variant)
+        part = "whole" if variant in self.wholes else "part"
+        kept, problem = f"{part}-{variant.name}-{number}", problem_with(self.problem, variant)
         level = self.cache.load(kept)
         if level is None:
             try:
@@ -161,6 +162,8 @@ class SolvedVariants:
             self.cache.save(kept, level)
         with self._lock:
             self.seconds += sum(level.seconds.values())
+            if variant in self.wholes:
+                self.wholes[variant] = level
         self.expected[variant, number] = level.expected_seconds
         for each in problem.scene.friction:
             self.solved[variant, number, each] = quantities_of(level, problem, each)
@@ -181,9 +184,10 @@ def _solved(
     window: Window | None,
     variant: ModelVariant,
     number: int,
+    fields: bool,
     body_cache: "BodyCache",
 ) -> Level:
-    """A variant on a level, without its mesh's field; raises NotComputedError."""
+    """A variant on a level, with its mesh's `fields` where asked; raises NotComputedError."""
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
@@ -199,14 +203,14 @@ def _solved(
     low, high = problem.extent
     if level.patches[0, 0] < low + CLEAR * pitch or level.patches[-1, 1] > high - CLEAR * pitch:
         raise NotComputedError(variant, "the contact reaches the end of the pressures")
-    return replace(level, mesh_field=None)
+    return level if fields else replace(level, mesh_field=None)
 
 
 def _solved_there(
-    problem: Problem, window: Window | None, variant: ModelVariant, number: int
+    problem: Problem, window: Window | None, variant: ModelVariant, number: int, fields: bool
 ) -> Level:
     """The same in another process, whose variants share meshes and factors."""
-    return _solved(problem, window, variant, number, _body_cache_of_process())
+    return _solved(problem, window, variant, number, fields, _body_cache_of_process())
 
 
 @cache

@@ -110,11 +110,13 @@ def finite_element_level(
         expected_memory=cost.memory,
         mesh=bodies.rough.mesh,
         operator=checked,
+        material=pressed.material,
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
-        stresses, mesh_field = stresses_of(pressed, scene.friction, window)
+        frictions, asperities = scene.friction, problem.asperities
+        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
 

@@ -11,13 +11,13 @@ from analytic.grid import HatGrid
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
-from comparisons.models.level import MeshField, StressResult
+from comparisons.models.level import MeshField, StressResult, highest
 from comparisons.models.problem import Problem, ends_of, mean_height
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.hyperelastic import along_surface
-from fem.stress.maximum import maximum
+from fem.stress.maximum import maxima, maximum
 from fem.stress.stress import NodalStress, evaluate, nodal_stress
 
 
@@ -29,6 +29,8 @@ class LoadedBody:
     stress        by friction coefficient
     patches       (k, 2) [m] contact patches
     others        further fields at the mesh's points (n,), by name
+    material      (count,) [m] where what now stands at the grid's nodes stood without load; None:
+                  there
     """
 
     body: ElasticBody
@@ -37,6 +39,7 @@ class LoadedBody:
     stress: Callable[[float], NodalStress]
     patches: np.ndarray
     others: dict[str, np.ndarray] = field(default_factory=dict)
+    material: np.ndarray | None = None
 
 
 def pressed_linearly(
@@ -102,30 +105,37 @@ def on_undeformed_grid(
         solution=replace(solution, pressure=pressure, gap=gap),
         displacement=(height - now) * grid.weights,
         patches=np.interp(loaded.patches, x, place),
+        material=np.interp(x, place, x),
     )
 
 
 def stresses_of(
-    pressed: LoadedBody, frictions: tuple[float, ...], window: Window
+    pressed: LoadedBody,
+    frictions: tuple[float, ...],
+    window: Window,
+    asperities: tuple[float, ...] = (),
 ) -> tuple[tuple[StressResult, ...], MeshField]:
-    """Extremes and fields on the window, one set a friction coefficient, and all on the mesh."""
+    """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
+
+    asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
+    """
     body, results, on_mesh = pressed.body, [], {}
     bounds = (-window.extent, window.extent, window.z[-1])
-    quantities = {
-        "tau1": lambda stress: stress.tau1,
-        "txz": lambda stress: np.abs(stress.txz),
-        "von_mises": lambda stress: stress.von_mises(stress.poissons_ratio),
-    }
+    shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     for friction in frictions:
         nodal = pressed.stress(friction)
-        extremes = {name: maximum(body, nodal, of, bounds) for name, of in quantities.items()}
+        found = {n: maxima(body, nodal, of, bounds, asperities) for n, of in shears.items()}
+        extremes = {name: highest(each) for name, each in found.items()}
+        extremes["von_mises"] = maximum(
+            body, nodal, lambda stress: stress.von_mises(stress.poissons_ratio), bounds
+        )
         if "von_mises" in pressed.others:  # it does not follow from the stresses
             von_mises, (x, z) = pressed.others["von_mises"], body.points.T
             inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
             top = np.argmax(np.where(inside, von_mises, -np.inf))
             extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
         x, z = np.meshgrid(window.x, window.z)
-        results.append(StressResult(friction, extremes, evaluate(body, nodal, x, z)))
+        results.append(StressResult(friction, extremes, evaluate(body, nodal, x, z), found))
         stress, nodes = nodal.stress, nodal.nodes
         on_mesh[friction] = StressState(stress.sx, stress.sz, stress.txz)
     mesh_field = MeshField(

@@ -28,7 +28,7 @@ WIDTH = 2.85  # inches of a panel, about
 BAR = 0.66  # of a row
 TITLE_LETTERS = 15.0  # to the inch
 ROOM = 0.3, 0.08  # beyond the bars, share of their range: for numbers to the right, to the left
-INTERACTION, NUMERICAL = "interaction", "without any effect"
+INTERACTION, NUMERICAL, JUMP = "interaction", "without any effect", "another asperity"
 OTHERS, ERROR = "smaller steps", "model error"
 LOOKS = {
     True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
@@ -83,7 +83,7 @@ def waterfalls(outcome: Outcome) -> list[Waterfall]:
 def _steps(error: dict, is_norm: bool) -> dict[str, float]:
     """An effect that raises the finite elements' figure makes the half-plane's too low."""
     effects = {EFFECTS[name].label: effect["value"] for name, effect in error["effects"].items()}
-    effects[INTERACTION] = error["interaction"]
+    effects |= {INTERACTION: error["interaction"], JUMP: -error["jump"]}
     if is_norm:
         return {name: abs(size) for name, size in effects.items()}
     steps = {name: -size for name, size in effects.items()}
@@ -125,7 +125,7 @@ def _drawn(panels: list[Waterfall], columns: int) -> "Figure":
     """All panels with the same rows, so many side by side."""
     columns = min(columns, len(panels))
     worth = {name for panel in panels for name, _ in _large(panel)}
-    names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), INTERACTION]
+    names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), INTERACTION, JUMP]
     rows = [name for name in names if name in worth]
     if any(set(panel.steps) - worth for panel in panels):
         rows.append(OTHERS)

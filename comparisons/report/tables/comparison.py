@@ -9,6 +9,7 @@ from comparisons.assessment.verdict import Comparison
 from comparisons.common.numbers import Scale, given_percent, percent, plain, scale_of, with_unit
 from comparisons.common.quantities import HYPHENATED, QUANTITIES, label
 from comparisons.models.problem import Problem
+from comparisons.report.tables.model_error import left_out
 from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
@@ -96,6 +97,7 @@ def figure_table(outcome: Outcome) -> TextTable:
 
 def _row(outcome: Outcome, row: Comparison, frictions: str) -> ComparisonRow:
     problem, values = outcome.problem, (row.half_plane, row.finite_element)
+    capped = "capped in both" if _capped(problem, row) else ""
     scale = scale_of(values, QUANTITIES[row.quantity].unit)
     half_plane, finite_element = ("" if v is None else scale.text(v) for v in values)
     return ComparisonRow(
@@ -110,7 +112,7 @@ def _row(outcome: Outcome, row: Comparison, frictions: str) -> ComparisonRow:
         tolerance="" if row.tolerance is None else given_percent(row.tolerance),
         verdict=row.verdict or "",
         reference=reference_of(outcome, row.quantity),
-        note="capped in both" if _capped(problem, row) else "",
+        note=", ".join(filter(None, (capped, left_out(outcome, row.quantity)))),
     )
 
 

@@ -19,6 +19,8 @@ class ModelErrorRow:
 
     contributions  what makes it up, the largest first, each with its sign; of pressures before
                    these what is left with peaks moved
+    note           what to know before the figure is taken for evidence
+    moved          where the whole has its largest value, if not at the half-plane's asperity
     """
 
     quantity: str
@@ -28,6 +30,8 @@ class ModelErrorRow:
     uncertainty: str
     tolerance: str
     contributions: tuple[str, ...]
+    note: str
+    moved: str
 
 
 def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorRow]:
@@ -38,7 +42,7 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
         errors = [e for e in outcome.budget.model_errors if e.quantity == name]
         if judged and name not in tolerance:
             continue
-        for same in grouped(errors, _shown):
+        for same in grouped(errors, lambda error: (_shown(error), error.moved)):
             error, uncertainty, contributions = _shown(same[0])
             without = moved_text(outcome, same[0].friction) if name == "pressure_l2" else ()
             rows.append(
@@ -50,6 +54,8 @@ def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorR
                     uncertainty=uncertainty,
                     tolerance=given_percent(tolerance[name]) if name in tolerance else "",
                     contributions=(*without, *contributions),
+                    note=left_out(outcome, name),
+                    moved=_moved(same),
                 )
             )
     return rows
@@ -60,6 +66,21 @@ def _shown(error: ModelError) -> tuple[str, str, tuple[str, ...]]:
     return size, percent(error.uncertainty), contributions_in_words(error)
 
 
+def left_out(outcome: Outcome, quantity: str) -> str:
+    """That effects which no model has may exceed the tolerance of a quantity; else nothing."""
+    budget, tolerance = outcome.budget, outcome.problem.scene.tolerance
+    size = None if budget is None else budget.beyond(quantity, tolerance)
+    return "" if size is None else f"{percent(size)} not modelled"
+
+
+def _moved(errors: list[ModelError]) -> str:
+    moves = [error.moved for error in errors if error.moved]
+    if not moves:
+        return ""
+    before, after = (with_unit(x, "m", 4) for x in moves[0])
+    return f"at x = {after}, of the half-plane at {before}"
+
+
 def contributions_in_words(error: ModelError) -> tuple[str, ...]:
     """What the half-plane does not model, as shares of its error, the largest first.
 
@@ -67,7 +88,7 @@ def contributions_in_words(error: ModelError) -> tuple[str, ...]:
     sign.
     """
     sizes = {EFFECTS[name].label: -effect.value for name, effect in error.effects.items()}
-    sizes["interaction"] = -error.interaction
+    sizes |= {"interaction": -error.interaction, "another asperity": error.jump}
     least = max(SHOWN, 0.1 * abs(error.value))
     is_norm = QUANTITIES[error.quantity].of_pair
     return tuple(

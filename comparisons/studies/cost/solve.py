@@ -156,7 +156,7 @@ def _adapted(
     """On a mesh and hats that the contact chooses; a block with the half-plane's far field."""
     from analytic.surface.roughness import shortest_wavelength
     from comparisons.models.finite_element.adaptive import Pressing, adapted_contact
-    from comparisons.models.finite_element.stress import Pressed, stresses_of
+    from comparisons.models.finite_element.stress import LoadedBody, stresses_of
     from fem.body.surface import straight_down
     from fem.stress.stress import nodal_stress
 
@@ -182,7 +182,7 @@ def _adapted(
 
         with stages.stage("stresses"):
             nothing = np.zeros(rough.count)
-            pressed = Pressed(rough.body, contact.solution, nothing, stress, np.empty((0, 2)))
+            pressed = LoadedBody(rough.body, contact.solution, nothing, stress, np.empty((0, 2)))
             stresses, _ = stresses_of(pressed, scene.friction, window)
     of_contact = {
         "peak_pressure": contact.peak_pressure,

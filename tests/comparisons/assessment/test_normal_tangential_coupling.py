@@ -68,7 +68,7 @@ def half_plane_of(problem) -> ModelRun:
 
 def estimate(problem, found) -> dict | None:
     """How much friction may change by moving the surfaces, by quantity."""
-    every = estimates(problem, problem.hertz.peak_pressure, (), found)
+    every = estimates(problem, *2 * [problem.hertz.peak_pressure], couplings=found)
     return every.get("normal_tangential_coupling")
 
 

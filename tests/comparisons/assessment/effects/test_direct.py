@@ -12,6 +12,7 @@ from scenes import RUBBER, STEEL, problem, resolved
 
 from comparisons.assessment.comparison import figures, norms
 from comparisons.assessment.effects.catalogue import contained
+from comparisons.assessment.effects.contributions import split_variants
 from comparisons.assessment.effects.model_error import ModelError
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS
@@ -19,15 +20,20 @@ from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
 from comparisons.results.outcome import Outcome
 from comparisons.runs.run import run
 
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
 ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
 ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
-LINEAR = {"gap": "displaced", "roller_shape": "circle"}
-STRAINED = LINEAR | {"deformation": "finite"}
+LIKE_STEEL = {"roller": {"radius": 10e-3, **STEEL}, "body": STEEL}
+WAVES = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6}
+STRESS = {"depth": 0.5, "half_range": 1.2, "points": [40, 20]}
+CIRCLE = {"roller_shape": "circle"}
+STRAINED = CIRCLE | {"gap": "displaced", "deformation": "finite"}
 QUANTITIES = ("peak_pressure", "contact_length", "pressure_l2")
+STRESSES = ("tau1_max", "txz_max_abs")
 
 # What both scenes have, and the switches that one of them has beside it.
 SCENES = {
@@ -51,10 +57,24 @@ SCENES = {
     "waves on steel, friction": (
         ON_STEEL
         | {
-            "profile": {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6},
+            "profile": WAVES,
             "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
+            "stress": STRESS,
         },
         STRAINED | {"coupled": True, "geometry": "rough"},
+    ),
+    "steel on steel": (
+        LIKE_STEEL | {"load": {"hertz_peak_pressure": 3e9}},
+        STRAINED | {"roller_body": "disc"},
+    ),
+    "waves, steel on steel, friction": (
+        LIKE_STEEL
+        | {
+            "profile": WAVES,
+            "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.1},
+            "stress": STRESS,
+        },
+        STRAINED | {"coupled": True, "geometry": "rough", "roller_body": "disc"},
     ),
     "coated steel, friction": (
         {
@@ -63,14 +83,15 @@ SCENES = {
             "coating": COATING,
             "load": {"hertz_peak_pressure": 2.5e9, "friction": 0.2},
         },
-        LINEAR | {"coupled": True},
+        CIRCLE | {"coupled": True},
     ),
 }
 
 
 def outcome_of(tables: dict, levels: int) -> Outcome:
     """On three levels, its effects on so many."""
-    scene = resolved(tables | {"tolerance": dict.fromkeys(QUANTITIES, 1e-5)})
+    judged = {*QUANTITIES, *(STRESSES if "stress" in tables else ())}
+    scene = resolved(tables | {"tolerance": dict.fromkeys(judged, 1e-5)})
     scene = replace(
         scene,
         resolution=replace(scene.resolution, most=3),
@@ -83,26 +104,28 @@ def direct_errors(tables: dict) -> dict[str, float]:
     """(half-plane - finite elements) / finite elements on the third level, by quantity."""
     posed = problem(tables)
     plan, pitch = make_plan(posed, MODELS), posed.pitches[2]
+    window = window_of(posed) if plan.stress else None
     friction = posed.scene.friction[0]
-    one = half_plane_level(posed, pitch, None, Stages())
-    other = finite_element_level(posed, plan, Refinement(pitch), None, Stages())
+    one = half_plane_level(posed, pitch, window, Stages())
+    other = finite_element_level(posed, plan, Refinement(pitch), window, Stages())
     flat, real = (figures(level, posed, friction) for level in (one, other))
-    found = {name: flat[name] / real[name] - 1.0 for name in QUANTITIES[:2]}
-    return found | norms(one, other, posed, friction, None)
+    found = {name: flat[name] / real[name] - 1.0 for name in flat}
+    return found | norms(one, other, posed, friction, window)
 
 
 def both(name: str, levels: int, elements: float) -> list[tuple[ModelError, float]]:
-    """Of every judged quantity, put together and switched on; the third level has so many elements
-    to a half-width."""
+    """Of every quantity, put together and switched on; the third level has so many elements to a
+    half-width."""
     tables, switches = SCENES[name]
     half_width = problem(tables).hertz.half_width
     tables = tables | {"resolution": {"pitch": 4.0 * half_width / elements}}
     added, switched = outcome_of(tables, levels), tables | {"finite_element": switches}
     assert added.budget.levels == levels and added.budget.unsplit is None
-    assert added.budget.selection.whole == contained(resolved(switched))
-    errors = direct_errors(switched)
     friction = added.problem.scene.friction[0]
-    return [(added.budget.of(quantity, friction), errors[quantity]) for quantity in QUANTITIES]
+    split = split_variants(added.problem, added.budget.selection, friction)
+    assert split.whole.effects == contained(resolved(switched))
+    errors = direct_errors(switched)
+    return [(added.budget.of(quantity, friction), each) for quantity, each in errors.items()]
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from comparisons.assessment.effects import solutions as solve
-from comparisons.assessment.effects.contributions import contributions_of, variants_for
-from comparisons.assessment.effects.selection import EffectSelection
-from comparisons.assessment.effects.solutions import (
+from comparisons.assessment.effects.contributions import (
     NotComputedError,
-    SolvedVariants,
-    processes_beside,
+    contributions_of,
+    split_variants,
 )
+from comparisons.assessment.effects.selection import EffectSelection
+from comparisons.assessment.effects.solutions import SolvedVariants, processes_beside
 from comparisons.assessment.effects.variants import ModelVariant
 from comparisons.assessment.refinement import refined
 from comparisons.common.processes import ProcessEnded, fresh_process
@@ -26,7 +26,7 @@ from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 
 RIGID = {"rigid": True}
-SELECTION = EffectSelection(frozenset(), frozenset({"deformed_gap", "finite_strain"}), {}, {}, {})
+SELECTION = EffectSelection(frozenset(), frozenset({"exact_circle", "finite_strain"}), {}, {}, {})
 
 
 @pytest.fixture(scope="module")
@@ -57,12 +57,16 @@ def test_bodies_beside_answer_as_here(made, always):
             return call(*given)
 
         shared.beside = [seen]
-        asked = variants_for(shared.problem, SELECTION)
-        shared.prepare(asked, 1)
-    assert answered and len(asked) == 3  # the gap's own is what strain is measured beside
-    assert all((body, 1, 0.0) in shared.solved for body in asked[1:])
-    one, two = (contributions_of(b.problem, b, SELECTION, 0.0, 1) for b in (alone, shared))
-    assert one.not_contained.figures == two.not_contained.figures
+        split = split_variants(shared.problem, SELECTION, 0.0)
+        shared.keep([split.whole])
+        shared.prepare(split.all, 1)
+    assert answered and len(split.all) == 4
+    solved = {variant for variant, _, _ in shared.solved}
+    assert solved == {*split.all} - {split.nothing}  # which is the scene's own
+    assert shared.finest(split.whole) is shared.wholes[split.whole] is not None
+    one, two = (contributions_of(bodies, split, 0.0, 1) for bodies in (alone, shared))
+    for name, values in one.not_contained.figures.items():
+        np.testing.assert_array_equal(values, two.not_contained.figures[name])
     np.testing.assert_array_equal(one.not_contained.pressure, two.not_contained.pressure)
     assert alone.expected_of(1) == shared.expected_of(1) > 0.0 == shared.expected_of(2)
 

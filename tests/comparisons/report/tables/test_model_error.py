@@ -21,6 +21,7 @@ from comparisons.report.figures.model_error import (
 )
 from comparisons.report.figures.style import collected_figures, drawing
 from comparisons.report.page import render
+from comparisons.report.tables.comparison import comparison_rows
 from comparisons.report.tables.model_error import effects_table, model_error_rows, not_modelled_line
 from comparisons.report.terminal import summary
 from comparisons.results.outcome import Outcome
@@ -79,6 +80,28 @@ def test_rows_join_equal_frictions_and_list_what_counts(split: Outcome):
     assert [row.quantity for row in model_error_rows(split, judged=True)] == ["peak_pressure"]
 
 
+def test_a_maximum_that_moves_is_named_with_its_places(split: Outcome):
+    moved = replace(split.budget.model_errors[1], jump=0.02, moved=(-1.5e-4, 2.5e-5))
+    errors = (split.budget.model_errors[0], moved)
+    moves = replace(split, budget=replace(split.budget, model_errors=errors))
+    first, second = model_error_rows(moves)
+    assert (first.moved, second.moved) == ("", "at x = 25.00 µm, of the half-plane at −150.0 µm")
+    assert "another asperity +2.0 %" in second.contributions
+
+
+def test_a_row_says_what_may_exceed_its_tolerance(split: Outcome):
+    """In both tables and in the result."""
+    rows = [*model_error_rows(split), *comparison_rows(split)]
+    assert {row.quantity: row.note for row in rows} == {
+        "peak_pressure": "8.0 % not modelled",
+        "pressure_l2": "",
+    }
+    [entry, *_] = split.result["model_error"]["peak_pressure"]
+    assert entry["not_modelled_exceeds_tolerance"] is True
+    [norm] = split.result["model_error"]["pressure_l2"]
+    assert norm["not_modelled_exceeds_tolerance"] is None  # it is not judged
+
+
 def test_what_is_not_modelled_stands_with_its_size_and_reason(split: Outcome):
     assert not_modelled_line(split) == (
         "plastic flow (at most 8.0 %): the body has no yield stress; exact circle (at most 0.15 %)"
@@ -98,7 +121,7 @@ def test_every_effect_that_applies_is_in_the_table(split: Outcome):
         "finite thickness or width": "contained",
         "deformed gap": "computed",
         "exact circle": "negligible",
-        "finite strain": "computed",
+        "finite deformation": "computed",
         "plastic flow": "not computed",
     }
     said = {row[0]: row[4] for row in table.rows}
@@ -169,6 +192,7 @@ def test_the_terminal_shows_it_in_80_columns(split: Outcome):
     assert max(map(len, text.splitlines())) <= 80
     flat = " ".join(text.split())
     assert re.search(
-        r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 deformed gap", flat
+        r"peak pressure 0, 0\.1 -3\.1 0\.12 2 finite thickness or width -4\.0 8\.0 % not modelled",
+        flat,
     )
     assert "not modelled plastic flow (at most 8.0%" in flat
