@@ -45,7 +45,8 @@ class Plots:
     model_error = _method("model_error", "The half-plane's errors by source, and their tolerances.")
 
     def field(self, component: str = "tau1", friction: float | None = None) -> "list[Axes]":
-        """A stress component below the contact by each model, and the difference.
+        """A stress component below the contact by the half-plane and by the whole model, or the
+        scene's own finite elements where these are it, and the difference.
 
         component  tau1 or txz
         friction   coefficient; the scene's first by default

@@ -1,8 +1,8 @@
 """A run in one picture, everything over the same x: the picture of the README.
 
-From the top: both models' pressures with Hertz's, their difference, the surfaces under load, and
-the principal shear stress below them by the finite elements, for the last friction coefficient.
-This command makes it again:
+From the top: all models' pressures with Hertz's, the half-plane's less the whole model's, the
+surfaces under load, and the principal shear stress below them by the whole model, all at the
+friction coefficient that decides. This command makes it again:
 
     .venv/bin/python -c "from comparisons.runs.readme_picture import remake; remake()"
 """
@@ -12,11 +12,12 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from comparisons.common.numbers import Scale, percent, plain, significant
-from comparisons.common.quantities import MODELS
+from comparisons.common.quantities import LABELS, MODELS
 from comparisons.report.figures.fields import colour_bar, cross, fill, round_bands
 from comparisons.report.figures.pressures import draw_difference, draw_pressures
 from comparisons.report.figures.style import drawing, figure, stacked
 from comparisons.report.figures.surfaces import draw_surfaces
+from comparisons.report.tables.model_error import moved_text
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -44,8 +45,11 @@ def overview(outcome: Outcome) -> "Figure":
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
     pressures.legend(loc="upper right", ncols=3, **look)
     draw_difference(differences, *given)
-    norm = next(row for row in outcome.comparisons if row.quantity == "pressure_l2")
-    words = f"half-plane − finite elements: {percent(norm.difference)} (relative L2 norm)"
+    friction = outcome.deciding_friction
+    norm = percent(outcome.budget.of("pressure_l2", friction).value)
+    models = " − ".join(LABELS[name] for name in outcome.pair(friction))
+    moved = "".join(f", {text} on average" for text in moved_text(outcome, friction))
+    words = f"{models}: {norm} (relative L2 norm){moved}"
     differences.text(0.008, 0.93, words, transform=differences.transAxes, va="top")
     draw_surfaces(surfaces, *given)
     _shear(shear, bar, outcome)
@@ -71,20 +75,22 @@ def remake(scene: str = "ground-unrun", path: Path = PICTURE) -> None:
 
 def _shear(axes: "Axes", bar: "Axes", outcome: Outcome) -> None:
     hertz, window = outcome.problem.hertz, outcome.window
-    friction = outcome.problem.scene.friction[-1]
-    found = {model: run.finest.stress(friction) for model, run in outcome.runs.items()}
-    field = found["finite_element"].field.tau1 / hertz.peak_pressure
+    friction = outcome.deciding_friction
+    levels = outcome.levels(friction)
+    found = {model: level.stress(friction) for model, level in levels.items()}
+    last = list(levels)[-1]
+    field = found[last].field.tau1 / hertz.peak_pressure
     bands = round_bands([field], signed=False)
     x, z = window.x / hertz.half_width, window.z / hertz.half_width
     shown = fill(axes, x, z, field, bands, "viridis", False)
-    place = found["finite_element"].extremes["tau1"]
+    place = found[last].extremes["tau1"]
     cross(axes, place.x / hertz.half_width, place.z / hertz.half_width)
     largest = {
         model: significant(stress.extremes["tau1"].value / hertz.peak_pressure, 3)
         for model, stress in found.items()
     }
     axes.set_title(
-        f"principal shear τ₁ by finite elements, friction {plain(friction)}: largest "
-        f"{largest['finite_element']} p₀ at + (half-plane {largest['half_plane']} p₀)"
+        f"principal shear τ₁, {LABELS[last]}, friction {plain(friction)}: largest "
+        f"{largest[last]} p₀ at + (half-plane {largest['half_plane']} p₀)"
     )
     colour_bar(axes.figure, bar, shown, "τ₁/p₀", bands)

@@ -26,6 +26,7 @@ ROW, TITLE, FOOT, TOP = 0.21, 0.42, 0.5, 0.06  # inches: a step, the words above
 NAMES, BETWEEN, RIGHT = 1.95, 0.25, 0.1  # inches: names of the steps, from panel to panel
 WIDTH = 2.85  # inches of a panel, about
 BAR = 0.66  # of a row
+NOTHING = 1e-6  # a step below it is none
 TITLE_LETTERS = 15.0  # to the inch
 ROOM = 0.3, 0.08  # beyond the bars, share of their range: for numbers to the right, to the left
 INTERACTION, NUMERICAL, JUMP = "interaction", "without any effect", "another asperity"
@@ -110,7 +111,8 @@ def model_error_picture(outcome: Outcome) -> style.Picture | None:
         "figure: it starts with the half-plane's difference from finite elements without any of "
         "the effects, which is numerical, and each effect moves it, to the left (hatched) where "
         "the half-plane's figure becomes too low. Norms have sizes alone, which do not add up. "
-        f"Black: the error with its uncertainty; thin: with what is not modelled{lines}.",
+        "Black: the error with its uncertainty; thin: with what is not modelled, "
+        f"cut off without an end where it would hide the steps{lines}.",
         wide=True,
     )
 
@@ -156,31 +158,34 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     for y, size in zip(place, shown.values(), strict=False):
         begin = 0.0 if panel.is_norm else start
         start = begin + 100.0 * size
-        if abs(size) > 1e-6:
+        if abs(size) > NOTHING:
             sign = None if panel.is_norm else size > 0.0
             axes.barh(y, start - begin, left=begin, height=BAR, linewidth=0.5, **LOOKS[sign])
             text = error_text(panel.quantity, size, panel.uncertainty)
             _beside(axes, max(begin, start), y, text)
         if not panel.is_norm:
-            top = y - 0.5 * BAR if size else y + 0.5 * BAR  # past a step that does not apply
+            top = (
+                y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
+            )  # past a step that does not apply
             axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
     value, y = 100.0 * panel.error, place[-1]
     axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
     certain = 100.0 * panel.uncertainty if math.isfinite(panel.uncertainty) else 0.0
-    for reach, thick, caps in ((certain, 1.4, 3.0), (certain + 100.0 * panel.not_modelled, 0.6, 2)):
+    at = 100.0 * (panel.tolerance or 0.0)
+    most = max(*map(abs, ends), abs(value) + certain, at)
+    estimate = min(100.0 * panel.not_modelled, most)  # more would hide the steps
+    bars = (certain, 1.4, 3.0), (certain + estimate, 0.6, 2.0 * (estimate < most))
+    for reach, thick, caps in bars:
         look = {"elinewidth": thick, "capsize": caps, "color": "#000000", "fmt": "none"}
         low = min(reach, value) if panel.is_norm else reach
         axes.errorbar(value, y, xerr=[[low], [reach]], **look)
         ends += [value - low, value + reach]
     text = error_text(panel.quantity, panel.error, panel.uncertainty)
     _beside(axes, max(ends[-1], value, 0.0), y, text)
-    if panel.tolerance:
-        sides = (1.0,) if panel.is_norm else (-1.0, 1.0)
-        for side in sides:
-            at = 100.0 * side * panel.tolerance
-            axes.axvline(at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
-            ends.append(at)
+    for side in ((1.0,) if panel.is_norm else (-1.0, 1.0)) if panel.tolerance else ():
+        axes.axvline(side * at, color="#000000", linestyle=(0, (3, 2)), linewidth=0.9)
+        ends.append(side * at)
     axes.axvline(0.0, color="#555555", linewidth=0.7)
     low, high = min(ends), max(ends)
     axes.set_xlim(low - ROOM[1] * (high - low) * (low < 0.0), high + ROOM[0] * (high - low))

@@ -90,7 +90,7 @@ def close_up_picture(outcome: Outcome) -> style.Picture:
         alternative=f"Pressures of the models around {place}, {at}.",
         caption=(
             f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
-            f"{with_unit(pitch, 'm', 3)} apart."
+            f"{with_unit(pitch, 'm', 3)} apart ({LABELS[list(shown_levels(outcome))[-1]]})."
         ),
     )
 
@@ -167,13 +167,15 @@ def draw_pressures(
     nodes  whether the nodes of the pressures are marked
     """
     hertz = outcome.problem.hertz
+    several = len(outcome.problem.scene.friction) > 1
+    sliding = f", μ = {plain(outcome.deciding_friction)}" if several else ""
     for name, level in shown_levels(outcome).items():
         x, pressure = _closed(level)
         shown = style.near(x, across, level.grid.pitch)
         axes.plot(
             x[shown] / unit.factor,
             pressure[shown] / hertz.peak_pressure,
-            label=LABELS[name],
+            label=LABELS[name] + (sliding if name == WHOLE else ""),
             marker=MARKERS[name] if nodes else None,
             markersize=3.2,
             markerfacecolor="none",

@@ -77,8 +77,8 @@ def test_pressures_and_their_difference_are_those_of_the_whole(outcome: Outcome,
     p0, whole = outcome.problem.hertz.peak_pressure, outcome.budget.wholes[0.1]
     for figure in drawn(pressure_picture, outcome):
         above, difference, _ = figure.axes
-        assert labels(above)[:3] == ["half-plane", "finite elements", "whole model"]
-        line = next(line for line in above.lines if line.get_label() == "whole model")
+        assert labels(above)[:3] == ["half-plane", "finite elements", "whole model, μ = 0.1"]
+        line = next(line for line in above.lines if line.get_label() == "whole model, μ = 0.1")
         assert line.get_ydata()[1:-1] == pytest.approx(whole.solution.pressure / p0)
         half_plane = outcome.runs["half_plane"].levels[-2].solution.pressure
         assert difference.lines[0].get_ydata()[1:-1] == pytest.approx(
