@@ -23,7 +23,7 @@ from comparisons.commands.arguments import RESULTS
 from comparisons.common.errors import ExitStatus
 from comparisons.common.files import OWN_FILES, OWN_FOLDERS
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import MODELS, QUANTITIES
+from comparisons.common.quantities import LABELS, MODELS, QUANTITIES
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import problem_of
 from comparisons.models.window import window_of
@@ -386,20 +386,24 @@ class TestPicture:
         with drawing():
             pressures, differences, surfaces, shear, _ = overview.overview(mine.outcome).axes
         drawn = {line.get_label(): line.get_xydata() for line in pressures.lines}
-        half_plane, finite_element = (mine.outcome.runs[name].finest for name in MODELS)
+        friction = mine.outcome.deciding_friction
+        levels = mine.outcome.levels(friction)
         ends = overview.REACH * hertz.half_width
-        for label, level in (("half-plane", half_plane), ("finite elements", finite_element)):
+        for name, level in levels.items():
+            label = next(each for each in drawn if each.startswith(LABELS[name]))
             shown = np.abs(level.grid.x) <= ends
             x, pressure = drawn[label].T * [[hertz.half_width], [hertz.peak_pressure]]
             drawn_here = np.interp(level.grid.x[shown], x, pressure)
             assert drawn_here == pytest.approx(level.solution.pressure[shown])
         assert np.max(drawn["Hertz, smooth"][:, 1]) == pytest.approx(1.0, abs=1e-5)
-        difference = half_plane.solution.pressure - finite_element.solution.pressure
+        half_plane, last = mine.outcome.pair(friction).values()
+        difference = half_plane.solution.pressure - last.solution.pressure
         x, between = differences.lines[0].get_xydata().T
-        drawn_here = np.interp(finite_element.grid.x[shown] / hertz.half_width, x, between)
+        shown = np.abs(last.grid.x) <= ends
+        drawn_here = np.interp(last.grid.x[shown] / hertz.half_width, x, between)
         assert drawn_here * hertz.peak_pressure == pytest.approx(difference[shown])
-        assert len(surfaces.lines) == 4
-        field = finite_element.stress(mine.outcome.problem.scene.friction[-1]).field.tau1
+        assert len(surfaces.lines) == 2 * len(levels)
+        field = last.stress(friction).field.tau1
         [image] = shear.images
         assert np.max(image.get_array()) == pytest.approx(
             np.max(field) / hertz.peak_pressure, rel=0.02

@@ -41,9 +41,9 @@ def overview(outcome: Outcome) -> "Figure":
     pressures, differences, surfaces, shear = panels
     given = outcome, (-REACH * half_width, REACH * half_width), Scale(half_width, "a")
     draw_pressures(pressures, *given)
-    pressures.set_ylim(0.0, 1.2 * pressures.dataLim.y1)
+    pressures.set_ylim(0.0, 1.25 * pressures.dataLim.y1)
     look = {"borderaxespad": 0.1, "columnspacing": 1.0, "handletextpad": 0.5}
-    pressures.legend(loc="upper right", ncols=3, **look)
+    pressures.legend(loc="upper right", ncols=2, **look)
     draw_difference(differences, *given)
     friction = outcome.deciding_friction
     norm = percent(outcome.budget.of("pressure_l2", friction).value)
