@@ -25,6 +25,7 @@ import numpy as np
 from comparisons.assessment.convergence import Convergence
 from comparisons.models.level import Level
 
+COVERAGE = 0.95  # of true errors by stated uncertainties: what `verify` demands and measures
 DOMAIN = 1.0 / (2.0**0.5 - 1.0)  # of the change that half the distance makes
 # A contact residual r leaves errors of up to this multiple of r in the pressures: 1e-6 of the
 # displacements' range was seen to leave 2e-3.

@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
+from comparisons.report.figures.convergence import convergence_picture
 from comparisons.report.figures.cost import cost_picture
 from comparisons.report.figures.fields import field_pictures, near_surface_pictures
 from comparisons.report.figures.mesh import mesh_pictures
@@ -17,6 +18,7 @@ from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_table
+from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.report.tables.verification import (
@@ -44,6 +46,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
     "sections": section_pictures,
     "mesh": mesh_pictures,
     "model_error": model_error_picture,
+    "convergence": convergence_picture,
     "cost": cost_picture,
 }
 
@@ -66,6 +69,9 @@ def render(outcome: Outcome) -> str:
         skipped=[(item.step, item.because) for item in outcome.plan.skipped],
         refinement=refinement_text(outcome),
         convergence=convergence_tables(outcome),
+        judged=judged_table(outcome),
+        validation=validation_table(outcome),
+        words=WORDS,
         domain=outcome.plan.domain_check,
         coupling=coupling_table(outcome),
         model_errors=[] if outcome.budget is None else model_error_rows(outcome),

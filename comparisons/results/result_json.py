@@ -9,7 +9,7 @@ from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.sideways import sideways_shift
-from comparisons.assessment.uncertainty import Uncertainty
+from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.assessment.verdict import Comparison, validity_verdict
 from comparisons.assessment.yielding import flow_assessment
 from comparisons.common.quantities import QUANTITIES
@@ -267,6 +267,13 @@ def error_budget_content(
             of_models = stated[friction].items()
             entry["numerical"] = {model: _numerical(own[name]) for model, own in of_models}
         entry["input"] = budget.sampling.get(friction, {}).get(name)
+        error = budget.of(name, friction)
+        entry["validation"] = {  # by the names of ASME V&V 20, expanded uncertainties
+            "E": error.value,
+            "u_num": _known(error.uncertainty),
+            "u_input": entry["input"],
+            "u_D": None,  # no measured data enter
+        }
         quantities.setdefault(name, []).append(entry)
     return {
         "effects": {name: _effect(name, budget) for name in EFFECTS},
@@ -304,8 +311,11 @@ def _numerical(uncertainty: Uncertainty) -> dict:
         "discretisation": _known(uncertainty.discretisation),
         "domain": uncertainty.domain,
         "convergence": convergence.behaviour,
+        "formal_order": convergence.formal_order,
         "order": convergence.order,
         "limit": convergence.limit,
+        "safety_factor": convergence.safety_factor,
+        "coverage": COVERAGE,
     }
 
 

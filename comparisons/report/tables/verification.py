@@ -10,7 +10,7 @@ from comparisons.common.numbers import integer, percent, plain, scale_of, signif
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
-from comparisons.models.problem import Problem
+from comparisons.report.tables.convergence import row_name
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
 
@@ -78,7 +78,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
         found = uncertainties(run, problem, friction)
         values = [figures(level, problem, friction) for level in levels]
         for name in values[0]:
-            words = _row_name(problem, name, friction)
+            words = row_name(outcome, name, friction)
             if words and name != "contact_ratio":  # the ratio is the length over a constant
                 scale = scale_of([v[name] for v in values], QUANTITIES[name].unit)
                 numbers = (scale.text(v[name], 5) for v in values)
@@ -91,21 +91,12 @@ def _of_pair(outcome: Outcome) -> TextTable:
     checked, rows = run.far_boundary_check is not None, []
     for pair in outcome.pairs:
         for name in pair.norms[0]:
-            words = _row_name(outcome.problem, name, pair.friction)
+            words = row_name(outcome, name, pair.friction)
             if words:
                 numbers = (percent(norms[name], digits=3) for norms in pair.norms)
                 rows.append((words, *numbers, *_parts(pair.uncertainties[name], checked)))
     head = _head(run, with_check=False)
     return TextTable("Difference of both models", head, tuple(rows))
-
-
-def _row_name(problem: Problem, name: str, friction: float) -> str:
-    """A quantity and its friction coefficient; empty for a figure that does not depend on friction
-    and stands at the first coefficient."""
-    frictions = problem.scene.friction
-    if not QUANTITIES[name].needs_stress:
-        return label(name) if friction == frictions[0] else ""
-    return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
 
 
 def _head(run: ModelRun, with_check: bool) -> tuple[str, ...]:

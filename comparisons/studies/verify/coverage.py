@@ -10,7 +10,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from comparisons.assessment.uncertainty import Uncertainty
+from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.studies.checks import (
     BoundedFigure,
     CheckedCase,
@@ -21,7 +21,7 @@ from comparisons.studies.checks import (
     run_case,
 )
 
-LEAST_COVERAGE = 0.95
+LEAST_COVERAGE = COVERAGE
 MOST_OVERESTIMATION = 5.0  # median of stated uncertainty over true error
 FEWEST = 200  # informative figures
 ROUND_OFF = 1e-10  # relative; the tables of references have as many digits

@@ -11,7 +11,7 @@ from analytic.grid import HatGrid, roller_gap
 from analytic.operators.half_plane import HalfPlane
 from comparisons.assessment.convergence import (
     IRREGULAR,
-    MOST_LEVELS,
+    LEVELS,
     REGULAR,
     TWO_GRIDS,
     grid_convergence,
@@ -22,7 +22,7 @@ def sequence(limit, error, order, levels=3):
     return [limit + error * 2.0 ** (-order * k) for k in range(levels)]
 
 
-@pytest.mark.parametrize("order", [0.5, 1.0, 1.5, 2.0])
+@pytest.mark.parametrize("order", [0.6, 1.0, 1.5, 2.0])
 @pytest.mark.parametrize("levels", [3, 4])
 def test_a_pure_power_gives_its_order_and_limit(order, levels):
     found = grid_convergence(sequence(7.0, 0.3, order, levels), formal_order=2.0)
@@ -59,7 +59,7 @@ def fitted(values, power):
     [
         ([1.0, 1.2, 1.1], "oscillating"),
         ([1.0, 1.4, 1.35], "oscillating"),
-        ([1.0, 1.1, 1.05, 1.07], "oscillating"),
+        ([9.0, 1.1, 1.05, 1.07], "oscillating"),
         ([1.0, 1.1, 1.3], "diverging"),
         ([1.0, 1.2, 1.2001], "irregular"),  # two values that agree by chance
         ([1.0, 1.4, 1.7], "irregular"),
@@ -69,6 +69,7 @@ def fitted(values, power):
 )
 def test_what_shows_no_order_is_fitted_with_the_formal_one(values, behaviour, formal_order):
     found = grid_convergence(values, formal_order)
+    values = values[-LEVELS:]
     limit, slope, deviation = fitted(np.array(values), formal_order)
     assert found.behaviour == behaviour and found.formal_order == formal_order
     assert (found.limit, found.deviation) == pytest.approx((limit, deviation))
@@ -95,7 +96,7 @@ def test_a_sequence_that_has_settled_has_nothing_left():
 
 
 def test_only_the_finest_levels_count():
-    values = sequence(7.0, 0.3, 1.7, MOST_LEVELS)
+    values = sequence(7.0, 0.3, 1.7, LEVELS)
     assert grid_convergence([99.0, -5.0, *values], 2.0) == grid_convergence(values, 2.0)
 
 

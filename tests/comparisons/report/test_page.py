@@ -74,8 +74,8 @@ def test_every_picture_says_in_words_what_it_shows(wavy_page):
 
 def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
     # problem, pressure, close-up, surfaces; two fields and a near-surface one for each of the two
-    # friction coefficients; two sections; three meshes; cost; error budget
-    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1
+    # friction coefficients; two sections; three meshes; convergence; cost; error budget
+    assert len(wavy_page.images) == 4 + 2 * 3 + 2 + 3 + 1 + 1 + 1
     assert wavy_page.count("next to the surface") == 2
     assert wavy_page.count("Orthogonal shear stress") == 2
     assert wavy_page.count("over depth") == 2
@@ -84,7 +84,7 @@ def test_a_rough_run_with_friction_has_all_pictures(wavy_page):
 
 
 def test_a_smooth_run_has_no_pictures_of_roughness(smooth_page):
-    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1
+    assert len(smooth_page.images) == 4 + 2 + 2 + 3 + 1 + 1 + 1
     assert smooth_page.count("next to the surface") == 0
     assert smooth_page.count("right-hand edge") == 1
     assert "Ra, Rq" not in smooth_page.text
@@ -96,7 +96,7 @@ def test_sections_come_in_the_order_of_a_verification_report(wavy_page):
 
 def test_one_model_without_fields_shows_what_applies_and_no_more(half_plane_page):
     assert set(SECTIONS) - set(half_plane_page.sections) == {"model-error", "stresses", "mesh"}
-    assert len(half_plane_page.images) == 5
+    assert len(half_plane_page.images) == 6
     assert "Only the half-plane model was run" in half_plane_page.text
     assert "finite elements" not in half_plane_page.text
     assert "neither model" not in half_plane_page.text

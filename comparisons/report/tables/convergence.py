@@ -1,0 +1,158 @@
+"""How each judged figure converged, and its parts in the terms of ASME V&V 20."""
+
+from dataclasses import dataclass
+
+from comparisons.assessment.comparison import figures, uncertainties
+from comparisons.assessment.convergence import IRREGULAR, LOWEST_ORDER, REGULAR
+from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
+from comparisons.common.numbers import given_percent, percent, plain, scale_of, significant
+from comparisons.common.quantities import LABELS, QUANTITIES, label
+from comparisons.report.tables.text import TextTable, error_text
+from comparisons.results.outcome import Outcome
+
+DIFFERENCE = "difference"  # what a norm is of, in place of a model
+NO_DATA = "no data"
+WORDS = (
+    ("formal order", "the power of the element size by which the method's error should fall"),
+    (
+        "observed order",
+        "the power by which the last changes do fall; none where they have opposite signs",
+    ),
+    ("extrapolated", "the value at element size zero, by least squares over the levels"),
+    (
+        "monotone, irregular",
+        f"the changes have one sign; with an observed order between {plain(LOWEST_ORDER)} and the "
+        "formal one, or with another",
+    ),
+    (
+        "oscillating, diverging",
+        "the last two changes have opposite signs, or grow: no order is known, and the scatter "
+        "about the fit is a part of the uncertainty",
+    ),
+    ("settled", "the levels are equal but for rounding"),
+    (
+        "safety factor",
+        f"of the error that the fit has left on the finest level: {plain(REGULAR)}, or "
+        f"{plain(IRREGULAR)} where the fit scatters by more than the data range",
+    ),
+    (
+        "coverage",
+        "share of true errors that uncertainties found so must cover where answers are exact, "
+        "measured by crosscheck verify",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class JudgedSequence:
+    """A judged figure over the levels, coarse to fine.
+
+    figure       quantity, with its friction coefficient where it depends on one
+    source       model's name, or DIFFERENCE of a norm of both models
+    pitches      of the pressure elements [m]
+    values       SI
+    scale        what errors are relative to, SI
+    uncertainty  of the last value, relative
+    """
+
+    quantity: str
+    figure: str
+    source: str
+    pitches: tuple[float, ...]
+    values: tuple[float, ...]
+    scale: float
+    uncertainty: Uncertainty
+
+    @property
+    def errors(self) -> list[float]:
+        """Distance of each level from the extrapolated value, relative."""
+        limit = self.uncertainty.convergence.limit
+        return [abs(value - limit) / self.scale for value in self.values]
+
+
+def judged_sequences(outcome: Outcome) -> list[JudgedSequence]:
+    """In the order of quantities, then of friction coefficients and models."""
+    problem, found = outcome.problem, []
+    for name in (name for name in QUANTITIES if name in problem.scene.tolerance):
+        for friction in problem.scene.friction:
+            words = row_name(outcome, name, friction)
+            if words:
+                found += _sequences(outcome, name, friction, words)
+    return found
+
+
+def row_name(outcome: Outcome, name: str, friction: float) -> str:
+    """A quantity and its friction coefficient; empty for a figure that does not depend on friction
+    and stands at the first coefficient."""
+    frictions = outcome.problem.scene.friction
+    if not QUANTITIES[name].needs_stress:
+        return label(name) if friction == frictions[0] else ""
+    return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
+
+
+def _sequences(outcome: Outcome, name: str, friction: float, words: str) -> list[JudgedSequence]:
+    problem, found = outcome.problem, []
+    for model, run in outcome.runs.items():
+        values = [figures(level, problem, friction).get(name) for level in run.levels]
+        if None not in values:
+            pitches = tuple(level.grid.pitch for level in run.levels)
+            scale = abs(values[-1]) or QUANTITIES[name].scale(problem.hertz)
+            stated = uncertainties(run, problem, friction)[name]
+            parts = pitches, tuple(values), scale, stated
+            found.append(JudgedSequence(name, words, model, *parts))
+    for pair in outcome.pairs:
+        if pair.friction == friction and name in pair.uncertainties:
+            levels = outcome.runs["finite_element"].levels
+            pitches = tuple(level.grid.pitch for level in levels)
+            values = tuple(norms[name] for norms in pair.norms)
+            parts = pitches, values, 1.0, pair.uncertainties[name]
+            found.append(JudgedSequence(name, words, DIFFERENCE, *parts))
+    return found
+
+
+def judged_table(outcome: Outcome) -> TextTable | None:
+    """Orders, extrapolated value and uncertainty of each judged figure; None where none is."""
+    rows = []
+    for each in judged_sequences(outcome):
+        known = each.uncertainty.convergence
+        if each.source == DIFFERENCE:
+            value, limit = (percent(v, digits=3) for v in (known.value, known.limit))
+        else:
+            scale = scale_of(each.values, QUANTITIES[each.quantity].unit)
+            value, limit = (scale.text(v, 5) for v in (known.value, known.limit))
+        rows.append(
+            (
+                f"{each.figure}, {LABELS.get(each.source, each.source)}",
+                value,
+                limit,
+                plain(known.formal_order),
+                "none" if known.order is None else significant(known.order, 2),
+                known.behaviour,
+                "none" if known.safety_factor is None else plain(known.safety_factor),
+                percent(each.uncertainty.discretisation),
+                given_percent(COVERAGE),
+            )
+        )
+    head = ("", "finest level", "extrapolated", "formal order", "observed order", "behaviour")
+    head += ("safety factor", "discretisation", "coverage")
+    return TextTable("Judged figures under refinement", head, tuple(rows)) if rows else None
+
+
+def validation_table(outcome: Outcome) -> TextTable | None:
+    """Each judged model error as ASME V&V 20 names its parts; None where none is judged."""
+    rows = []
+    for check in outcome.tolerance_checks:
+        name, friction = check.quantity, check.friction
+        sampling = outcome.budget.sampling.get(friction, {}).get(name)
+        words = row_name(outcome, name, friction) or f"{label(name)}, friction {plain(friction)}"
+        rows.append(
+            (
+                words,
+                error_text(name, check.value, check.uncertainty),
+                percent(check.uncertainty),
+                "no trace" if sampling is None else percent(sampling),
+                NO_DATA,
+            )
+        )
+    head = ("", "E", "u_num", "u_input", "u_D")
+    return TextTable("In the terms of ASME V&V 20", head, tuple(rows)) if rows else None

@@ -1,0 +1,82 @@
+"""The pictures of convergence: distances, slopes and stated uncertainties are those of the run."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from comparisons.report.figures.convergence import convergence_picture
+from comparisons.report.tables.convergence import judged_sequences
+from comparisons.results.outcome import Outcome
+
+
+def shown(axes) -> str:
+    return axes.get_title(loc="left").replace("\n", " ")
+
+
+def moving(outcome: Outcome) -> list:
+    """Judged sequences but those that the hardness holds on every level."""
+    found = judged_sequences(outcome)
+    moved = [e for e in found if e.uncertainty.convergence.behaviour != "settled"]
+    assert len(moved) >= 2
+    return moved
+
+
+@pytest.fixture(scope="module")
+def panels(wavy_outcome: Outcome, drawn_by) -> list:
+    [figure], _ = drawn_by(convergence_picture, wavy_outcome)
+    return figure.axes
+
+
+def test_every_judged_figure_has_a_panel_with_both_models(wavy_outcome: Outcome, panels):
+    sequences = judged_sequences(wavy_outcome)
+    names = [shown(axes) for axes in panels]
+    assert names == list(dict.fromkeys(each.figure for each in sequences))
+    assert len(sequences) == 2 * len(names) >= 4
+    for each in moving(wavy_outcome):
+        axes = panels[names.index(each.figure)]
+        assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+        limit = each.uncertainty.convergence.limit
+        wanted = [100.0 * abs(value - limit) / abs(each.values[-1]) for value in each.values]
+        drawn = [line.get_ydata() for line in axes.lines if len(line.get_ydata()) == len(wanted)]
+        assert any(np.allclose(y, wanted, rtol=1e-9) for y in drawn), each.figure
+
+
+def test_the_dotted_slope_is_that_of_the_formal_order(wavy_outcome: Outcome, panels):
+    orders = {e.figure: e.uncertainty.convergence.formal_order for e in moving(wavy_outcome)}
+    for axes in panels:
+        if shown(axes) not in orders:
+            continue
+        order = orders[shown(axes)]
+        [line] = [line for line in axes.lines if str(line.get_label()).startswith("slope")]
+        x, y = np.log(line.get_xdata()), np.log(line.get_ydata())
+        assert (y[1] - y[0]) / (x[1] - x[0]) == pytest.approx(order)
+        assert line.get_label() == f"slope of order {order:g}"
+
+
+def test_the_bar_is_the_stated_uncertainty(wavy_outcome: Outcome, panels):
+    for axes in panels:
+        stated = [
+            100.0 * each.uncertainty.discretisation
+            for each in moving(wavy_outcome)
+            if each.figure == shown(axes)
+        ]
+        bars = [float(line.get_ydata()[0]) for line in axes.lines if line.get_marker() == "_"]
+        assert bars == pytest.approx(stated)
+
+
+def test_nothing_judged_is_no_picture(wavy_outcome: Outcome, drawn_by):
+    scene = replace(wavy_outcome.problem.scene, tolerance={})
+    problem = replace(wavy_outcome.problem, scene=scene)
+    figures, picture = drawn_by(convergence_picture, replace(wavy_outcome, problem=problem))
+    assert figures == [] and picture is None
+
+
+def test_levels_that_are_equal_are_said_to_be(smooth_outcome: Outcome, drawn_by):
+    runs = {
+        name: replace(run, levels=(run.finest,) * 3) for name, run in smooth_outcome.runs.items()
+    }
+    found = replace(smooth_outcome, runs=runs, pairs=())
+    [figure], picture = drawn_by(convergence_picture, found)
+    words = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert "no change but rounding" in words and "settled" in picture.alternative
