@@ -55,6 +55,11 @@ class TwoBodies:
         forces, tangents = zip(*(part.linearised(u) for part, u in pieces), strict=True)
         return np.vstack(forces), block_diag(tangents, format="csr")
 
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """Internal forces (n, 2) [N/m] alone."""
+        pieces = zip(self.parts, self._split(displacement), strict=True)
+        return np.vstack([part.force(u) for part, u in pieces])
+
     def accept(self, displacement: np.ndarray) -> None:
         """Both bodies accept their own."""
         for part, u in zip(self.parts, self._split(displacement), strict=True):
@@ -109,8 +114,11 @@ class PairContact:
         self._body, self._hats = body, hats
         self._undeformed = np.vstack([body.nodes, roller.nodes])
 
-    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
+    def at(
+        self, displacement: np.ndarray, pressure: np.ndarray, tangent: bool = True
+    ) -> ContactTerms:
+        """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces; without the
+        `tangent` no stiffness."""
         surface = DeformedSurface(self._roller, displacement[self._first :])
         own = DeformedSurface(self._body, displacement[: self._first])
         below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
@@ -122,25 +130,28 @@ class PairContact:
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
 
         edge, t = surface.edge(x)
-        node = 2 * edge[:, None] + np.arange(3)
+        node, weighted = 2 * edge[:, None] + np.arange(3), on.weighted
+        at_x, at_z = self._of_roller(node, edge_shapes(t))
+        along, down = on.x - at_x, on.z + at_z
+        force = gradient = (along.T @ diags(slope) @ weighted + down.T @ weighted).tocsr()
+        if not self.frictionless:
+            sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
+            force = (gradient + self._friction * sliding).tocsr()
+        if not tangent:
+            return ContactTerms(gap, gradient, force)
+
         value = np.column_stack([4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0])
         value /= (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
-        at_x, at_z = self._of_roller(node, edge_shapes(t))
         turn_x, turn_z = self._of_roller(node, value)
-
-        weighted, load = on.weighted, diags(on.weight * (on.hats @ pressure))
-        along, down = on.x - at_x, on.z + at_z
+        load = diags(on.weight * (on.hats @ pressure))
         turning = turn_z - diags(slope) @ turn_x
-        gradient = (along.T @ diags(slope) @ weighted + down.T @ weighted).tocsr()
         mixed = turning.T @ load @ along
         stiffness = along.T @ (load @ diags(bend)) @ along + mixed + mixed.T
-        if self.frictionless:
-            return ContactTerms(gap, gradient, gradient, stiffness.tocsr())
-        sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
-        slides = turn_x.T @ load @ along + turn_z.T @ (load @ diags(slope)) @ along
-        slides = slides + down.T @ load @ (turning + diags(bend) @ along)
-        force = (gradient + self._friction * sliding).tocsr()
-        return ContactTerms(gap, gradient, force, (stiffness - self._friction * slides).tocsr())
+        if not self.frictionless:
+            slides = turn_x.T @ load @ along + turn_z.T @ (load @ diags(slope)) @ along
+            slides = slides + down.T @ load @ (turning + diags(bend) @ along)
+            stiffness = stiffness - self._friction * slides
+        return ContactTerms(gap, gradient, force, stiffness.tocsr())
 
     def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
         """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,

@@ -291,6 +291,7 @@ class NonlinearSolution:
     gap: np.ndarray  # (count,) [m] mean opening under each hat
     residuals: tuple[tuple[float, ...], ...]  # of the iterations of each accepted increment
     cuts: int  # increments that failed and were bisected
+    corrections: int = 0  # by the linear bodies' own factors, in place of Newton steps
 
     @property
     def iterations(self) -> int:

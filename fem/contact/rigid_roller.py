@@ -99,18 +99,23 @@ class CurrentContact:
         self.frictionless, self._friction, self._roller = not friction, friction, roller
         self._points, self._undeformed = HatsOnSurface(body, hats), body.nodes
 
-    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
-        """Terms as of `fem.contact.terms.Contact`, on the deformed surface."""
+    def at(
+        self, displacement: np.ndarray, pressure: np.ndarray, tangent: bool = True
+    ) -> ContactTerms:
+        """Terms as of `fem.contact.terms.Contact`, on the deformed surface; without the `tangent`
+        no stiffness."""
         on, place = self._points, (self._undeformed + displacement).ravel()
         rise, slope, bend = self._roller(on.x @ place)
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
         along, down = on.x.T @ diags(slope) @ on.weighted, on.z.T @ on.weighted
-        gradient = (along + down).tocsr()
+        force = gradient = (along + down).tocsr()
+        if not self.frictionless:
+            sliding = on.x.T @ on.weighted - on.z.T @ diags(slope) @ on.weighted
+            force = (gradient + self._friction * sliding).tocsr()
+        if not tangent:
+            return ContactTerms(gap, gradient, force)
         bend = diags(bend * on.weight * (on.hats @ pressure))
         turning = on.x.T @ bend @ on.x
-        if self.frictionless:
-            return ContactTerms(gap, gradient, gradient, turning.tocsr())
-        sliding = on.x.T @ on.weighted - on.z.T @ diags(slope) @ on.weighted
-        force = (gradient + self._friction * sliding).tocsr()
-        stiffness = (turning - self._friction * (on.z.T @ bend @ on.x)).tocsr()
-        return ContactTerms(gap, gradient, force, stiffness)
+        if not self.frictionless:
+            turning = turning - self._friction * (on.z.T @ bend @ on.x)
+        return ContactTerms(gap, gradient, force, turning.tocsr())

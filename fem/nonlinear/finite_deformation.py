@@ -26,8 +26,15 @@ from fem.nonlinear.hyperelastic import (
     nodal_cauchy_stress,
     nodal_stress_across,
 )
+from fem.solver.mumps import FemError
 from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad
+
+# Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
+# change of the pressures.
+RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 1e-4, 1e-5
+SECANTS, SECANT_RANK = 4, 1e-10
+MOST_CORRECTIONS = 25
 
 
 @dataclass
@@ -41,6 +48,7 @@ class FiniteDeformation:
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
     gap            (count,) [m] mean opening under each hat, along z
+    initial_gap    (count,) [m] that of the undeformed bodies, the approach apart
     """
 
     body: ElasticBody
@@ -48,6 +56,7 @@ class FiniteDeformation:
     roller: Roller
     friction: float
     solution: NonlinearSolution
+    initial_gap: np.ndarray
 
     def __post_init__(self) -> None:
         state = self.solution.state
@@ -96,6 +105,134 @@ class FiniteDeformation:
         return pressure / np.interp(x, top, 1.0 + along_surface(top, self._moved)[:, 0])
 
 
+class FiniteContact:
+    """A body and a roller at finite strains, each by its own law, before they are pressed.
+
+    hats       (count + 2,) [m] nodes of the pressure on the undeformed surface, with outer feet
+    roller     a rigid one's shape, `fem.contact.rigid_roller.circle(radius)`; or an elastic one on
+               the same hats, its body in its own frame, z into it, with its shape as the boundary
+    start      (count,) [Pa] linear pressure under the same load
+    friction   q = friction p along the common tangent, towards +x on the body
+    far        gives the body's outer boundary the half-plane's displacement under `start`; None:
+               the support holds it. An elastic roller has its own
+    gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
+
+    Raises FemError on more than one process.
+    """
+
+    def __init__(
+        self,
+        body: ElasticBody,
+        hats: np.ndarray,
+        roller: Roller | FiniteElementCompliance,
+        start: np.ndarray,
+        friction: float = 0.0,
+        far: FarField | None = None,
+    ) -> None:
+        own = FiniteElementCompliance(body, hats, far=far)
+        self.body, self.hats, self.friction, self._start = body, hats, friction, start
+        self._roller, self.elastic = roller, (body,)
+        self.linear = _started(own, start, friction)
+        if isinstance(roller, FiniteElementCompliance):
+            self.elastic = body, roller.body
+            moduli = tuple(each.material.youngs_modulus for each in self.elastic)
+            self.response = TwoBodies(*map(HyperelasticBody, self.elastic), moduli)
+            self.contact = PairContact(body, hats, roller.body, friction)
+            self.linear = np.vstack([self.linear, _started(roller, start, -friction)])
+        else:
+            self.response = HyperelasticBody(body)
+            self.contact = CurrentContact(body, hats, roller, friction)
+        at_rest = self.contact.at(np.zeros_like(self.linear), start, tangent=False)
+        self.gap, self.weights = at_rest.gap, 0.5 * (hats[2:] - hats[:-2])
+
+    def by_newton(
+        self, load: float | None, approach: float | None = None, hardness: float = np.inf
+    ) -> "FiniteDeformation":
+        """Pressed as `press_finitely`, on its own tangents."""
+        wanted = load, approach, hardness
+        bodies = [(self.response, self.contact)]
+        return self.deformed(_solved(bodies, self.linear, self.hats, self._start, *wanted))
+
+    def deformed(self, solution: NonlinearSolution) -> "FiniteDeformation":
+        """The bodies in a state of contact."""
+        roller = self._roller
+        if isinstance(roller, FiniteElementCompliance):
+            reached = solution.state.displacements[0][len(self.body.nodes) :]
+            roller = DeformedSurface(roller.body, reached)
+        initial = self.gap / self.weights
+        return FiniteDeformation(self.body, self.hats, roller, self.friction, solution, initial)
+
+
+class FiniteCompliance:
+    """Equilibrium at finite strains under given pressures, by the linear bodies' own factors.
+
+        u <- u + K^-1 (T(u) p - F(u))
+
+    with secants through the last SECANTS steps (Anderson 1965). The tangent differs from K by the
+    order of the strains: each step leaves about that part of the forces. The displacement starts
+    from the last one; forces are solved as accurately as the pressure has settled.
+
+    steps  so far, one assembly and one back-substitution each
+    left   forces over the contact's, at the last pressure
+    """
+
+    def __init__(self, contact: FiniteContact) -> None:
+        self._contact, self.displacement = contact, contact.linear
+        self._last: np.ndarray | None = None
+        self.steps, self.left = 0, np.inf
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Weighted gap (count,) [m^2] over that of the undeformed bodies, the approach apart, under
+        pressures (count,) [Pa]. Raises FemError where there is no equilibrium near the last one."""
+        wanted, contact = MOST_LEFT, self._contact
+        if self._last is not None:
+            change = np.linalg.norm(pressure - self._last) / np.linalg.norm(pressure)
+            wanted = float(np.clip(SETTLED * change, RESIDUAL, MOST_LEFT))
+        self._last, moved, path = pressure, self.displacement, []
+        soft, free = contact.response.softness, ~contact.response.held.ravel()
+        for _ in range(MOST_CORRECTIONS):
+            terms = contact.contact.at(moved, pressure, tangent=False)
+            applied = terms.force @ pressure
+            left = np.where(free, applied - contact.response.force(moved).ravel(), 0.0)
+            size = np.linalg.norm(soft * np.where(free, applied, 0.0))
+            rest = float(np.linalg.norm(soft * left) / size)
+            if rest <= wanted:
+                self.displacement, self.left = moved, rest
+                return terms.gap - contact.gap
+            step = self._corrected(left.reshape(-1, 2)).ravel()
+            path = [*path[-SECANTS:], (moved.ravel(), step)]
+            moved = _onward(path).reshape(-1, 2)
+            self.steps += 1
+        raise FemError(f"forces of {rest:.1e} are left after {MOST_CORRECTIONS} corrections")
+
+    def solution(self, pressure: np.ndarray, approach: float) -> NonlinearSolution:
+        """The state of the last pressure, at the `approach` [m] that belongs to it."""
+        contact, moved = self._contact, self.displacement
+        load = float(contact.weights @ pressure)
+        terms = contact.contact.at(moved, pressure, tangent=False)
+        gap = terms.gap / contact.weights - approach
+        state = ContactState((moved,), pressure, approach, load)
+        return NonlinearSolution(state, gap, ((self.left,),), 0, self.steps)
+
+    def _corrected(self, force: np.ndarray) -> np.ndarray:
+        pieces = np.split(
+            force, np.cumsum([len(each.nodes) for each in self._contact.elastic])[:-1]
+        )
+        bodies = zip(self._contact.elastic, pieces, strict=True)
+        return np.vstack([body.solve(piece) for body, piece in bodies])
+
+
+def _onward(path: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+    """The next displacement from the last ones and their corrections, the newest last."""
+    moved, step = path[-1]
+    if len(path) > 1:
+        changes = np.stack([step - former for _, former in path[:-1]], axis=1)
+        moves = np.stack([moved - former for former, _ in path[:-1]], axis=1)
+        amounts = np.linalg.lstsq(changes, step, rcond=SECANT_RANK)[0]
+        moved, step = moved - moves @ amounts, step - changes @ amounts
+    return moved + step
+
+
 def press_finitely(
     body: ElasticBody,
     hats: np.ndarray,
@@ -107,38 +244,18 @@ def press_finitely(
     hardness: float = np.inf,
     far: FarField | None = None,
 ) -> FiniteDeformation:
-    """Press a body by a roller whose lowest point is at x = 0, each by its own law of elasticity.
+    """Press a body by a roller whose lowest point is at x = 0, by Newton's method.
 
-    hats       (count + 2,) [m] nodes of the pressure on the undeformed surface, with outer feet
-    roller     a rigid one's shape, `fem.contact.rigid_roller.circle(radius)`; or an elastic one on
-               the same hats, its body in its own frame, z into it, with its shape as the boundary
-    start      (count,) [Pa] linear pressure under the same load, from which Newton's method starts
     load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
                z = 0, positive into the body
-    friction   q = friction p along the common tangent, towards +x on the body
     hardness   H [Pa], cap on `pressure`
-    far        gives the body's outer boundary the half-plane's displacement under `start`; None:
-               the support holds it. An elastic roller has its own
 
+    Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
     Raises FemError if it does not converge, and on more than one process; ValueError for a load
     that the hats cannot bear.
     """
-    own = FiniteElementCompliance(body, hats, far=far)
-    if isinstance(roller, FiniteElementCompliance):
-        other = roller.body
-        moduli = body.material.youngs_modulus, other.material.youngs_modulus
-        bodies = TwoBodies(HyperelasticBody(body), HyperelasticBody(other), moduli)
-        contact = PairContact(body, hats, other, friction)
-        moved = np.vstack([_started(own, start, friction), _started(roller, start, -friction)])
-    else:
-        bodies, contact = HyperelasticBody(body), CurrentContact(body, hats, roller, friction)
-        moved = _started(own, start, friction)
-    wanted = load, approach, hardness
-    solution = _solved([(bodies, contact)], moved, hats, start, *wanted)
-    if isinstance(roller, FiniteElementCompliance):
-        reached = solution.state.displacements[0][len(body.nodes) :]
-        roller = DeformedSurface(other, reached)
-    return FiniteDeformation(body, hats, roller, friction, solution)
+    contact = FiniteContact(body, hats, roller, start, friction, far)
+    return contact.by_newton(load, approach, hardness)
 
 
 def press(

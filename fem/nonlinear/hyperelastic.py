@@ -60,13 +60,18 @@ class HyperelasticBody:
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric. Raises FemError if the
         displacement inverts an element."""
+        force = self.force(displacement)
+        tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))
+        return force, self._unit * tangent
+
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """The internal forces alone."""
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
         force[self._component] = compat.assembled_vector(self._work)
         if not np.isfinite(force).all() or self._inverted(displacement):
             raise FemError("an element is inverted")
-        tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))
-        return self._unit * force.reshape(-1, 2), self._unit * tangent
+        return self._unit * force.reshape(-1, 2)
 
     def accept(self, displacement: np.ndarray) -> None:
         """No history: the energy depends on the displacement alone."""

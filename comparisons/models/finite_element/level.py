@@ -88,7 +88,7 @@ def finite_element_level(
         solution = replace(solution, converged=False)  # it touches an unrefined range
     if scene.finite_element.deformation == "finite":
         with stages.stage("finite deformation", "finite elements: finite deformation"):
-            pressed = pressed_finitely(problem, operator, grid, solution, constraints)
+            pressed = pressed_finitely(problem, operator, grid, solution, constraints, model)
     elif scene.finite_element.plastic:
         with stages.stage("plastic flow", "finite elements: plastic flow"):
             pressed = pressed_plastically(

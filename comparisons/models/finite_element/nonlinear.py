@@ -7,16 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
+from analytic.contact.coupled import solve_coupled
+from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
-from analytic.contact.problem import ContactSolution, assessed
+from analytic.contact.problem import ContactSolution, assessed, solve_contact
 from analytic.grid import HatGrid
+from analytic.operators.half_plane import ModelOperator
 from analytic.stress_state import von_mises
 from comparisons.models.finite_element.contact import MutualCompliance, roller_of
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.stress import LoadedBody, on_undeformed_grid
 from comparisons.models.problem import Problem
-from fem.nonlinear.finite_deformation import press_finitely
+from fem.nonlinear.finite_deformation import FiniteCompliance, FiniteContact, FiniteDeformation
 from fem.nonlinear.plasticity import ElasticPlastic
 from fem.nonlinear.press_plastic import plastic_fields, press_plastically
 from fem.solver.mumps import FemError
@@ -24,6 +27,7 @@ from fem.stress.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
+BY_MODEL = 2e-9  # residuals of a contact by the linear model, over the displacements
 ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
 
 
@@ -33,6 +37,7 @@ def pressed_finitely(
     grid: HatGrid,
     linear: ContactSolution,
     constraints: Constraints,
+    model: ModelOperator,
 ) -> LoadedBody:
     """The body at finite strains, in contact on its deformed surface with a rigid roller or with
     an elastic one at finite strains.
@@ -40,21 +45,8 @@ def pressed_finitely(
     Pressures are those on the deformed surface, at its displaced x. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation.
     """
-    scene, rough = problem.scene, operator.rough
-    weights, x = grid.weights, grid.x
-    prescribed = {name: getattr(constraints, name) for name in ("load", "approach", "hardness")}
-    roller, friction = roller_of(problem), scene.friction[0]
-    if scene.roller is not None:
-        roller = operator.parts[1].compliance
-    found = press_finitely(
-        rough.body,
-        rough.hats,
-        roller,
-        linear.pressure,
-        friction=friction,
-        far=rough.far,
-        **prescribed,
-    )
+    rough, weights, x = operator.rough, grid.weights, grid.x
+    found = finite_contact(problem, operator, linear, constraints, model)
     ends = [0, -1]  # on few elements the linear contact may reach them, too
     if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
         profile = problem.scene.profile
@@ -66,11 +58,13 @@ def pressed_finitely(
     counts = {
         "increments": len(found.solution.residuals),
         "newton_steps": found.solution.iterations,
+        "corrections": found.solution.corrections,
         **{f"linear_{name}": count for name, count in linear.iterations.items()},
     }
-    moved = (found.gap + found.approach) * weights
+    initial = found.initial_gap * weights
+    moved = (found.gap + found.approach) * weights - initial
     solution = assessed(
-        moved, found.pressure, np.zeros_like(moved), weights, found.approach, constraints, counts
+        moved, found.pressure, initial, weights, found.approach, constraints, counts
     )
     patches = contact_patches(x, solution.pressure, solution.gap)
     solution = replace(solution, pressure=found.cauchy_pressure)
@@ -83,6 +77,32 @@ def pressed_finitely(
         rough.body, solution, depth * weights, lambda friction: nodal, patches, others
     )
     return on_undeformed_grid(problem, grid, found.place, depth, loaded)
+
+
+def finite_contact(
+    problem: Problem,
+    operator: MutualCompliance,
+    linear: ContactSolution,
+    constraints: Constraints,
+    model: ModelOperator,
+) -> FiniteDeformation:
+    """The contact by the linear model and the linear bodies' own factors; where the strains are too
+    large for that, by Newton's method. Raises FemError where that finds none either."""
+    rough, roller = operator.rough, roller_of(problem)
+    if problem.scene.roller is not None:
+        roller = operator.parts[1].compliance
+    friction, start = problem.scene.friction[0], linear.pressure
+    contact = FiniteContact(rough.body, rough.hats, roller, start, friction, rough.far)
+    bodies = FiniteCompliance(contact)
+    given = bodies, model, contact.gap, contact.weights, constraints, start
+    try:
+        solver = solve_coupled if operator.coupled else solve_contact
+        solution = solve_with_model(*given, BY_MODEL, solver)
+        if solution.converged:
+            return contact.deformed(bodies.solution(solution.pressure, solution.approach))
+    except FemError:
+        pass  # no equilibrium from there by the linear factors
+    return contact.by_newton(constraints.load, constraints.approach, constraints.hardness)
 
 
 def pressed_plastically(

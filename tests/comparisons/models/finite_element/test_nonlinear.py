@@ -1,4 +1,4 @@
-"""Where finite deformation carries the contact to the end of what can be pressed."""
+"""Finite deformation of a scene: by either solver, and where contact ends with the pressures."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 from scenes import STEEL, problem
 
+from comparisons.common.progress import Stages
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.finite_element.nonlinear import pressed_finitely
+from comparisons.models.plan import make_plan
 from fem.solver.mumps import FemError
 
 RIGID = {
@@ -18,7 +22,7 @@ RIGID = {
     "load": {"hertz_peak_pressure": 2e9},
 }
 COMPUTED = {"kind": "sinusoid", "wavelength": 50e-6, "amplitude": 0.1e-6}
-WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None, hats=None, far=None))
+WHOLE = SimpleNamespace(rough=SimpleNamespace(body=None))
 
 
 def pressed(problem, shift: float):
@@ -32,8 +36,8 @@ def pressed(problem, shift: float):
         end = profile.x[-1] - grid.x[-1] - shift
         scene = replace(problem.scene, profile=profile.shifted(end))
         problem = replace(problem, scene=scene)
-    with patch.object(finite_element_nonlinear, "press_finitely", return_value=found):
-        return pressed_finitely(problem, WHOLE, grid, linear, problem.constraints())
+    with patch.object(finite_element_nonlinear, "finite_contact", return_value=found):
+        return pressed_finitely(problem, WHOLE, grid, linear, problem.constraints(), None)
 
 
 @pytest.mark.parametrize(
@@ -44,3 +48,35 @@ def test_it_is_told_what_ends_there(profile, pitches, words):
     posed = problem(RIGID if profile is None else RIGID | {"profile": profile})
     with pytest.raises(FemError, match=f"reaches beyond the .*{words}"):
         pressed(posed, pitches * posed.pitches[0])
+
+
+@pytest.mark.parametrize("roller", [RIGID["roller"], {"radius": 8e-3, **STEEL}])
+def test_the_linear_factors_lead_where_newtons_method_does(roller):
+    """To the same contact of a rough body under friction, rigid roller or elastic."""
+    tables = {
+        "roller": roller,
+        "body": {**STEEL, "youngs_modulus": 100e9},
+        "load": {"hertz_peak_pressure": 1.5e9, "friction": 0.2},
+        "profile": COMPUTED,
+        "finite_element": {
+            "geometry": "rough",
+            "deformation": "finite",
+            "coupled": True,
+            "far_field": "half-plane",
+        },
+    }
+    posed = problem(tables)
+    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
+
+    def level():
+        return finite_element_level(posed, plan, refinement, None, Stages()).solution
+
+    found = level()
+    with patch.object(finite_element_nonlinear, "solve_with_model", side_effect=FemError):
+        other = level()
+    assert found.iterations["newton_steps"] == 0 < found.iterations["corrections"]
+    assert other.iterations["corrections"] == 0 < other.iterations["newton_steps"]
+    assert found.converged and other.converged
+    scale = other.pressure.max()
+    np.testing.assert_allclose(found.pressure, other.pressure, atol=1e-5 * scale)
+    assert found.approach == pytest.approx(other.approach, rel=1e-6)

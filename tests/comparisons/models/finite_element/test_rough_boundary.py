@@ -92,8 +92,8 @@ def test_high_long_waves_do_not_fade_steeply():
         assert scaled_jacobians(real_points(mesh), mesh.triangles).min() > 0.35
 
 
-def test_finite_deformation_takes_a_few_factorisations_on_a_fine_mesh():
-    """Three steps of Newton's method from the linear solution, with nothing to be looked for."""
+def test_finite_deformation_takes_no_factorisation_of_its_own():
+    """A few tens of back-substitutions by the linear bodies' factors."""
     problem = problem_with(SINUSOID, deformation="finite", roller_shape="circle")
     plan = make_plan(problem, ("finite_element",))
     peaks = []
@@ -101,8 +101,8 @@ def test_finite_deformation_takes_a_few_factorisations_on_a_fine_mesh():
         level = finite_element_level(problem, plan, Refinement(pitch), None, Stages())
         counts = level.solution.iterations
         assert level.solution.converged
-        assert counts["newton_steps"] <= 4
-        assert counts["increments"] == 1
+        assert counts["newton_steps"] == 0
+        assert counts["corrections"] <= 30
         peaks.append(level.solution.pressure.max())
     assert peaks[1] == pytest.approx(peaks[0], rel=2e-4)
 
@@ -111,7 +111,7 @@ def test_contact_that_ends_with_the_pressure_elements_is_an_error(monkeypatch):
     """It would go on beyond them: the load would rest on hats at the ends."""
     problem = problem_with(SINUSOID, deformation="finite", roller_shape="circle")
     everywhere = SimpleNamespace(pressure=np.ones(problem.grid(problem.pitches[0]).count))
-    monkeypatch.setattr(finite_element_nonlinear, "press_finitely", lambda *_, **__: everywhere)
+    monkeypatch.setattr(finite_element_nonlinear, "finite_contact", lambda *_, **__: everywhere)
     plan = make_plan(problem, ("finite_element",))
     with pytest.raises(FemError, match="beyond the pressure elements"):
         finite_element_level(problem, plan, Refinement(problem.pitches[0]), None, Stages())

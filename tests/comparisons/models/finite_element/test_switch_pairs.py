@@ -52,11 +52,8 @@ SWITCHES = {
 REFUSED = {
     frozenset(pair)
     for pair in [
-        ("elastic", "finite"),
-        ("disc", "finite"),
         ("finite", "plastic"),
         ("finite", "coated"),
-        ("finite", "far"),
         ("finite", "hard"),
         ("finite", "P1"),
         ("finite", "P3"),
