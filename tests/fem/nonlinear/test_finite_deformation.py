@@ -186,8 +186,12 @@ def test_friction_moves_the_contact_as_in_the_linear_theory(body):
     assert expected < -0.05  # against the sliding
     assert centre(found.place, found.pressure) == pytest.approx(expected, rel=0.01)
     assert centre(other.place, other.pressure) == pytest.approx(-expected, rel=0.01)
-    top = body.top.point
-    assert found.displacement[top, 0].mean() > 0.0 > other.displacement[top, 0].mean()
+    # dragged along, the body stands back by as much under the roller
+    for each in (found, other):
+        along = np.interp(X, body.top.x, body.at_points(each.displacement)[body.top.point, 0])
+        assert abs(centre(along, each.pressure)) < 1e-3 * EDGE
+    held = body.held[:, 0]
+    assert found.displacement[held, 0].max() < -1e-3 and other.displacement[held, 0].min() > 1e-3
 
 
 def test_a_reversed_profile_gives_the_mirrored_pressure():
@@ -226,9 +230,9 @@ def test_the_approach_and_units_lead_to_the_same(body):
         load=size * modulus * found.solution.state.load,
     )
     np.testing.assert_allclose(
-        other.pressure / modulus, found.pressure, atol=1e-8 * found.pressure.max()
+        other.pressure / modulus, found.pressure, atol=3e-6 * found.pressure.max()
     )
-    assert other.approach == pytest.approx(size * found.approach, rel=1e-8)
+    assert other.approach == pytest.approx(size * found.approach, rel=1e-6)
 
 
 def test_pressure_is_capped_at_the_hardness(body):
