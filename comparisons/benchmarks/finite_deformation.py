@@ -24,7 +24,9 @@ the linear theory's by
     rough    rms slope  0.01    0.02   0.05   0.1    0.2              1 % at rms slope 0.03
              per cent   0.46    0.76   1.45   2.32   3.07             (a/R = 0.01, means)
 
-so that it starts to matter where p0/E reaches 0.07 on a smooth body and 0.035 on a rough one.
+so that it starts to matter where the largest pressure reaches 0.07 E on a smooth body and 0.032 to
+0.033 E on a rough one. So it does on a single wave, at 0.03 E; that takes an rms slope of 0.06
+(`comparisons/studies/maps/finished/slope-wavelength.json`), for its crests are all as high.
 Contact at the current place makes it higher by twice that and the finite strain takes half of it
 back; the circle's true shape adds 0.25 % at a/R = 0.2, the real geometry up to 0.03 % at an rms
 slope of 0.05 and 0.8 % at 0.2, where the largest shear is 5 % higher. What the finite strain

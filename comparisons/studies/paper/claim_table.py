@@ -1,17 +1,20 @@
 """Claims and their numbers in words, for the page and as a table for the terminal."""
 
 from dataclasses import dataclass
-from math import isfinite
+from math import hypot, isfinite
 from typing import TYPE_CHECKING
 
-from comparisons.common.numbers import MINUS, UNKNOWN, significant
-from comparisons.common.quantities import LABELS, MODELS
+from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.common.numbers import MINUS, UNKNOWN, percent, significant
+from comparisons.common.quantities import LABELS, MODELS, label
+from comparisons.report.tables.text import error_text
 from comparisons.report.terminal import PLAIN, STYLES, plain_table
 from comparisons.studies.paper.claims.judgement import (
     CONFIRMED,
     DENIED,
     INCONCLUSIVE,
     Claim,
+    FigureModelError,
     JudgedClaim,
     MeasuredNumber,
 )
@@ -34,6 +37,7 @@ class ClaimRow:
     numbers    the same as lines that name their model
     besides    further numbers, a line each
     kind       names its colours
+    model_error  of the half-plane in the claim's figure, a sentence; None without
     """
 
     claim: Claim
@@ -44,6 +48,7 @@ class ClaimRow:
     outcome: str
     kind: str
     why: str | None
+    model_error: str | None
 
 
 def claim_row(judged: JudgedClaim) -> ClaimRow:
@@ -62,7 +67,19 @@ def claim_row(judged: JudgedClaim) -> ClaimRow:
         outcome=judged.outcome,
         kind=KINDS[judged.outcome],
         why=judged.why,
+        model_error=judged.model_error and model_error_text(judged.model_error),
     )
+
+
+def model_error_text(error: FigureModelError) -> str:
+    """What was computed, with its uncertainty, and the most that was not."""
+    size = error_text(error.quantity, error.value, error.uncertainty)
+    text = f"{label(error.quantity)} {size} ± {percent(error.uncertainty)}"
+    if error.not_modelled:
+        most = EFFECTS[max(error.not_modelled, key=error.not_modelled.get)].label
+        left = percent(hypot(*error.not_modelled.values()))
+        text += f"; not modelled, by estimate: at most {left}, {most} most"
+    return text
 
 
 def number_text(number: MeasuredNumber, unit: str) -> str:

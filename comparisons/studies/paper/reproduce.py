@@ -7,6 +7,8 @@ from time import perf_counter
 
 from analytic.contact.problem import ContactError
 from comparisons.assessment.comparison import compared
+from comparisons.assessment.effects.error_budget import error_budget
+from comparisons.assessment.normal_tangential_coupling import couplings
 from comparisons.assessment.refinement import refined
 from comparisons.common.errors import ExitStatus, InputError, SolverError
 from comparisons.common.files import check_writable, published
@@ -95,9 +97,14 @@ class Paper:
 
 
 def paper(
-    out: Path, fineness: Fineness = Fineness(), callback: ProgressCallback = no_progress
+    out: Path,
+    fineness: Fineness = Fineness(),
+    callback: ProgressCallback = no_progress,
+    effects: bool = False,
 ) -> Paper:
     """Compute the paper anew and write paper.html and paper.json.
+
+    effects  compute the half-plane's model error beside each claim; else it is estimated
 
     Raises InputError where `out` cannot be written and under mpirun, SolverError where a model
     finds no solution; nothing is written then.
@@ -106,7 +113,7 @@ def paper(
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out, (PAGE, NUMBERS))
     start = perf_counter()
-    outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING))
+    outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
     judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims())
     found = Paper(outcomes, judged, perf_counter() - start, out)
@@ -119,7 +126,10 @@ def paper(
 
 
 def solve_surfaces(
-    out: Path, fineness: Fineness, callback: ProgressCallback = no_progress
+    out: Path,
+    fineness: Fineness,
+    callback: ProgressCallback = no_progress,
+    effects: bool = False,
 ) -> dict[str, Outcome]:
     """By the scene's name. Raises SolverError where a model finds no solution."""
     found = {}
@@ -133,7 +143,8 @@ def solve_surfaces(
         )
         part = within(callback, (number - 1) / len(SCENES), number / len(SCENES))
         try:
-            found[name] = _solved(scene, out, _prefixed(part, f"{number} of {len(SCENES)}, {name}"))
+            part = _prefixed(part, f"{number} of {len(SCENES)}, {name}")
+            found[name] = _solved(scene, out, part, effects)
         except (ContactError, FemError, MeshError) as error:
             raise SolverError(f"{name}: no solution was found: {error}") from error
     return found
@@ -147,14 +158,16 @@ def _prefixed(callback: ProgressCallback, prefix: str) -> ProgressCallback:
     return prefixed
 
 
-def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback) -> Outcome:
+def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback, effects: bool) -> Outcome:
     problem = problem_of(scene)
-    plan = make_plan(problem, MODELS)
+    plan = replace(make_plan(problem, MODELS), effects=effects)
     window = window_of(problem)
     with TemporaryDirectory(prefix="crosscheck-") as folder:
         cache = level_cache(Path(folder) / "run", scene, plan)
         runs, stop = refined(problem, plan, window, cache, callback)
-    comparisons = compared(problem, runs, window)
-    result = result_of(problem, plan, runs, comparisons, stop)
+        rows = compared(problem, runs, window)
+        moved = couplings(problem, runs["half_plane"], window, callback) if plan.coupling else ()
+        budget = error_budget(problem, plan, window, runs, rows, moved, cache, callback)
+    result = result_of(problem, plan, runs, rows, stop, moved, budget)
     record = record_of(scene, runs, {})
-    return Outcome(problem, plan, window, runs, comparisons, result, record, directory=out)
+    return Outcome(problem, plan, window, runs, rows, result, record, out, moved, budget)

@@ -6,7 +6,7 @@ outcome is inconclusive unless all models that can measure the claim say the sam
 stand-in profile was made to show what the claim says.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from math import inf, isfinite
 
 from comparisons.assessment.convergence import grid_convergence
@@ -15,7 +15,7 @@ from comparisons.assessment.verdict import is_within
 from comparisons.common.numbers import plain
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.claims.readings import LevelView, Reading
+from comparisons.studies.paper.claims.readings import SLIDING, LevelView, Reading
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
 OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
@@ -45,6 +45,9 @@ class Claim:
     models     that can measure it
     exact      the number is an error against an exact value
     besides    further numbers, by what they are
+    quantity   the compared one whose model error bears on the number; None: it is no figure of a
+               real contact
+    slides     the number is one of the sliding contact
     """
 
     key: str
@@ -62,6 +65,8 @@ class Claim:
     models: tuple[str, ...] = MODELS
     exact: bool = False
     besides: tuple[tuple[str, Reading], ...] = ()
+    quantity: str | None = None
+    slides: bool = False
 
     @property
     def criterion(self) -> str:
@@ -87,6 +92,20 @@ class MeasuredNumber:
 
 
 @dataclass(frozen=True)
+class FigureModelError:
+    """The half-plane's model error in the quantity of a claim's figure, relative.
+
+    value, uncertainty  of the effects that were computed
+    not_modelled        estimates of the others, by name
+    """
+
+    quantity: str
+    value: float
+    uncertainty: float
+    not_modelled: dict[str, float]
+
+
+@dataclass(frozen=True)
 class JudgedClaim:
     """A claim with its outcome.
 
@@ -94,6 +113,7 @@ class JudgedClaim:
     besides  by what they are, then by model
     outcome  one of OUTCOMES
     why      it is inconclusive; None where it is not
+    model_error  of its figure; None where there is none
     """
 
     claim: Claim
@@ -101,6 +121,7 @@ class JudgedClaim:
     besides: dict[str, dict[str, float]]
     outcome: str
     why: str | None = None
+    model_error: FigureModelError | None = None
 
     def as_dict(self) -> dict:
         """For paper.json: None stands for what is infinite."""
@@ -125,6 +146,9 @@ class JudgedClaim:
             },
             "outcome": self.outcome,
             "why": self.why,
+            "model_error": self.model_error
+            and asdict(self.model_error)
+            | {name: _finite(getattr(self.model_error, name)) for name in ("value", "uncertainty")},
         }
 
 
@@ -135,7 +159,18 @@ def judge(claim: Claim, outcome: Outcome) -> JudgedClaim:
         words: {m: measured(outcome, m, reading, exact=True).value for m in claim.models}
         for words, reading in claim.besides
     }
-    return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers))
+    error = model_error_of(claim, outcome)
+    return JudgedClaim(claim, numbers, besides, *judgement(claim, numbers), error)
+
+
+def model_error_of(claim: Claim, outcome: Outcome) -> FigureModelError | None:
+    """What the half-plane does not model in the figure of a claim."""
+    name, budget = claim.quantity, outcome.budget
+    if name is None or budget is None:
+        return None
+    error = budget.of(name, SLIDING if claim.slides else 0.0)
+    left = budget.selection.not_modelled(name)
+    return FigureModelError(name, error.value, error.uncertainty, left)
 
 
 def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False) -> MeasuredNumber:

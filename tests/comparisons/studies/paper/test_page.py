@@ -16,6 +16,7 @@ from comparisons.common.quantities import LABELS, MODELS
 from comparisons.studies.paper import reproduce
 from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, claims
 from comparisons.studies.paper.claims.judgement import OUTCOMES
+from comparisons.studies.paper.claims.readings import SLIDING
 from comparisons.studies.paper.pictures import depth as depth_pictures
 from comparisons.studies.paper.pictures import pressure as pressure_pictures
 from comparisons.studies.paper.pictures import scales
@@ -233,11 +234,32 @@ def test_a_folder_that_cannot_be_is_refused_before_solving(monkeypatch, tmp_path
         reproduce.paper(tmp_path / "file")
 
 
+def test_the_model_error_stands_beside_each_claim_of_a_real_contact(made, page):
+    content = json.loads((made.out / "paper.json").read_text(encoding="utf-8"))
+    claims_in_json = {claim["key"]: claim for claim in content["claims"]}
+    for claim in claims():
+        error = claims_in_json[claim.key]["model_error"]
+        assert (error is None) == (claim.quantity is None)
+        if error is not None:
+            friction = SLIDING if claim.slides else 0.0
+            found = made.paper.outcomes[claim.scene].budget.of(claim.quantity, friction)
+            assert error["quantity"] == claim.quantity and error["value"] == found.value
+    text = " ".join("".join(page.words).split()).replace("\u00a0", " ").replace("\u2060", "")
+    assert text.count("Model error of the half-plane in this figure:") == sum(
+        claim.quantity is not None for claim in claims()
+    )
+    # a rough boundary was not computed: its estimate stands there
+    left = claims_in_json["twice-unrun"]["model_error"]["not_modelled"]
+    assert left["rough_boundary"] > 0.05
+    assert "not modelled, by estimate: at most" in text
+
+
 @pytest.mark.parametrize("arguments", [[], ["--json"]])
 def test_the_command_prints_the_claims(made, monkeypatch, capsys, arguments):
     calls = []
 
-    def reproduced(out: Path, callback):
+    def reproduced(out: Path, callback, effects):
+        assert effects is False
         calls.append(out)
         return made.paper
 
