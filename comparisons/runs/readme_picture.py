@@ -28,7 +28,7 @@ PICTURE = Path(__file__).parents[1] / "docs/ground-unrun.png"
 PIXELS = 192  # to the inch: twice what 800 pixels across need
 WIDTH, LEFT, RIGHT = 8.35, 0.72, 0.12  # inches
 # Inches from panel to panel, and of the panel: pressures, differences, surfaces, shear, its bar.
-PANELS = ((0.08, 2.1), (0.14, 0.55), (0.14, 1.0), (0.32, 2.0), (0.44, 0.1))
+PANELS = ((0.08, 2.1), (0.32, 0.55), (0.14, 1.0), (0.32, 2.0), (0.44, 0.1))
 FOOT = 0.26  # inches
 REACH = 1.15  # half-widths to either side
 
@@ -50,7 +50,7 @@ def overview(outcome: Outcome) -> "Figure":
     models = " − ".join(LABELS[name] for name in outcome.pair(friction))
     moved = "".join(f", {text} on average" for text in moved_text(outcome, friction))
     words = f"{models}: {norm} (relative L2 norm){moved}"
-    differences.text(0.008, 0.93, words, transform=differences.transAxes, va="top")
+    differences.set_title(words)
     draw_surfaces(surfaces, *given)
     _shear(shear, bar, outcome)
     for panel in panels:
