@@ -129,7 +129,8 @@ def _drawn(panels: list[Waterfall], columns: int) -> "Figure":
     worth = {name for panel in panels for name, _ in _large(panel)}
     names = [NUMERICAL, *(effect.label for effect in EFFECTS.values()), INTERACTION, JUMP]
     rows = [name for name in names if name in worth]
-    if any(set(panel.steps) - worth for panel in panels):
+    every = [step for panel in panels for step in panel.steps.items()]
+    if any(abs(size) > NOTHING for name, size in every if name not in worth):
         rows.append(OTHERS)
     rows.append(ERROR)
     width = style.WIDE if columns > 1 else style.COLUMN
