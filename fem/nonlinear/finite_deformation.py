@@ -172,8 +172,8 @@ class FiniteContact:
         return self.deformed(solution)
 
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
-        """The displacement (n, 2) [m] with the body moved along x, so that in the mean of a pressure
-        (count,) [Pa] the surfaces have not moved past each other; and by how much [m]."""
+        """The displacement (n, 2) [m] with the body moved along x, so that in the mean of a
+        pressure (count,) [Pa] the surfaces have not moved past each other; and by how much [m]."""
         pieces = np.split(moved, [len(self.body.nodes)])
         at, force, means = self.hats[1:-1], pressure * self.weights, [0.0, 0.0]
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):

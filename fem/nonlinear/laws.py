@@ -16,9 +16,14 @@ Hencky's tr (ln U)^2 = (ln J)^2 / 2 + artanh^2(sqrt y) / 2, y = 1 - J^2/t^2, t =
 singular derivative at equal stretches, where y = 0, as a series in y.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from analytic.material import Law
+
+if TYPE_CHECKING:
+    from ufl.core.expr import Expr
 
 SERIES_TO = 0.01  # y up to which Hencky's functions are summed as series, to 1e-13 there
 # artanh^2(sqrt y) / y and artanh(sqrt y) / sqrt y in powers of y
@@ -26,7 +31,7 @@ SQUARE = (1.0, 2.0 / 3.0, 23.0 / 45.0, 44.0 / 105.0, 563.0 / 1575.0, 3254.0 / 10
 ROOT = tuple(1.0 / (2 * k + 1) for k in range(6))
 
 
-def energy(law: Law, gradient, mu, lame, unit: float):
+def energy(law: Law, gradient: "Expr", mu: "Expr", lame: "Expr", unit: float) -> "Expr":
     """W as an UFL expression of the displacement's `gradient`, in a `unit` [Pa], in which are
     Lame's constants mu and lambda too."""
     import ufl
