@@ -27,7 +27,7 @@ from comparisons.runs.run import run
 COATING = {"thickness": 20e-6, "youngs_modulus": 400e9, "poissons_ratio": 0.22}
 ON_RUBBER = {"roller": {"radius": 20e-3, "rigid": True}, "body": RUBBER}
 ON_STEEL = {"roller": {"radius": 10e-3, "rigid": True}, "body": STEEL}
-LIKE_STEEL = {"roller": {"radius": 10e-3, **STEEL}, "body": STEEL}
+LIKE_STEEL = {"roller": {"radius": 5e-3, **STEEL}, "body": STEEL}
 WAVES = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.1e-6}
 STRESS = {"depth": 0.5, "half_range": 1.2, "points": [40, 20]}
 CIRCLE = {"roller_shape": "circle"}

@@ -4,10 +4,15 @@ import json
 from pathlib import Path
 
 import pytest
-from scenes import problem, resolved
+from scenes import STEEL, problem, resolved
 
 import comparisons.studies.maps
 from comparisons.assessment.effects.estimates import estimates
+from comparisons.common.progress import Stages
+from comparisons.common.quantities import MODELS
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.plan import make_plan
 from comparisons.scenes.files import read_toml
 from comparisons.studies.maps.groups import Origin, tables_with
 
@@ -46,3 +51,42 @@ def test_they_bound_every_point_of_a_finished_map(name):
             checked += 1
     assert checked >= 4 * 60
     assert tight > 0.3  # nor are they idle: somewhere an effect is a third of its bound
+
+
+# Third-order constants of a carbon steel [Pa], of the order that metals have.
+LAWED = {
+    "neo-hookean": {},
+    "st-venant-kirchhoff": {},
+    "murnaghan": {"murnaghan": {"l": -461e9, "m": -636e9, "n": -708e9}},
+}
+
+
+@pytest.mark.parametrize("surface", ["smooth", "waves"])
+@pytest.mark.parametrize("roller", ["rigid", "elastic"])
+def test_laws_of_elasticity_spread_within_their_estimate(surface, roller):
+    """Peak pressures of full solutions at finite deformation, of one body and of two alike."""
+    peaks, strain = {}, {"deformation": "finite", "gap": "displaced"}
+    for law, constants in LAWED.items():
+        body = STEEL | {"law": law, **constants}
+        tables = {
+            "roller": {"radius": 5e-3} | ({"rigid": True} if roller == "rigid" else body),
+            "body": body,
+            "load": {"hertz_peak_pressure": 2e9},
+            "finite_element": strain,
+        }
+        if surface == "waves":
+            wave = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.15e-6}
+            tables |= {"profile": wave, "finite_element": strain | {"geometry": "rough"}}
+        posed = problem(tables)
+        plan, refinement = make_plan(posed, MODELS), Refinement(posed.pitches[0])
+        level = finite_element_level(posed, plan, refinement, None, Stages())
+        peaks[law] = float(level.solution.pressure.max())
+        assert "law_of_elasticity" not in estimates(posed, peaks[law], peaks[law])
+    plain = {name: STEEL if name == "body" else table for name, table in tables.items()}
+    if roller == "elastic":
+        plain["roller"] = {"radius": 5e-3, **STEEL}
+    peak = peaks.pop("neo-hookean")
+    bound = estimates(problem(plain), peak, peak)["law_of_elasticity"]["peak_pressure"]
+    spread = [each / peak - 1.0 for each in peaks.values()]
+    assert min(spread) < 0.0 < max(spread)
+    assert 0.5 * bound < max(map(abs, spread)) < bound
