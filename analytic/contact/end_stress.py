@@ -19,6 +19,7 @@ pitches. There the stress at the surface under traction is right to 0.2 % of the
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -91,8 +92,12 @@ class EndStress:
         return found
 
     def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:
+        """Stresses [Pa] at x, z [m] under p and q = friction * p; goes through pickle."""
+        return partial(self.stress, friction)
+
+    def stress(self, friction: float, x: ArrayLike, z: ArrayLike) -> StressState:
         """Stresses [Pa] at x, z [m] under p and q = friction * p."""
-        return lambda x, z: FrictionStress.of(self.parts(x, z)).at(friction)
+        return FrictionStress.of(self.parts(x, z)).at(friction)
 
 
 def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> EndStress:

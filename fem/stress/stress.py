@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from analytic.stress_state import StressState
 from fem.body.elasticity import ElasticBody
@@ -12,25 +13,25 @@ from fem.body.surface import Direction, straight_down
 from fem.body.triangle import shapes
 from fem.stress.kinks import Kinks
 from fem.stress.recovery import MaterialStress, StressNodes, recovered_stress, stress_nodes
-from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
+from fem.stress.surface_load import SurfaceLoad, from_surface, tangent_on, to_surface
 
 Beside = Callable[[np.ndarray, np.ndarray], StressState]
 
 
 @dataclass(frozen=True)
 class FurtherStress:
-    """Stresses `of` x and depth [m] [Pa], along and across the surface under a `load`, which the
-    body's displacement does not have."""
+    """Stresses `of` x and depth [m] [Pa], along and across a `surface` z(x) [m], which the body's
+    displacement does not have."""
 
-    load: SurfaceLoad
+    surface: CubicSpline
     of: Beside
 
     def at(self, place: np.ndarray) -> np.ndarray:
         """sx, sz, txz (…, 3) [Pa] at places (…, 2) [m]."""
         flat = place.reshape(-1, 2)
         x = flat[:, 0]
-        own = self.of(x, np.maximum(flat[:, 1] - self.load.height(x), 0.0))
-        found = from_surface(self.load.tangent(x), own.sx, own.sz, -own.txz)
+        own = self.of(x, np.maximum(flat[:, 1] - self.surface(x), 0.0))
+        found = from_surface(tangent_on(self.surface, x), own.sx, own.sz, -own.txz)
         return found.reshape(*place.shape[:-1], 3)
 
 
@@ -73,7 +74,7 @@ def nodal_stress(
     t = load.tangent(x)
     s_tt, _, _ = to_surface(t, values[top])
     values[top] = from_surface(t, s_tt, *load.across(x))
-    further = None if beside is None else FurtherStress(load, beside)
+    further = None if beside is None else FurtherStress(load.surface, beside)
     if further is not None:
         values += further.at(body.points[nodes.point])
     return _nodal(body, StressState(*values.T), load.kinks, further)

@@ -35,16 +35,11 @@ class SurfaceLoad:
         along = self.tangent(x) @ [1.0, 1j]
         # from a force per length of x, differentiated along x, to both by length of arc
         jump = self._force(x) @ [1.0, 1j] * bend * along.real**2
-        return Kinks(x + 1j * self._surface(x), along, 1j * jump / along)
+        return Kinks(x + 1j * self.surface(x), along, 1j * jump / along)
 
     def tangent(self, x: np.ndarray) -> np.ndarray:
         """t (k, 2) at x (k,) [m]."""
-        rise = self._surface(x, 1)
-        return np.column_stack([np.ones_like(rise), rise]) / np.hypot(1.0, rise)[:, None]
-
-    def height(self, x: np.ndarray) -> np.ndarray:
-        """z (k,) [m] of the surface at x (k,) [m]."""
-        return self._surface(x)
+        return tangent_on(self.surface, x)
 
     def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
@@ -57,7 +52,7 @@ class SurfaceLoad:
         return np.concatenate([[0.0], self.pressure, [0.0]])
 
     @cached_property
-    def _surface(self) -> CubicSpline:
+    def surface(self) -> CubicSpline:
         """z [m] of the surface at x [m]: a smooth curve through its points."""
         top = self.body.top
         return CubicSpline(top.x, self.body.points[top.point, 1])
@@ -66,6 +61,12 @@ class SurfaceLoad:
         """Force (k, 2) per length of x under unit pressure, its sliding traction included."""
         along = np.stack(tangent_of(self.direction)(x), axis=-1)
         return np.stack(self.direction(x), axis=-1) + self.friction * along
+
+
+def tangent_on(surface: CubicSpline, x: np.ndarray) -> np.ndarray:
+    """t (k, 2) at x (k,) [m] of a surface z(x) [m]."""
+    rise = surface(x, 1)
+    return np.column_stack([np.ones_like(rise), rise]) / np.hypot(1.0, rise)[:, None]
 
 
 def normal(t: np.ndarray) -> np.ndarray:

@@ -1,5 +1,8 @@
 """Where friction makes the largest shear stand on the surface, up to the ends of contact."""
 
+import pickle
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 from scenes import STEEL, problem
@@ -51,3 +54,19 @@ def test_both_fields_have_the_curve_next_to_the_ends(runs):
         sz = runs[model].finest.stress(FRICTION).field.sz[0, near]
         assert near.sum() >= 2
         np.testing.assert_allclose(sz, exact, atol=2e-3 * 1e9)
+
+
+def test_stresses_go_from_one_process_to_another():
+    """With what is beside them: a body's factor cannot."""
+    posed = problem(TABLES)
+    plan, kept = make_plan(posed, ("finite_element",)), []
+    with patch("comparisons.models.finite_element.level.stresses_of") as stresses:
+        stresses.side_effect = lambda pressed, *_: (
+            kept.append(pressed.stress(FRICTION)),
+            ((), None),
+        )[1]
+        cache = level_cache(None, posed.scene, plan)
+        refined(posed, plan, window_of(posed), cache, no_progress)
+    there = pickle.loads(pickle.dumps(kept[0]))
+    assert there.further is not None
+    np.testing.assert_array_equal(there.values, kept[0].values)
