@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.numbers import decimal, plain, significant
-from comparisons.common.quantities import LABELS
+from comparisons.common.quantities import LABELS, WHOLE
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, stacked
 from comparisons.results.outcome import Outcome
 
@@ -261,6 +261,8 @@ def _picture(
     striped = ", stripes what is negative" if component.signed or largest else ""
     cut = any(np.isnan(values).any() for values in fields.values())
     largest += " White: hollows below the mean line, from which z counts." if cut else ""
+    if WHOLE in fields:
+        largest += " Of the whole model each point stands where it was before loading."
     pointed = {
         "component": COMPONENTS.index(component),
         "friction": outcome.problem.scene.friction.index(friction),

@@ -83,6 +83,8 @@ def close_up_picture(outcome: Outcome) -> style.Picture:
         holding = (level.patches[:, 0] <= centre) & (level.patches[:, 1] >= centre)
         most = max(CLOSE_REACH * outcome.problem.hertz.half_width, CLOSE_HATS * pitch)
         reach = np.clip(0.75 * np.ptp(level.patches[holding]), CLOSE_HATS * pitch, most)
+        first = next(iter(shown_levels(outcome).values()))
+        reach += min(abs(peak_position(first) - centre), most)  # the same peak, beside it
     at = f"x = {with_unit(float(centre), 'm')}"
     across = (centre - reach, centre + reach)
     return style.Picture(
