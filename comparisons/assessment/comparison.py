@@ -9,10 +9,10 @@ from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
     LENGTHS,
     Uncertainty,
-    difference_of_figures,
     far_boundary,
     iteration,
     length_resolution,
+    relative_resolution,
 )
 from comparisons.assessment.verdict import Comparison, judge
 from comparisons.common.quantities import QUANTITIES
@@ -27,12 +27,13 @@ NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-wi
 class PairHistory:
     """The difference of both models at one friction coefficient.
 
-    norms          relative L2 by quantity, one table a level, coarse to fine
-    uncertainties  of those of the last level, absolute: the norms are relative
+    differences    by quantity: (half-plane - finite elements) / finite elements, or the relative L2
+                   norm; one table a level, coarse to fine
+    uncertainties  of those of the last level, absolute: the differences are relative
     """
 
     friction: float
-    norms: tuple[dict[str, float], ...]
+    differences: tuple[dict[str, float], ...]
     uncertainties: dict[str, Uncertainty]
 
 
@@ -123,6 +124,19 @@ def uncertainties(run: ModelRun, problem: Problem, friction: float) -> dict[str,
     return found
 
 
+def differences(
+    level: Level, reference: Level, problem: Problem, friction: float, window: Window | None
+) -> dict[str, float]:
+    """(level - reference) / reference of every figure, over the Hertz contact's where the
+    reference's vanishes, and the norms; in the order of QUANTITIES."""
+    one, other = (figures(each, problem, friction) for each in (level, reference))
+    found = norms(level, reference, problem, friction, window)
+    for name, value in one.items():
+        scale = abs(other[name]) or QUANTITIES[name].scale(problem.hertz)
+        found[name] = (value - other[name]) / scale
+    return {name: found[name] for name in QUANTITIES if name in found}
+
+
 def pair_history(
     half_plane: ModelRun,
     finite_element: ModelRun,
@@ -130,17 +144,30 @@ def pair_history(
     friction: float,
     window: Window | None,
 ) -> PairHistory:
+    """The differences as figures of their own: both models have the same pressure elements, and
+    what these leave out, is in both."""
     pairs = zip(half_plane.levels, finite_element.levels, strict=True)
-    history = [norms(one, other, problem, friction, window) for one, other in pairs]
+    history = [differences(one, other, problem, friction, window) for one, other in pairs]
     first, check = finite_element.levels[0], finite_element.far_boundary_check
-    moved = norms(check, first, problem, friction, window) if check else {}
+    moved, moved_norms = history[0], {}
+    if check is not None:
+        moved = differences(half_plane.levels[0], check, problem, friction, window)
+        moved_norms = norms(check, first, problem, friction, window)
+    finest = half_plane.finest, finite_element.finest
     found = {}
-    for name in history[-1]:
-        convergence = grid_convergence([h[name] for h in history], QUANTITIES[name].formal_order)
+    for name, difference in history[-1].items():
+        resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
+        values = [of_level[name] for of_level in history]
+        convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+        if QUANTITIES[name].of_pair:  # two norms may be equal by chance
+            ratio, domain = 1.0, far_boundary(moved_norms.get(name, 0.0))
+        else:
+            ratio = max(1.0, abs(1.0 + difference))
+            domain = far_boundary(moved[name], history[0][name])
         found[name] = Uncertainty(
-            iteration=iteration(half_plane.finest, finite_element.finest),
+            iteration=ratio * iteration(*finest),
             discretisation=convergence.uncertainty,
-            domain=far_boundary(moved.get(name, 0.0)),
+            domain=domain,
             convergence=convergence,
         )
     return PairHistory(friction, tuple(history), found)
@@ -157,13 +184,14 @@ def pair_histories(
 def discretisations(
     runs: dict[str, ModelRun], problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
-    """Discretisation uncertainty of what is judged: of the difference, or of one model alone."""
-    each = [uncertainties(run, problem, friction) for run in runs.values()]
-    found = {name: sum(u[name].discretisation for u in each) for name in each[0]}
+    """Discretisation uncertainty that refinement is to lower: of each figure the sum of both
+    models', for figures are shown too, and of norms that of the difference; or of one model."""
+    found = {}
     if len(runs) == 2:
         pair = pair_history(*runs.values(), problem, friction, window)
         found |= {name: u.discretisation for name, u in pair.uncertainties.items()}
-    return found
+    each = [uncertainties(run, problem, friction) for run in runs.values()]
+    return found | {name: sum(u[name].discretisation for u in each) for name in each[0]}
 
 
 def compared(
@@ -178,32 +206,17 @@ def _compared(
     problem: Problem, runs: dict[str, ModelRun], friction: float, window: Window | None
 ) -> list[Comparison]:
     """At one friction coefficient, in the order of QUANTITIES."""
-    half_plane, finite_element = runs["half_plane"], runs["finite_element"]
-    one = figures(half_plane.finest, problem, friction)
-    other = figures(finite_element.finest, problem, friction)
-    of_one = uncertainties(half_plane, problem, friction)
-    of_other = uncertainties(finite_element, problem, friction)
-    of_norm = pair_history(half_plane, finite_element, problem, friction, window).uncertainties
+    pair = runs["half_plane"], runs["finite_element"]
+    one, other = (figures(run.finest, problem, friction) for run in pair)
+    history = pair_history(*pair, problem, friction, window)
     listed = []
-    for name in QUANTITIES:
-        if name in one:
-            first, second = one[name], other[name]
-            least = QUANTITIES[name].scale(problem.hertz)
-            scale = abs(second) or least
-            difference = (first - second) / scale
-            own = (abs(first) or least) / scale * of_one[name].total
-            uncertainty = difference_of_figures(own, first / scale, of_other[name].total)
-        elif name in of_norm:
-            first = second = None
-            difference, uncertainty = of_norm[name].convergence.value, of_norm[name].total
-        else:
-            continue
+    for name, difference in history.differences[-1].items():
+        uncertainty = history.uncertainties[name].total
         tolerance = problem.scene.tolerance.get(name)
         verdict = judge(difference, uncertainty, tolerance) if tolerance else None
         known = uncertainty if np.isfinite(uncertainty) else None
-        listed.append(
-            Comparison(name, friction, first, second, difference, known, tolerance, verdict)
-        )
+        values = one.get(name), other.get(name)
+        listed.append(Comparison(name, friction, *values, difference, known, tolerance, verdict))
     return listed
 
 

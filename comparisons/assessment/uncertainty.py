@@ -13,7 +13,12 @@ One rule composes them: every part bounds an error of unknown sign, and bounds a
 Roots of sums of squares would need errors that are independent of each other. These are not: both
 models have the same pressure elements, all levels the same solver and block, and an error that
 refinement has not shown yet shows in several parts at once. So it is for a model's figures, for
-differences and norms of two models, for effects, for points of maps and for claims of the paper.
+effects and model errors, for points of maps and for claims of the paper.
+
+A difference of two solutions on the same pressure elements, or its norm, is a figure with a
+sequence of its own: what these elements leave out is in both. Against exact answers (zero, in 40
+figures of smooth and rough contacts that both models solved) all are covered so, on median by 4.8
+times the error; by the sum of both models' own discretisations, 18 times.
 
 No figure has an uncertainty of discretisation below the resolution that it is read with.
 """

@@ -88,7 +88,7 @@ class ToleranceCheck:
     @property
     def is_unresolved(self) -> bool:
         """Whether the numerical uncertainty alone makes the verdict inconclusive."""
-        return self.uncertainty >= abs(abs(self.value) - self.tolerance)
+        return judge(self.value, self.uncertainty, self.tolerance) == "inconclusive"
 
 
 def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:

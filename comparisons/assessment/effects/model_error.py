@@ -177,7 +177,7 @@ def model_errors(
                     moved = float(places[0]), float(places[1])
         elif not contains_all:
             differences = [a - b for a, b in zip(half_plane[: len(wholes)], wholes, strict=True)]
-            norm, there = share(name, differences, at), pair.norms[number][name]
+            norm, there = share(name, differences, at), pair.differences[number][name]
             lacking = share(name, missing, at).uncertainty
             parts = numerical, abs(there - row.difference), lacking
             value, domain = norm.value, pair.uncertainties[name].domain

@@ -10,7 +10,7 @@ from comparisons.common.quantities import LABELS, QUANTITIES, label
 from comparisons.report.tables.text import TextTable, error_text
 from comparisons.results.outcome import Outcome
 
-DIFFERENCE = "difference"  # what a norm is of, in place of a model
+DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"
 WORDS = (
     ("formal order", "the power of the element size by which the method's error should fall"),
@@ -48,7 +48,7 @@ class JudgedSequence:
     """A judged figure over the levels, coarse to fine.
 
     figure       quantity, with its friction coefficient where it depends on one
-    source       model's name, or DIFFERENCE of a norm of both models
+    source       model's name, or DIFFERENCE
     pitches      of the pressure elements [m]
     values       SI
     scale        what errors are relative to, SI
@@ -104,7 +104,7 @@ def _sequences(outcome: Outcome, name: str, friction: float, words: str) -> list
         if pair.friction == friction and name in pair.uncertainties:
             levels = outcome.runs["finite_element"].levels
             pitches = tuple(level.grid.pitch for level in levels)
-            values = tuple(norms[name] for norms in pair.norms)
+            values = tuple(table[name] for table in pair.differences)
             parts = pitches, values, 1.0, pair.uncertainties[name]
             found.append(JudgedSequence(name, words, DIFFERENCE, *parts))
     return found
@@ -116,7 +116,8 @@ def judged_table(outcome: Outcome) -> TextTable | None:
     for each in judged_sequences(outcome):
         known = each.uncertainty.convergence
         if each.source == DIFFERENCE:
-            value, limit = (percent(v, digits=3) for v in (known.value, known.limit))
+            shown = {"digits": 3, "signed": not QUANTITIES[each.quantity].of_pair}
+            value, limit = (percent(v, **shown) for v in (known.value, known.limit))
         else:
             scale = scale_of(each.values, QUANTITIES[each.quantity].unit)
             value, limit = (scale.text(v, 5) for v in (known.value, known.limit))

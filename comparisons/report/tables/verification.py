@@ -90,10 +90,11 @@ def _of_pair(outcome: Outcome) -> TextTable:
     run = outcome.runs["finite_element"]
     checked, rows = run.far_boundary_check is not None, []
     for pair in outcome.pairs:
-        for name in pair.norms[0]:
+        for name in pair.differences[0]:
             words = row_name(outcome, name, pair.friction)
             if words:
-                numbers = (percent(norms[name], digits=3) for norms in pair.norms)
+                shown = {"digits": 3, "signed": not QUANTITIES[name].of_pair}
+                numbers = (percent(values[name], **shown) for values in pair.differences)
                 rows.append((words, *numbers, *_parts(pair.uncertainties[name], checked)))
     head = _head(run, with_check=False)
     return TextTable("Difference of both models", head, tuple(rows))

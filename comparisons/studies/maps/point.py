@@ -3,9 +3,7 @@
 Both models are refined until the model error of the half-plane is well above its numerical
 uncertainty, never by the clock, so that a point has the same answer wherever it is computed.
 
-Both have the same pressure elements on every level, and share the error of these. So it is the
-models' difference whose convergence under refinement gives the uncertainty, as
-`comparisons.assessment.comparison` does for norms of differences, and not that of each model.
+The uncertainty is that of a run's comparison.
 """
 
 from collections.abc import Iterator
@@ -14,17 +12,10 @@ from time import perf_counter
 
 import numpy as np
 
-from comparisons.assessment.comparison import figures, norms
-from comparisons.assessment.convergence import grid_convergence
-from comparisons.assessment.uncertainty import (
-    LENGTHS,
-    far_boundary,
-    iteration,
-    relative_resolution,
-)
+from comparisons.assessment.comparison import figures, pair_history
 from comparisons.common.errors import one_line
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import MODELS, QUANTITIES
+from comparisons.common.quantities import MODELS
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -167,31 +158,13 @@ def model_errors(
 ) -> dict[str, PointError]:
     """By quantity, in the order of QUANTITIES."""
 
-    def differences(one: Level, other: Level) -> dict[str, float]:
-        """(half-plane - finite elements) / finite elements by quantity, and the norms."""
-        first, second = figures(one, problem, friction), figures(other, problem, friction)
-        relative = {
-            name: (value - second[name])
-            / (abs(second[name]) or QUANTITIES[name].scale(problem.hertz))
-            for name, value in first.items()
-        }
-        return relative | norms(one, other, problem, friction, window)
-
-    pairs = zip(half_plane.levels, finite_element.levels, strict=True)
-    history = [differences(one, other) for one, other in pairs]
-    check = finite_element.far_boundary_check
-    moved = history[0] if check is None else differences(half_plane.levels[0], check)
-    finest = half_plane.finest, finite_element.finest
-    one, other = (figures(level, problem, friction) for level in finest)
+    history = pair_history(half_plane, finite_element, problem, friction, window)
+    one, other = (figures(run.finest, problem, friction) for run in (half_plane, finite_element))
     found = {}
-    for name in (name for name in QUANTITIES if name in history[-1]):
-        values = [level[name] for level in history]
-        resolution = relative_resolution(*finest) if name in LENGTHS else 0.0
-        convergence = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
-        domain = far_boundary(moved[name], history[0][name])
-        uncertainty = convergence.uncertainty + domain + iteration(*finest)
-        known = float(uncertainty) if np.isfinite(uncertainty) else None
-        found[name] = PointError(one.get(name), other.get(name), values[-1], known)
+    for name, difference in history.differences[-1].items():
+        total = history.uncertainties[name].total
+        known = float(total) if np.isfinite(total) else None
+        found[name] = PointError(one.get(name), other.get(name), difference, known)
     return found
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from comparisons.assessment.comparison import compared, uncertainties
+from comparisons.assessment.comparison import compared, pair_history, uncertainties
 from comparisons.assessment.uncertainty import (
     DOMAIN,
     difference_of_figures,
@@ -43,12 +43,12 @@ def test_three_grids_that_share_an_edge_do_not_know_it_better_than_it_is_found(
 
 
 def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Outcome):
-    """Half-plane over finite elements is 3: both relative uncertainties count three times; at 1/3
-    the half-plane's by a third, the reference's still whole."""
+    """Where the half-plane's figure is three times as large, so is the uncertainty; its
+    causes add up."""
     pair = smooth_outcome.runs["half_plane"], smooth_outcome.runs["finite_element"]
-    problem = smooth_outcome.problem
-    one, other = (uncertainties(run, problem, 0.0)["peak_pressure"].total for run in pair)
-    for times, share, whole in ((3.0, 3.0, 3.0), (1.0 / 3.0, 1.0 / 3.0, 1.0)):
+    problem, window = smooth_outcome.problem, smooth_outcome.window
+
+    def scaled(times):
         levels = tuple(
             replace(
                 level,
@@ -56,12 +56,31 @@ def test_a_difference_is_as_uncertain_as_the_ratio_that_it_is(smooth_outcome: Ou
             )
             for level in pair[0].levels
         )
-        scaled = replace(pair[0], levels=levels)
-        runs = {"half_plane": scaled, "finite_element": pair[1]}
-        row = compared(problem, runs, smooth_outcome.window)[0]
+        runs = {"half_plane": replace(pair[0], levels=levels), "finite_element": pair[1]}
+        row = compared(problem, runs, window)[0]
         assert row.quantity == "peak_pressure"
         assert row.difference == pytest.approx(times - 1.0, abs=0.02)
-        assert row.uncertainty == pytest.approx(share * one + whole * other, rel=0.01)
+        stated = pair_history(*runs.values(), problem, 0.0, window).uncertainties["peak_pressure"]
+        assert row.uncertainty == stated.total
+        assert stated.total == stated.iteration + stated.discretisation + stated.domain
+        return stated
+
+    one, three, third = scaled(1.0), scaled(3.0), scaled(1.0 / 3.0)
+    for part in ("discretisation", "domain"):
+        assert getattr(three, part) == pytest.approx(3.0 * getattr(one, part), rel=1e-6)
+        assert getattr(third, part) == pytest.approx(getattr(one, part) / 3.0, rel=1e-6)
+    assert three.iteration == pytest.approx(3.0 * one.iteration, rel=0.02)
+    assert third.iteration == pytest.approx(one.iteration, rel=0.02)
+
+
+def test_a_difference_has_its_own_sequence(smooth_outcome: Outcome):
+    """Errors that both models have on each level leave none in their difference."""
+    half_plane = smooth_outcome.runs["half_plane"]
+    same = replace(half_plane, name="finite_element", far_boundary_check=None)
+    found = pair_history(half_plane, same, smooth_outcome.problem, 0.0, smooth_outcome.window)
+    alone = uncertainties(half_plane, smooth_outcome.problem, 0.0)["peak_pressure"]
+    assert alone.discretisation > 1e-6
+    assert found.uncertainties["peak_pressure"].discretisation == 0.0
 
 
 def test_bounds_of_several_levels_add(smooth_outcome: Outcome):

@@ -32,7 +32,7 @@ def test_every_judged_figure_has_a_panel_with_both_models(wavy_outcome: Outcome,
     sequences = judged_sequences(wavy_outcome)
     names = [shown(axes) for axes in panels]
     assert names == list(dict.fromkeys(each.figure for each in sequences))
-    assert len(sequences) == 2 * len(names) >= 4
+    assert len(sequences) == 3 * len(names) >= 6  # both models and their difference
     for each in moving(wavy_outcome):
         axes = panels[names.index(each.figure)]
         assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
