@@ -107,7 +107,7 @@ def spoil(folder: Path, what: str) -> None:
         (
             lambda f: np.savez(
                 f / FILE,
-                outline=np.array(json.dumps({"schema": 1, "outcome": {"dict": [["x", 1]]}})),
+                outline=np.array(json.dumps({"schema": 2, "outcome": {"dict": [["x", 1]]}})),
             ),
             "report.npz: 'problem'; allowed is",
         ),
