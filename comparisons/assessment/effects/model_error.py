@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from comparisons.assessment.comparison import pair_history
+from comparisons.assessment.comparison import pair_history, uncertainties
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.effects.contributions import EffectContributions
 from comparisons.assessment.effects.quantities_of_interest import (
@@ -112,6 +112,7 @@ def model_errors(
         *(level for run in runs.values() for level in (run.finest, run.levels[number]))
     )
     reference = runs["finite_element"].levels[number]
+    stated = uncertainties(runs["finite_element"], problem, friction)
     edge = relative_resolution(reference, reference)
 
     def share(name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
@@ -152,7 +153,8 @@ def model_errors(
         uncertainty = difference_of_figures(numerical, row.half_plane / scale, lacking)
         if name in LARGEST:
             largest = LARGEST[name]
-            others = _competing(whole, name, at, numerical, lambda k: share(largest, missing, k))
+            alone = max(numerical, stated[name].total)
+            others = _competing(whole, name, at, alone, lambda k: share(largest, missing, k))
             uncertainty += others / scale
         return float((row.half_plane - figure) / scale), float(uncertainty)
 

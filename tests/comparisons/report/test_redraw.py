@@ -102,7 +102,7 @@ def spoil(folder: Path, what: str) -> None:
         (lambda f: (f / FILE).write_bytes(b"no zip"), "report.npz: cannot be read: "),
         (
             lambda f: np.savez(f / FILE, outline=np.array(json.dumps({"schema": 9}))),
-            "report.npz: schema: is 9; allowed is 1; ",
+            "report.npz: schema: is 9; allowed is 2; ",
         ),
         (
             lambda f: np.savez(

@@ -37,7 +37,8 @@ def test_every_judged_figure_has_a_panel_with_both_models(wavy_outcome: Outcome,
         axes = panels[names.index(each.figure)]
         assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
         limit = each.uncertainty.convergence.limit
-        wanted = [100.0 * abs(value - limit) / abs(each.values[-1]) for value in each.values]
+        own = 1.0 if each.source == "difference" else abs(each.values[-1])
+        wanted = [100.0 * abs(value - limit) / own for value in each.values]
         drawn = [line.get_ydata() for line in axes.lines if len(line.get_ydata()) == len(wanted)]
         assert any(np.allclose(y, wanted, rtol=1e-9) for y in drawn), each.figure
 
