@@ -17,7 +17,7 @@ Nomenclature
     k      mean stiffness [Pa], which makes all unknowns lengths
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -313,6 +313,7 @@ def solve_nonlinear_contact(
     load: float | None = None,
     approach: float | None = None,
     hardness: float = np.inf,
+    begin: Callable[[float], ContactState] | None = None,
 ) -> NonlinearSolution:
     """Contact under a `load` P [N/m], or at an `approach` d [m], from a given state.
 
@@ -323,6 +324,8 @@ def solve_nonlinear_contact(
                bodies only the support of its pressure matters, others need the linear solution.
                Held components keep its displacements, in proportion to the load
     hardness   H [Pa], cap on the pressure
+    begin      guess of the solution under a part of the load, for bodies at rest that `start` in
+               proportion does not lead on
 
     The load is the sum of the pressures; the vertical part of the friction's tractions, of the
     order of friction times slope, is neglected as in the linear theory. On one process. Raises
@@ -347,6 +350,8 @@ def solve_nonlinear_contact(
                 pairs = zip(bodies, moved, state.displacements, strict=True)
                 moved = tuple(np.where(body.held, u, now) for (body, _), u, now in pairs)
                 guess = replace(state, displacements=moved)
+            elif cuts and begin is not None:
+                guess = begin(part)
             else:
                 guess = replace(start, displacements=moved, pressure=part * start.pressure)
         if load is None:

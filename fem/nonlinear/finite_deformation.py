@@ -14,6 +14,7 @@ the relative displacement of the surfaces along x is zero in the pressure's mean
 roller stands where the scene has put it.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -23,9 +24,14 @@ from fem.body.elasticity import ElasticBody
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.deformed_roller import DeformedSurface, PairContact, TwoBodies
-from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
+from fem.contact.nonlinear import (
+    ContactState,
+    NonlinearSolution,
+    solve_nonlinear_contact,
+    state_at_rest,
+)
 from fem.contact.rigid_roller import CurrentContact, Roller
-from fem.contact.terms import Contact, Response
+from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
 from fem.nonlinear.hyperelastic import (
     HyperelasticBody,
     along_surface,
@@ -163,7 +169,7 @@ class FiniteContact:
         constant, wanted = np.zeros_like(self.weights), (load, approach, hardness)
         for _ in range(MOST_SETTINGS):
             problem = [(self.response, self.contact)], constant, self.weights, state
-            solution = solve_nonlinear_contact(*problem, *wanted)
+            solution = solve_nonlinear_contact(*problem, *wanted, self._begun(*wanted))
             state = solution.state
             moved, aside = self.set_back(state.displacements[0], state.pressure)
             if aside <= ASIDE * self.weights.mean():
@@ -182,6 +188,31 @@ class FiniteContact:
             means[place] = float(force @ along / force.sum())
         aside = means[0] - means[1]
         return np.vstack([pieces[0] - (aside, 0.0), *pieces[1:]]), abs(aside)
+
+    def _begun(
+        self, load: float | None, approach: float | None, hardness: float
+    ) -> Callable[[float], ContactState]:
+        """The linear solution under any part of the load."""
+
+        def begun(part: float) -> ContactState:
+            wanted = [part * each if each else each for each in (load, approach)]
+            rest = state_at_rest(self._linear, self._start)
+            given = self._linear, self.gap, self.weights, rest, *wanted, hardness
+            found = solve_nonlinear_contact(*given).state
+            moved, _ = self.set_back(np.vstack(found.displacements), found.pressure)
+            moved = np.where(self.response.held, part * self.linear, moved)
+            return replace(found, displacements=(moved,), load=0.0)
+
+        return begun
+
+    @cached_property
+    def _linear(self) -> list[tuple[Response, Contact]]:
+        """The linear bodies in contact on their undeformed surfaces."""
+        pairs = zip(self.elastic, (self.friction, -self.friction), strict=False)
+        return [
+            (LinearResponse(each), LinearContact(FiniteElementCompliance(each, self.hats), drag))
+            for each, drag in pairs
+        ]
 
     def deformed(self, solution: NonlinearSolution) -> "FiniteDeformation":
         """The bodies in a state of contact."""
