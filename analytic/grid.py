@@ -9,6 +9,9 @@ import numpy as np
 
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(4)
 
+# Part of the radius beyond which a circle continues as a straight line of slope 2.
+STEEPEST = 2.0 / np.sqrt(5.0)
+
 
 @dataclass(frozen=True)
 class HatGrid:
@@ -86,7 +89,7 @@ def roller_gap(
 ) -> Callable[[np.ndarray], np.ndarray]:
     """Initial gap g0(x) [m] of a roller over heights z(x) [m]; flat if None.
 
-    shape  x^2 / 2R, or R - sqrt(R^2 - x^2) for |x| <= R
+    shape  x^2 / 2R, or R - sqrt(R^2 - x^2), straight on beyond |x| = STEEPEST R
 
     The constant of the gap is arbitrary: the approach absorbs it. The result can be pickled where
     `height` can.
@@ -100,9 +103,12 @@ def _roller_gap(
     shape: str,
     x: np.ndarray,
 ) -> np.ndarray:
-    # the circle's sagitta without the difference of nearly equal numbers
-    twice = 2.0 * radius if shape == "parabola" else radius + np.sqrt(radius**2 - x**2)
-    sagitta = x**2 / twice
+    sagitta = x**2 / (2.0 * radius)
+    if shape == "circle":
+        inside = np.clip(x, -STEEPEST * radius, STEEPEST * radius)
+        below = np.sqrt(radius**2 - inside**2)
+        # without the difference of nearly equal numbers
+        sagitta = inside**2 / (radius + below) + inside / below * (x - inside)
     return sagitta if height is None else sagitta - height(x)
 
 

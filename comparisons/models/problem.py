@@ -286,10 +286,16 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
 
 
 def _check_circle(problem: Problem) -> None:
-    """Refuse a circle that the grid of pressures reaches around."""
+    """Refuse a circle that the grid of pressures reaches around, or on a layer the contact, which
+    is narrower."""
     scene, farthest = problem.scene, float(np.abs(problem.extent).max())
-    circle = scene.finite_element.roller_shape == "circle"
-    if circle and farthest > WIDEST_CIRCLE * scene.roller_radius:
+    if scene.finite_element.roller_shape != "circle":
+        return
+    widest = WIDEST_CIRCLE * scene.roller_radius
+    if farthest > widest and is_layered(scene):
+        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SEARCH_HATS)
+        farthest = np.abs(touched(problem, grid, nearest_operator(scene, grid))).max()
+    if farthest > widest:
         reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m"
         raise SceneError(
             f'{scene.source}: finite_element.roller_shape: is "circle", but the contact may reach '

@@ -80,3 +80,27 @@ def test_the_linear_factors_lead_where_newtons_method_does(roller):
     scale = other.pressure.max()
     np.testing.assert_allclose(found.pressure, other.pressure, atol=1e-5 * scale)
     assert found.approach == pytest.approx(other.approach, rel=1e-6)
+
+
+def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
+    """A bonded layer half a radius thick, nearly incompressible: the linear solution inverts
+    elements, and the half-plane's contact would reach around the roller."""
+    radius = 35e-3
+    tables = {
+        "roller": {"radius": radius, "rigid": True},
+        "body": {"youngs_modulus": 0.275e6, "poissons_ratio": 0.475, "thickness": 17.5e-3},
+        "load": {"per_length": 13.6e3},
+        "finite_element": {"deformation": "finite", "roller_shape": "circle"},
+    }
+    posed = problem(tables)
+    plan, half_widths, peaks = make_plan(posed, ("finite_element",)), [], []
+    for pitch in posed.pitches[:2]:
+        level = finite_element_level(posed, plan, Refinement(pitch), None, Stages())
+        solution = level.solution
+        assert solution.converged and solution.iterations["increments"] > 1
+        assert solution.load == pytest.approx(13.6e3, rel=1e-9)
+        half_widths.append(0.5 * np.ptp(level.patches) / radius)
+        peaks.append(solution.pressure.max())
+    assert half_widths == pytest.approx([0.666, 0.666], abs=2e-3)
+    assert peaks[1] == pytest.approx(419e3, rel=5e-3)
+    assert peaks[0] == pytest.approx(peaks[1], rel=1e-2)
