@@ -88,6 +88,12 @@ class TestSmooth:
                 over.append(error / entry["uncertainty"][name]["total"])
         assert len(over) == 10 and sorted(over)[-2] <= 1.0 and max(over) <= 2.0
 
+    def test_the_true_difference_of_both_models_is_nothing(self, smooth):
+        """Both solve Hertz's contact; by the sequence of their difference, not of each model."""
+        rows = {row.quantity: row for row in smooth.comparisons}
+        for name in ("peak_pressure", "contact_length", "tau1_max", "txz_max_abs"):
+            assert abs(rows[name].difference) <= rows[name].uncertainty, name
+
     def test_checks_and_iterations(self, smooth):
         for model in MODELS:
             entry = smooth.result["models"][model][0]
