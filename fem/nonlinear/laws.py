@@ -9,8 +9,8 @@
 with F = I + grad u, C = F'F, U = C^(1/2), J = det F, E = (C - I)/2 and its invariants I1, I2, I3;
 in plane strain I3 = 0, but n I2 is stress across the plane. Sources: Bonet and Wood, Nonlinear
 Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27; Hencky, Z. techn. Phys. 9
-(1928) 215; Murnaghan, Am. J. Math. 59 (1937) 235. Steel has l, m, n of about -0.5 to -3, -6 and
--7 times 100 GPa (Hughes and Kelly, Phys. Rev. 92 (1953) 1145, and others since).
+(1928) 215; Murnaghan, Am. J. Math. 59 (1937) 235. Constants l, m, n of rail steel were measured by
+Egle and Bray, J. Acoust. Soc. Am. 60 (1976) 741.
 
 Hencky's tr (ln U)^2 = (ln J)^2 / 2 + artanh^2(sqrt y) / 2, y = 1 - J^2/t^2, t = tr C / 2, has no
 singular derivative at equal stretches, where y = 0, as a series in y.
