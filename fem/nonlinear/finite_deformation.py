@@ -9,9 +9,9 @@ linear body (`fem.contact.terms.LinearResponse`) or one at finite strains
 
 Friction drags the bodies past each other, by an amount that for unbounded bodies is known but for a
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
-itself the roller would stand over another place of the trace. The body is moved back along x until
-the relative displacement of the surfaces along x is zero in the pressure's mean: under load the
-roller stands where the scene has put it.
+itself the roller would stand over another place of the trace. Both are moved back along x until the
+displacement of each surface along x is zero in the pressure's mean: under load the roller stands
+where the scene has put it.
 """
 
 from collections.abc import Callable
@@ -178,16 +178,16 @@ class FiniteContact:
         return self.deformed(solution)
 
     def set_back(self, moved: np.ndarray, pressure: np.ndarray) -> tuple[np.ndarray, float]:
-        """The displacement (n, 2) [m] with the body moved along x, so that in the mean of a
-        pressure (count,) [Pa] the surfaces have not moved past each other; and by how much [m]."""
-        pieces = np.split(moved, [len(self.body.nodes)])
-        at, force, means = self.hats[1:-1], pressure * self.weights, [0.0, 0.0]
+        """The displacement (n, 2) [m] with each body moved along x, so that in the mean of a
+        pressure (count,) [Pa] its surface stays where it was; and by how much at most [m]."""
+        pieces, aside = np.split(moved, [len(self.body.nodes)]), 0.0
+        at, force = self.hats[1:-1], pressure * self.weights
         for place, (body, piece) in enumerate(zip(self.elastic, pieces, strict=False)):
             surface = body.surface
             along = np.interp(at, surface.x, piece[surface.point, 0])
-            means[place] = float(force @ along / force.sum())
-        aside = means[0] - means[1]
-        return np.vstack([pieces[0] - (aside, 0.0), *pieces[1:]]), abs(aside)
+            mean = float(force @ along / force.sum())
+            pieces[place], aside = piece - (mean, 0.0), max(aside, abs(mean))
+        return np.vstack(pieces), aside
 
     def _begun(
         self, load: float | None, approach: float | None, hardness: float
