@@ -302,7 +302,11 @@ def heavy_after(code: str) -> list[str]:
     """Heavy modules that are loaded when `code` has run in a fresh interpreter."""
     report = f"import json, sys; print(json.dumps(sorted(set(sys.modules) & {HEAVY!r})))"
     done = subprocess.run(
-        [sys.executable, "-c", f"{code}\n{report}"], cwd=PROJECT, capture_output=True, text=True
+        [sys.executable, "-c", f"{code}\n{report}"],
+        cwd=PROJECT,
+        env=dict(os.environ),  # without what MPI, used in this process, would hand on
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout.splitlines()[-1])

@@ -208,7 +208,12 @@ def test_help_of_run_names_its_options(capsys):
 
 def python(code: str, **options) -> subprocess.CompletedProcess:
     return subprocess.run(
-        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, **options
+        [sys.executable, "-c", code],
+        cwd=PROJECT,
+        env=dict(os.environ),  # without what MPI, used in this process, would hand on
+        capture_output=True,
+        text=True,
+        **options,
     )
 
 
