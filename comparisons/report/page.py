@@ -81,6 +81,7 @@ def render(outcome: Outcome) -> str:
         operator=operator_table(outcome),
         operator_note=operator_note(outcome),
         cost=cost_table(outcome),
+        planned=outcome.forecast.text,
         record=record_rows(outcome),
         commands=commands(outcome),
         pictures=draw(outcome),

@@ -22,7 +22,7 @@ ROUNDING = KKT_TOLERANCE
 # Observed orders jump in irregular sequences, the machine's memory may decide the number of levels,
 # and estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
-NO_FIGURES |= {"estimate", "not_modelled", "safety_factor"}
+NO_FIGURES |= {"estimate", "not_modelled", "plan", "safety_factor"}
 DEPENDS = {
     "von_mises_max": "tau1_max",
     "contact_ratio_extent": "contact_length",

@@ -11,6 +11,7 @@ from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.assessment.yielding import FlowAssessment, flow_assessment
 from comparisons.common.errors import ExitStatus
 from comparisons.common.quantities import WHOLE
+from comparisons.models.forecast import Forecast, forecast
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
@@ -45,6 +46,11 @@ class Outcome:
     couplings: tuple[Coupling, ...] = ()
     budget: ErrorBudget | None = None
     pairs: tuple[PairHistory, ...] = ()
+
+    @cached_property
+    def forecast(self) -> Forecast:
+        """What the laws of cost said before anything was solved."""
+        return forecast(self.problem, self.plan)
 
     @cached_property
     def flow(self) -> FlowAssessment:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
+from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import given, significant, with_unit
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo, ResolvedScene
@@ -19,6 +20,7 @@ LONGEST_TRACE = 0.25  # [m] that stylus instruments drive
 # the second.
 SMOOTHEST, STEEPEST = 1e-4, 1.0
 LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
+FEWEST_ELEMENTS = 8  # to a wave: peak pressures are then known to some per cent
 FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
 
 
@@ -57,6 +59,14 @@ def warnings_about_result(outcome: Outcome) -> list[str]:
             f"samples of the profile ({with_unit(info.spacing, 'm')} apart): what is pressed is "
             "the curve between them"
         )
+    if scene.profile is not None:
+        per_wave = shortest_wavelength(scene.profile) / run.finest.grid.pitch
+        if per_wave < FEWEST_ELEMENTS:
+            found.append(
+                f"the shortest wave has {significant(per_wave, 2)} pressure elements on the finest "
+                f"level: at fewer than {FEWEST_ELEMENTS} its pressures are not known (budget, "
+                "resolution)"
+            )
     return found
 
 

@@ -13,6 +13,7 @@ from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.assessment.verdict import Comparison, validity_verdict
 from comparisons.assessment.yielding import flow_assessment
 from comparisons.common.quantities import QUANTITIES
+from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun, StressResult
 from comparisons.models.plan import Plan, no_coupling
 from comparisons.models.problem import Problem
@@ -71,6 +72,7 @@ def result_of(
         "error_budget": budget and error_budget_content(problem, runs, comparisons, budget),
         "yield": flow.as_dict(),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
+        "plan": forecast(problem, plan).as_dict(),
         "refinement": refinement,
         "skipped": [asdict(skipped) for skipped in plan.skipped],
     }

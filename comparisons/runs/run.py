@@ -11,6 +11,7 @@ from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest
+from comparisons.models.forecast import forecast
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -53,7 +54,9 @@ def run(
                 scene = run_in_scene(scene)
         with stages.stage("set-up", "finding the reach of the contact"):
             problem = _problem(scene, models, callback)
-        return solve(problem, make_plan(problem, models), out, callback, fields)
+        plan = make_plan(problem, models)
+        callback(forecast(problem, plan).text)
+        return solve(problem, plan, out, callback, fields)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except FemError as error:

@@ -1,0 +1,97 @@
+"""What the levels of a run will take, by the laws of cost, before anything is meshed or solved."""
+
+from dataclasses import asdict, dataclass
+
+import numpy as np
+
+from analytic.surface.roughness import shortest_wavelength
+from comparisons.common.numbers import significant, with_unit
+from comparisons.models.half_plane import expected_of
+from comparisons.models.level import ExpectedCost
+from comparisons.models.plan import Plan
+from comparisons.models.problem import Problem
+
+
+@dataclass(frozen=True)
+class PlannedLevel:
+    """One level of all models of a plan: `elements` of pressure of a `pitch` [m], displacements'
+    `unknowns`, seconds, and bytes at the peak."""
+
+    pitch: float
+    elements: int
+    unknowns: int
+    seconds: float
+    memory: float
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """The levels that a scene's budget allows if nothing ends the refinement earlier; at least one.
+
+    asked       levels to begin with
+    per_wave    pressure elements to the shortest wave on the last of them; None for smooth bodies
+    ends        why there are no more
+    """
+
+    levels: tuple[PlannedLevel, ...]
+    asked: int
+    per_wave: float | None
+    ends: str
+
+    @property
+    def text(self) -> str:
+        """In one line."""
+        begin = self.levels[: self.asked]
+        count = "1 level" if len(begin) == 1 else f"{len(begin)} levels"
+        few = f" of {self.asked} asked for" if len(begin) < self.asked else ""
+        text = f"planned: {count}{few} ({_cost(begin)})"
+        if len(self.levels) > len(begin):
+            text += f", up to {len(self.levels)} where a figure needs them ({_cost(self.levels)})"
+        if self.per_wave is not None:
+            text += f" with {significant(self.per_wave, 2)} pressure elements to the shortest wave"
+        return f"{text}; {self.ends}"
+
+    def as_dict(self) -> dict:
+        """For JSON, SI units."""
+        return asdict(self) | {"levels": [asdict(level) for level in self.levels]}
+
+
+def forecast(problem: Problem, plan: Plan) -> Forecast:
+    """Of a plan's levels, without its effects and far-boundary check; as if contact were all over
+    the stretch of pressures, which it never exceeds."""
+    scene, found, total, ends = problem.scene, [], 0.0, ""
+    for number in range(scene.resolution.most):
+        pitch = problem.pitches[0] / 2.0**number
+        elements = problem.grid(pitch).count
+        costs = [_expected(name, problem, plan, pitch, elements) for name in plan.models]
+        seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
+        total += seconds
+        if found and total > scene.budget.time:
+            ends = f"the budget of {with_unit(scene.budget.time, 's', 3)} ends it (budget.time)"
+            break
+        if found and memory > scene.budget.memory:
+            memory = with_unit(scene.budget.memory, "byte", 3)
+            ends = f"the budget of {memory} ends it (budget.memory)"
+            break
+        unknowns = max(cost.unknowns for cost in costs)
+        found.append(PlannedLevel(pitch, elements, unknowns, seconds, memory))
+    wave = None if scene.profile is None else shortest_wavelength(scene.profile)
+    per_wave = None if wave is None or np.isinf(wave) else float(wave / found[-1].pitch)
+    asked = len(problem.pitches)
+    return Forecast(tuple(found), asked, per_wave, ends or f"{len(found)} levels are the most")
+
+
+def _expected(name: str, problem: Problem, plan: Plan, pitch: float, elements: int) -> ExpectedCost:
+    if name == "half_plane":
+        return expected_of(elements)
+    from comparisons.models.finite_element.cost import expected
+    from comparisons.models.finite_element.mesh import Refinement
+
+    return expected(problem, plan, Refinement(pitch), np.array([problem.extent]))
+
+
+def _cost(levels: tuple[PlannedLevel, ...]) -> str:
+    """Unknowns of the last one, seconds of all, largest memory."""
+    seconds, memory = sum(each.seconds for each in levels), max(each.memory for each in levels)
+    unknowns = significant(float(levels[-1].unknowns), 2)
+    return f"{unknowns} unknowns, {with_unit(seconds, 's', 2)}, {with_unit(memory, 'byte', 2)}"

@@ -1,0 +1,75 @@
+"""What is said of a run before anything is solved, against what the run then takes."""
+
+from dataclasses import replace
+
+import pytest
+from scenes import STEEL, changed, problem
+
+from comparisons.assessment.refinement import refined
+from comparisons.common.progress import no_progress
+from comparisons.common.quantities import MODELS
+from comparisons.models.forecast import forecast
+from comparisons.models.level_cache import level_cache
+from comparisons.models.plan import make_plan
+
+TABLES = {
+    "roller": {"radius": 8e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 1e9},
+    "tolerance": {"peak_pressure": 1e-9},
+    "budget": {"effects": False},
+}
+SHORT = {"profile": {"kind": "sinusoid", "wavelength": 0.2e-6, "amplitude": 1e-9}}
+
+
+def planned(models=MODELS, **sections):
+    posed = problem(changed(TABLES, **sections))
+    plan = make_plan(posed, models)
+    return posed, plan, forecast(posed, plan)
+
+
+@pytest.mark.parametrize("time", [0.5, 2.0, 4.0])
+def test_as_many_levels_as_the_run_then_has(time):
+    posed, plan, found = planned(budget={"time": time, "effects": False})
+    cache = level_cache(None, posed.scene, plan)
+    runs, stop = refined(posed, plan, None, cache, no_progress)
+    levels = runs["finite_element"].levels
+    assert len(levels) == len(found.levels)
+    assert "budget.time" in stop and "budget.time" in found.ends
+    for level, said in zip(levels, found.levels, strict=True):
+        assert (level.grid.pitch, level.grid.count) == (said.pitch, said.elements)
+        # contact is narrower than the stretch that is planned for
+        assert 0.4 * said.unknowns < level.unknowns < 1.3 * said.unknowns
+        assert level.expected_seconds < 1.1 * said.seconds
+
+
+def test_waves_of_a_five_hundredth_of_the_half_width_are_told_to_be_coarse():
+    """The fourth level has a million unknowns and five to ten elements a wave; the fifth would
+    exceed the memory."""
+    posed, _, found = planned(**SHORT)
+    assert 400 < posed.hertz.half_width / 0.2e-6 < 800
+    assert len(found.levels) == 4 and "budget.memory" in found.ends
+    assert 4.0 < found.per_wave < 10.0
+    assert found.levels[-1].unknowns > 5e5
+    assert found.text.startswith("planned: 3 levels (") and "up to 4 where" in found.text
+
+
+def test_less_time_is_fewer_levels_but_never_none():
+    _, _, found = planned(budget={"time": 1e-6, "effects": False})
+    assert len(found.levels) == 1
+    assert "planned: 1 level of 3 asked for" in found.text
+
+
+def test_the_half_plane_alone_takes_no_finite_elements():
+    _, _, found = planned(models=("half_plane",), **SHORT)
+    assert found.levels[-1].elements > 1e5
+    assert found.levels[-1].unknowns == found.levels[-1].elements
+    assert found.as_dict()["levels"][0]["pitch"] == found.levels[0].pitch
+
+
+def test_a_smooth_body_has_no_waves():
+    posed, plan, found = planned()
+    assert found.per_wave is None and "wave" not in found.text
+    few = replace(posed.scene, resolution=replace(posed.scene.resolution, most=3))
+    limited = forecast(replace(posed, scene=few), plan)
+    assert limited.ends == "3 levels are the most"
