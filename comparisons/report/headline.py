@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.effects.selection import law_leaned_on
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
-from comparisons.models.assumptions import laws
 from comparisons.report.tables.text import error_text
 from comparisons.report.tables.yielding import flow_sentence
 from comparisons.results.outcome import Outcome
@@ -52,17 +52,18 @@ def _verdict(outcome: Outcome) -> Headline:
     checks = outcome.tolerance_checks
     verdict, _ = validity_verdict(checks)
     several = len(outcome.problem.scene.friction) > 1
+    law = law_leaned_on(outcome.budget.selection, outcome.problem.scene)
     if verdict == "holds":
         nearest = _said(_nearest(checks), several)
         said = f"{_all_judged(checks)}; nearest to its tolerance, {nearest}"
-        return Headline("holds", f"The half-plane holds here: {said}{_law(outcome)}.")
+        return Headline("holds", f"The half-plane holds here: {said}{law}.")
     if verdict == "fails":
         outside = [check for check in checks if check.verdict == "fails"]
         worst, more = _nearest(outside), len(outside) - 1
         are = "are" if more > 1 else "is"
         others = f"; {more} more of {len(checks)} judged errors {are} outside" if more else ""
         said = f"{_said(worst, several)}{_dominant(outcome, worst)}{others}"
-        return Headline("fails", f"The half-plane fails here: {said}{_law(outcome)}.")
+        return Headline("fails", f"The half-plane fails here: {said}{law}.")
     said = _inconclusive(checks, several) if checks else "no figure has a tolerance"
     return Headline("inconclusive", f"The half-plane cannot be judged here: {said}.")
 
@@ -115,14 +116,6 @@ def _dominant(outcome: Outcome, check: ToleranceCheck) -> str:
     if largest is None or sizes[largest] <= 0.5 * abs(error.value):
         return ""
     return f", dominated by {EFFECTS[largest].label}"
-
-
-def _law(outcome: Outcome) -> str:
-    """The law of elasticity that a verdict leans on, where the scene gives one."""
-    selection, scene = outcome.budget.selection, outcome.problem.scene
-    if "finite_strain" not in selection.whole or "law_of_elasticity" in selection.estimates:
-        return ""
-    return f", with {laws(scene)} elasticity"
 
 
 def _one_model(outcome: Outcome) -> str:

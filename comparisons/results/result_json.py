@@ -7,6 +7,7 @@ from dataclasses import asdict
 from comparisons.assessment.comparison import uncertainties
 from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.assessment.effects.error_budget import ErrorBudget
+from comparisons.assessment.effects.selection import law_leaned_on
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.sideways import sideways_shift
 from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
@@ -41,7 +42,9 @@ def result_of(
     tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
     flow = flow_assessment(problem, runs)
     verdict, why = validity_verdict(tolerance_checks)
-    verdict, why = (verdict, why) if budget is None else flow.judged(verdict, why)
+    if budget is not None:
+        why += law_leaned_on(budget.selection, problem.scene)
+        verdict, why = flow.judged(verdict, why)
     by_quantity = {name: [] for name in QUANTITIES}
     for row in comparisons:
         figures, name = asdict(row), row.quantity

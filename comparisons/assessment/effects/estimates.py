@@ -101,11 +101,12 @@ def _coating(problem: Problem) -> Sizes:
 
 
 # 0.25 % in contact length and 0.14 % in peak pressure of a ground surface of rms slope 0.066: of
-# second order. Stresses next to a boundary whose asperities do not flatten are of first order:
-# 8.4 % in tau1 there, 4 % in its near field at a slope of 0.01; and the largest tau1 may come to
-# stand below another asperity, at another depth.
+# second order. The near field of tau1 differs by 4 % at a slope of 0.01, and its largest value may
+# come to stand below another asperity, at another depth. On a linear boundary, whose asperities do
+# not flatten, largest stresses are of first order too, 8.4 % in tau1.
 BOUNDARY_PER_SLOPE_SQUARED = 1.0
-UNFLATTENED = {"tau1_max": 2.1, "txz_max_abs": 2.1, "tau1_field_near": 5.0, "tau1_max_depth": 7.0}
+BOUNDARY = {"tau1_field_near": 5.0, "tau1_max_depth": 7.0}
+UNFLATTENED = BOUNDARY | {"tau1_max": 2.1, "txz_max_abs": 2.1}
 
 
 def _slope(problem: Problem) -> float:
@@ -117,11 +118,7 @@ def _rough_boundary(problem: Problem) -> Sizes:
     slope = _slope(problem)
     found = _equal(BOUNDARY_PER_SLOPE_SQUARED * slope**2)
     found["pressure_l2"] *= 2.0
-    return found | _unflattened(slope)
-
-
-def _unflattened(slope: float) -> Sizes:
-    return {name: factor * slope for name, factor in UNFLATTENED.items()}
+    return found | {name: factor * slope for name, factor in BOUNDARY.items()}
 
 
 # The roller's tilted normal: 0.3 to 0.5 % in peak pressure and half-width at a/R = 0.02. Once
@@ -182,7 +179,7 @@ def _finite_deformation(problem: Problem, peak: float, contained: set[str]) -> S
     if "rough_boundary" not in contained:
         parts.append(_rough_boundary(problem))
     else:
-        parts.append(_unflattened(_slope(problem)))
+        parts.append({name: factor * _slope(problem) for name, factor in UNFLATTENED.items()})
     for sizes in parts:
         found = {name: size + sizes.get(name, 0.0) for name, size in found.items()}
     return found

@@ -6,7 +6,9 @@ from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, contained
 from comparisons.assessment.effects.estimates import Sizes, estimates
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.common.mpi import is_several
+from comparisons.models.assumptions import laws
 from comparisons.models.problem import Problem
+from comparisons.scenes.scene import ResolvedScene
 
 SHARE_OF_TOLERANCE = 0.1  # that an effect may move before it is computed
 # Effects in the order of the sums of their contributions, whose last bit depends on it.
@@ -83,6 +85,14 @@ def select_effects(
     if any(problem.scene.friction) and (added | own) & set(NONLINEAR):
         negligible.pop(COUPLED, None)  # these bodies have it
     return EffectSelection(own, frozenset(added), negligible, impossible, sized)
+
+
+def law_leaned_on(selection: EffectSelection, scene: ResolvedScene) -> str:
+    """For the end of a sentence: the law of elasticity that the whole has, where the scene gives
+    one and nothing is left of its spread; else nothing."""
+    if "finite_strain" not in selection.whole or "law_of_elasticity" in selection.estimates:
+        return ""
+    return f", with {laws(scene)} elasticity"
 
 
 def why_not(name: str, problem: Problem) -> str | None:

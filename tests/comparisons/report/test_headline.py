@@ -65,6 +65,25 @@ def test_failure_names_what_is_farthest_outside_and_the_dominant_effect(smooth_o
     assert "dominated" not in headline(judged(smooth_outcome, shared)).sentence
 
 
+def test_where_effects_interact_it_names_no_culprit(smooth_outcome: Outcome):
+    error = own("contact_length", -0.7, 1e-3, finite_size=0.5, exact_circle=0.1)
+    said = headline(judged(smooth_outcome, replace(error, interaction=0.6))).sentence
+    assert "the effects interact" in said and "dominated" not in said
+    beside = headline(judged(smooth_outcome, replace(error, interaction=0.4))).sentence
+    assert "dominated by finite thickness or width" in beside and "interact" not in beside
+
+
+def test_a_verdict_says_the_law_of_elasticity_that_it_leans_on(smooth_outcome: Outcome):
+    """Where the scene gives it; else its spread counts, and no law is leaned on."""
+    error = own("peak_pressure", 1e-3, 1e-4)
+    strained = replace(NONE, added=frozenset({"finite_strain"}))
+    given = headline(judged(smooth_outcome, error, selection=strained)).sentence
+    assert "uncertainty 0.010 %), with neo-Hookean elasticity." in given
+    estimates = {"law_of_elasticity": {"peak_pressure": 1e-3}}
+    spread = replace(strained, estimates=estimates, negligible=estimates)
+    assert "elasticity" not in headline(judged(smooth_outcome, error, selection=spread)).sentence
+
+
 def test_a_norm_has_no_sign(smooth_outcome: Outcome):
     assert (
         "difference is 9.0 %"
