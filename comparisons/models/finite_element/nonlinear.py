@@ -42,7 +42,8 @@ def pressed_finitely(
     """The body at finite strains, in contact on its deformed surface with a rigid roller or with
     an elastic one at finite strains.
 
-    Pressures are those on the deformed surface, at its displaced x. Raises FemError where there is
+    Pressures are Cauchy's, those on the deformed surface, at its displaced x; a contact length is
+    that along x of the deformed configuration. Raises FemError where there is
     no solution, and where contact reaches the grid's ends only at finite deformation.
     """
     rough, weights, x = operator.rough, grid.weights, grid.x

@@ -13,6 +13,7 @@ from analytic.contact.patches import contact_patches
 from analytic.material import Material
 from fem.body.elasticity import Support, elastic_body
 from fem.body.surface import hat_forces
+from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.compliance.far_field import FarField
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.deformed_roller import DeformedSurface, PairContact
@@ -149,6 +150,17 @@ def body(edge, radius=None, modulus=1.0, aside=0.0, size=60.0):
     return elastic_body(mesh, Material(modulus, POISSON), Support("bonded", "fixed"))
 
 
+def energy(body, displacement):
+    """The neo-Hookean strain energy, over Young's modulus 1."""
+    at, share = collapsed_gauss(4)
+    corner = body.points[body.mesh.triangles]
+    f = np.eye(2) + gradients(corner, displacement[body.elements], at)
+    log, mu = np.log(np.linalg.det(f)), body.material.shear_modulus
+    density = 0.5 * mu * ((f**2).sum(axis=(2, 3)) - 2.0 - 2.0 * log)
+    density += 0.5 * body.lame[0] * log**2
+    return (density * np.linalg.det(jacobians(corner, at)) * share).sum()
+
+
 class Pressed:
     """Two bodies of a/R = `curvature`: the figures of the rough one."""
 
@@ -266,6 +278,20 @@ class TestPressed:
         case, other = pressed(0.1), pressed(0.1, aside=0.37 * 0.05)
         inner = np.abs(case.x) < 0.9
         np.testing.assert_allclose(case.pressure[inner], other.pressure[inner], atol=1e-3)
+
+    @pytest.mark.parametrize("on_rough", [False, True])
+    def test_the_load_is_the_energys_derivative_by_the_approach(self, on_rough):
+        """Of both bodies' strain energy, by a quadrature of its own."""
+        case = pressed(0.1, on_rough=on_rough, far=False)
+        against = FiniteElementCompliance(case.roller, case.hats)
+        energies, h = [], 1e-3 * case.found.approach
+        for approach in case.found.approach + np.array([-h, h]):
+            found = press_finitely(
+                case.rough, case.hats, against, case.found.pressure, approach=approach
+            )
+            moved = found.displacement, found.roller_displacement
+            energies.append(sum(map(energy, (case.rough, case.roller), moved)))
+        assert np.diff(energies)[0] / (2.0 * h) == pytest.approx(case.load, rel=2e-4)
 
     @pytest.mark.parametrize("on_rough", [False, True])
     def test_figures_converge_with_the_edges(self, on_rough):
