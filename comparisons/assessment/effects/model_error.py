@@ -130,13 +130,13 @@ def model_errors(
         refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
         return Estimate(values[-1], refined.uncertainty + unsolved)
 
-    def of_effect(name: str, effect: str, at: int) -> Estimate:
+    def of_effect(name: str, effect: str, at: int, numerical: float) -> Estimate:
         found = share(name, [parts.effect(effect) for parts in history], at)
         with_it, without = (each.figures.get(LARGEST.get(name)) for each in last.pairs[effect])
         if with_it is None:
             return found
         ahead = with_it.max() / with_it[np.argmax(without)] - 1.0
-        return replace(found, moves_maximum=bool(ahead > found.uncertainty))
+        return replace(found, moves_maximum=bool(ahead > max(found.uncertainty, numerical)))
 
     def of_figure(row: Comparison, numerical: float, at: int) -> tuple[float, float]:
         """Error of a figure and its uncertainty."""
@@ -153,7 +153,8 @@ def model_errors(
         uncertainty = difference_of_figures(numerical, row.half_plane / scale, lacking)
         if name in LARGEST:
             largest = LARGEST[name]
-            alone = max(numerical, stated[name].total)
+            alone = stated[largest].total  # a depth does not say where it is
+            alone = max(numerical, alone) if largest == name else alone
             others = _competing(whole, name, at, alone, lambda k: share(largest, missing, k))
             uncertainty += others / scale
         return float((row.half_plane - figure) / scale), float(uncertainty)
@@ -162,8 +163,8 @@ def model_errors(
     found = []
     for row in rows:
         name, at = row.quantity, whole.leading(row.quantity)
-        effects = {effect: of_effect(name, effect, at) for effect in names}
         numerical = np.inf if row.uncertainty is None else row.uncertainty
+        effects = {effect: of_effect(name, effect, at, numerical) for effect in names}
         jump, moved, joint = 0.0, None, 0.0
         if last.nothing is not None:
             joint = share(name, [parts.interaction(names) for parts in history], at).value

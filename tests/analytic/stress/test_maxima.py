@@ -229,3 +229,27 @@ def test_no_pressure_has_its_maximum_at_zero():
     x = np.arange(8) * 1e-6
     field = stress_field(x, np.zeros(8), 0.1, (0.0, 7e-6), np.array([0.0, 1e-6]))
     assert largest_tau1(x, np.zeros(8), 0.1, field).value == 0.0
+
+
+def test_each_cell_of_x_has_its_own_maxima():
+    """Below two contacts and a weak one between them, each as if it were searched alone."""
+    x, pressure = elements(24, "hat")
+    pitch = x[1] - x[0]
+    nodes = pitch * np.arange(-400, 401)
+    loads = np.zeros(len(nodes))
+    for at, height in ((-120, 0.95), (10, 0.2), (130, 1.0)):
+        loads[400 + at - len(x) // 2 : 400 + at + len(x) // 2 + 1] += height * pressure
+    levels, ends = np.linspace(0.0, 1.5, 31), (-60.0 * pitch, 70.0 * pitch, 390.0 * pitch)
+    window = nodes[0] + 60.0 * pitch, 330.0 * pitch
+    field = stress_field(nodes, loads, 0.1, window, levels, 1)
+    found = stress_maxima(nodes, loads, 0.1, field, 0.3, cells=ends)
+    for k, part in ((0, (window[0], ends[0])), (2, (ends[1], window[1]))):
+        one = stress_field(nodes, loads, 0.1, part, levels, 1)
+        searched = stress_maxima(nodes, loads, 0.1, one, 0.3)
+        for name, single in (("tau1", searched.tau1), ("txz_abs", searched.txz_abs)):
+            assert found.cells[name][:, k] == pytest.approx((single.value, single.x, single.z))
+    cells = found.cells["tau1"]
+    assert cells[0].argmax() == 2 and cells[0, 1] < 0.5 * cells[0, 2] == 0.5 * found.tau1.value
+    assert cells[0, 3] == 0.0 and np.isnan(cells[1:, 3]).all()  # beyond the window
+    alone = stress_maxima(nodes, loads, 0.1, field, 0.3)
+    assert alone.tau1 == found.tau1 and alone.cells["tau1"].shape == (3, 1)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scenes import STEEL, problem
 
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import solve_contact
@@ -52,3 +53,15 @@ def test_pitches_halve_and_the_finest_is_a_fortieth_of_the_shortest_wave():
     pitches = np.array(problem_of(load_scene("sinusoid")).pitches)
     assert pitches[:-1] / pitches[1:] == pytest.approx(2.0, rel=1e-15)
     assert 40.0 <= 50e-6 / pitches[-1] <= 44.0
+
+
+def test_asperities_end_between_peaks_of_pressure():
+    """Of a wave in its troughs; a smooth body is one, and waves too low to stand out are none."""
+    wave = {"kind": "sinusoid", "wavelength": 60e-6, "amplitude": 0.5e-6}
+    rough = {"roller": {"radius": 8e-3, **STEEL}, "body": STEEL, "load": {"per_length": 1e6}}
+    posed = problem(rough | {"profile": wave})
+    ends = np.array(posed.asperities)
+    assert len(ends) >= 4
+    np.testing.assert_allclose((ends / 60e-6) % 1.0, 0.5, atol=0.05)  # crests stand at whole waves
+    assert problem(rough).asperities == ()
+    assert problem(rough | {"profile": wave | {"amplitude": 1e-9}}).asperities == ()

@@ -7,7 +7,7 @@ from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
-from fem.stress.maximum import maximum
+from fem.stress.maximum import NEAR, maxima, maximum
 from fem.stress.stress import at_mesh_points, nodal_stress
 
 
@@ -103,6 +103,25 @@ def test_the_window_limits_the_search(body):
     assert found.x <= 0.25 and found.z <= 0.5
     with pytest.raises(ValueError, match="no part of the body"):
         maximum(body, slope, lambda stress: stress.sx, (2.0, 3.0, 1.0))
+
+
+def test_each_cell_of_x_has_its_own_maximum(body):
+    """Sampled between the nodes where it comes near the largest; else the highest node."""
+    x, z = body.points.T
+    hills = sum(
+        height * np.exp(-60.0 * ((x - at) ** 2 + (z - 0.5) ** 2))
+        for at, height in ((-0.51, 0.9), (0.03, 1.0), (0.52, 0.3))
+    )
+    nodal, ends, window = field(body, hills), (-0.25, 0.25), (-0.8, 0.8, 0.9)
+    cells = [*zip((-0.8, *ends), (*ends, 0.8), strict=True)]
+    found = maxima(body, nodal, lambda stress: stress.sx, window, (*ends, 0.9))
+    for k, (start, stop) in enumerate(cells[:2]):
+        one = maximum(body, nodal, lambda stress: stress.sx, (start, stop, 0.9))
+        assert found[:, k] == pytest.approx((one.value, one.x, one.z))
+    assert found[0, 2] < NEAR * found[0, 1] and found[1, 2] == pytest.approx(0.52, abs=0.06)
+    assert found[0, 3] == 0.0 and np.isnan(found[1:, 3]).all()  # beyond the window
+    whole = maximum(body, nodal, lambda stress: stress.sx, window)
+    assert found[0].max() == pytest.approx(whole.value)
 
 
 def test_each_material_has_its_own_poissons_ratio(structured_block):
