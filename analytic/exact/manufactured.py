@@ -54,7 +54,7 @@ _TOGETHER = 256  # places that waves are summed at together
 # on ever closer points.
 _PLACES = 1.5 * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 41))
 _DEPTHS = np.array([0.0, *np.geomspace(0.01, 3.0, 24)])
-_STARTS, _ZOOMS, _ZOOM = 4, 40, 0.6
+_STARTS, _ZOOMS, _ZOOM = 3, 28, 0.5
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,6 @@ from comparisons.studies.verify.scenes import (
     LAYER_RADIUS,
     LAYER_THICKNESS,
     NEARLY_INCOMPRESSIBLE,
-    spread,
 )
 
 LEVELS = 3
@@ -45,12 +44,13 @@ FORMAL_ORDERS = {"mean_gap": 2.0}  # of figures that are not compared in scenes
 class OperatorContact:
     """A contact on an operator of the library.
 
-    kind    wave | punch | layer
+    kind    wave | punch | layer | rough
     model   half_plane | layer
     make    grid to operator
     gap     g0(x) [m], smooth but for `knots` [m]
     span    (2,) ends of the grid [m]; a period's where it is periodic
     scale   [m] of which the pitch is a part: half of the contact, or its rounded corner
+    patches of contact, a period's
     """
 
     name: str
@@ -65,6 +65,7 @@ class OperatorContact:
     scale: float
     exact: dict[str, float]
     periodic: bool = False
+    patches: int = 1
 
 
 def operator_contacts() -> tuple[OperatorContact, ...]:
@@ -74,9 +75,10 @@ def operator_contacts() -> tuple[OperatorContact, ...]:
     return (*contacts, *layers)
 
 
-def operator_cases(contacts: Sequence[OperatorContact] | None = None) -> list[CheckedCase]:
-    """Each contact, all if None, with its own number of elements."""
-    contacts = operator_contacts() if contacts is None else contacts
+def operator_cases(
+    contacts: Sequence[OperatorContact], resolutions: Sequence[float]
+) -> list[CheckedCase]:
+    """Each contact with its own number of elements on the third level."""
     return [
         CheckedCase(
             contact.kind,
@@ -84,7 +86,7 @@ def operator_cases(contacts: Sequence[OperatorContact] | None = None) -> list[Ch
             contact.model,
             partial(operator_findings, contact, elements),
         )
-        for contact, elements in zip(contacts, spread(len(contacts)), strict=True)
+        for contact, elements in zip(contacts, resolutions, strict=True)
     ]
 
 
@@ -97,7 +99,8 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
     for quantity, exact in case.exact.items():
         values = [figures[quantity] for figures in history]
         order = FORMAL_ORDERS.get(quantity) or QUANTITIES[quantity].formal_order
-        resolution = length_resolution(grid.pitch, 1) if quantity == "contact_length" else 0.0
+        length = quantity == "contact_length"
+        resolution = length_resolution(grid.pitch, case.patches) if length else 0.0
         convergence = grid_convergence(values, order, resolution)
         scale = abs(values[-1])
         error = convergence.uncertainty / scale

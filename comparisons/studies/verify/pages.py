@@ -8,7 +8,7 @@ import numpy as np
 from comparisons.report.html import STYLES, rendered
 from comparisons.report.terminal import plain_table
 from comparisons.studies.checks import MODEL_LABELS, rows_table, verdict_lines
-from comparisons.studies.verify.coverage import Coverage, ExactFindings, Verification
+from comparisons.studies.verify.coverage import GROUPS, Coverage, ExactFindings, Verification
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -23,14 +23,18 @@ def coverage_line(found: Verification) -> str:
 
 
 def verify_summary(found: Verification) -> "RenderableType":
-    """Coverage by model and quantity, rows that have no pairs or do not hold, and the verdict."""
+    """Coverage by model and quantity and by kind, rows that have no pairs or do not hold, and the
+    verdict."""
     from rich.console import Group
 
-    table = plain_table("model", "quantity", numbers=COLUMNS)
-    for row in _coverage_rows(found):
-        table.add_row(*row)
+    tables = []
+    for names in GROUPS:
+        table = plain_table(*names, numbers=COLUMNS)
+        for row in _coverage_rows(found, names):
+            table.add_row(*row)
+        tables += [table, ""]
     shown = [r for r in found.rows if not (r.holds and isinstance(r.findings, ExactFindings))]
-    return Group(table, "", rows_table(shown), verdict_lines(found), coverage_line(found))
+    return Group(*tables, rows_table(shown), verdict_lines(found), coverage_line(found))
 
 
 def verify_page(found: Verification) -> str:
@@ -43,6 +47,7 @@ def verify_page(found: Verification) -> str:
     ]
     pairs = [
         [
+            pair.table,
             MODEL_LABELS[pair.model],
             pair.case,
             pair.quantity,
@@ -55,9 +60,22 @@ def verify_page(found: Verification) -> str:
         for pair in found.pairs
     ]
     other = ("group", "measured", "value", "bound", "holds")
-    exact = ("model", "case", "quantity", "exact", "error", "uncertainty", "ratio", "covered")
+    exact = (
+        "table",
+        "model",
+        "case",
+        "quantity",
+        "exact",
+        "error",
+        "uncertainty",
+        "ratio",
+        "covered",
+    )
     tables = [
-        ("Coverage", ("model", "quantity", *COLUMNS), _coverage_rows(found)),
+        *(
+            (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(found, names))
+            for names in GROUPS
+        ),
         ("Orders, manufactured solutions, independent solver", other, figures),
         ("Figures", exact, pairs),
     ]
@@ -66,9 +84,18 @@ def verify_page(found: Verification) -> str:
     return rendered(template, policy=STYLES, title=title, faults=found.faults, tables=tables)
 
 
-def _coverage_rows(found: Verification) -> list[tuple[str, ...]]:
-    groups = [(MODEL_LABELS[m], quantity, *_cells(c)) for (m, quantity), c in found.groups.items()]
-    return [*groups, ("all", "", *_cells(found.coverage))]
+def _coverage_rows(found: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:
+    groups = [
+        (
+            *(
+                MODEL_LABELS[word] if name == "model" else word
+                for name, word in zip(names, group, strict=True)
+            ),
+            *_cells(covered),
+        )
+        for group, covered in found.groups(*names).items()
+    ]
+    return [*groups, ("all", *[""] * (len(names) - 1), *_cells(found.coverage))]
 
 
 def _cells(group: Coverage) -> tuple[str, ...]:

@@ -1,7 +1,8 @@
 """Both models against everything whose exact answer is known.
 
-Figures and their stated uncertainties, of scenes solved as `run` does (`scenes`) and of contacts
-on the library's operators (`operators`); observed orders (`coverage`); manufactured solutions
+Figures and model errors with their stated uncertainties, of scenes solved as `run` does (`scenes`)
+and of contacts on the library's operators (`operators`), smooth and rough (`rough`); observed
+orders (`coverage`); manufactured solutions
 (`manufactured`); the contact by PETSc's own solver (`independent_solver`).
 """
 
@@ -13,10 +14,16 @@ from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, no_progress, within
 from comparisons.studies.checks import CheckedCase, check_places, run_cases, write_study
-from comparisons.studies.verify.coverage import FEWEST, Verification, order_cases, verification
-from comparisons.studies.verify.operators import operator_cases
+from comparisons.studies.verify.coverage import (
+    FEWEST,
+    FEWEST_ROUGH,
+    Verification,
+    order_cases,
+    verification,
+)
+from comparisons.studies.verify.operators import operator_cases, operator_contacts
 from comparisons.studies.verify.pages import verify_page
-from comparisons.studies.verify.scenes import exact_scenes, scene_cases
+from comparisons.studies.verify.scenes import exact_scenes, scene_cases, spread
 
 DEGREES = (1, 2, 3)
 EXACT_SHARE = 0.9  # of the time, for the exact cases
@@ -28,21 +35,25 @@ class Scope:
 
     exact   cases whose findings are `ExactFindings`
     others  cases of the finite elements
-    fewest  informative figures that there must be
+    fewest, fewest_rough   informative figures that there must be, in all and of rough contacts
     """
 
     exact: tuple[CheckedCase, ...]
     others: tuple[CheckedCase, ...] = ()
     fewest: int = FEWEST
+    fewest_rough: int = FEWEST_ROUGH
 
 
 def everything() -> Scope:
     from comparisons.studies.verify.independent_solver import independent_cases
     from comparisons.studies.verify.manufactured import BODIES, manufactured_cases
+    from comparisons.studies.verify.rough import rough_cases
 
+    contacts = operator_contacts()
+    smooth = operator_cases(contacts, spread(len(contacts)))
     bodies = [(kind, degree) for kind in BODIES for degree in DEGREES]
     return Scope(
-        (*scene_cases(exact_scenes()), *operator_cases()),
+        (*scene_cases(exact_scenes()), *smooth, *rough_cases()),
         (*manufactured_cases(bodies), *independent_cases()),
     )
 
@@ -64,6 +75,6 @@ def verify(
     start = perf_counter()
     rows = run_cases(scope.exact, within(callback, 0.0, EXACT_SHARE))
     rows += run_cases((*order_cases(rows), *scope.others), within(callback, EXACT_SHARE, 1.0))
-    found = verification(rows, perf_counter() - start, scope.fewest)
+    found = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
     write_study(found, out, junit, verify_page(found))
     return found

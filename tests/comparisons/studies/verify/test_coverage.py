@@ -11,10 +11,11 @@ from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.errors import ExitStatus
 from comparisons.studies.checks import CheckedCase, CheckedRow, study_junit
 from comparisons.studies.verify.coverage import (
+    MODEL_ERROR,
     Pair,
     Verification,
     coverage,
-    coverage_case,
+    coverage_cases,
     exact_findings,
     observed_order,
     verification,
@@ -38,7 +39,7 @@ def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
 def whole(pairs: Iterable[Pair], error: str | None = None) -> Verification:
     """The verification of one row with these pairs."""
     case = CheckedCase("Hertz", "case <&>", "half_plane", lambda: None)
-    return verification((CheckedRow(case, exact_findings(pairs), error, 0.0),), 0.0, 200)
+    return verification((CheckedRow(case, exact_findings(pairs), error, 0.0),), 0.0, 200, 0)
 
 
 ENOUGH = [pair()] * 200
@@ -77,7 +78,8 @@ def test_a_wrong_figure_is_seen_however_large_its_uncertainty():
     ],
 )
 def test_coverage_needs_both_a_share_and_a_ratio(pairs, holds):
-    figures = coverage_case(pairs, fewest=0).solve().figures
+    [case] = coverage_cases(pairs, fewest=0, fewest_rough=0)
+    figures = case.solve().figures
     assert all(figure.holds for figure in figures) is holds
 
 
@@ -107,6 +109,26 @@ def test_one_miss_among_many_is_reported_but_does_not_fail():
     assert missed.holds and suite.get("failures") == "0"
     assert "NOT covered" in suite[200].find("system-out").text
     assert "case &lt;&amp;&gt;" in verify_page(missed)
+
+
+def test_rough_contacts_have_demands_of_their_own():
+    rough = [pair(kind="rough")] * 94 + [pair(kind="rough", stated=0.0)] * 6
+    every, of_rough = coverage_cases([*ENOUGH, *rough], 200, 100)
+    assert all(figure.holds for figure in every.solve().figures)
+    assert [figure.holds for figure in of_rough.solve().figures] == [False, True, True]
+    _, absent = coverage_cases(ENOUGH, 200, 1)
+    assert not any(figure.holds for figure in absent.solve().figures)
+
+
+def test_coverage_is_shown_by_table_model_quantity_and_kind():
+    error = pair(kind="layer", table=MODEL_ERROR, quantity="peak_pressure")
+    found = whole([*ENOUGH, pair(kind="rough"), error])
+    assert found.groups("table", "kind")[MODEL_ERROR, "layer"].count == 1
+    assert found.groups("table", "kind")["figure", "rough"].count == 1
+    assert found.groups("kind")["Hertz",].count == 200
+    assert error.figure.name == "model error, peak_pressure"
+    page = verify_page(found)
+    assert "Coverage by table, kind" in page and "<td>model error</td>" in page
 
 
 def test_coverage_is_rounded_down():

@@ -13,10 +13,16 @@ from comparisons import cli
 from comparisons.assessment import convergence
 from comparisons.common.errors import ExitStatus
 from comparisons.studies.verify import run
-from comparisons.studies.verify.coverage import LEAST_COVERAGE, Verification
+from comparisons.studies.verify.coverage import (
+    FEWEST_ROUGH,
+    LEAST_COVERAGE,
+    MODEL_ERROR,
+    Verification,
+)
 from comparisons.studies.verify.independent_solver import independent_cases
 from comparisons.studies.verify.manufactured import manufactured_cases
 from comparisons.studies.verify.operators import operator_cases, operator_contacts
+from comparisons.studies.verify.rough import rough_operator_contacts, rough_scenes
 from comparisons.studies.verify.run import Scope, verify
 from comparisons.studies.verify.scenes import (
     COMPARED,
@@ -27,6 +33,7 @@ from comparisons.studies.verify.scenes import (
     layer_scenes,
     scene_cases,
     scene_findings,
+    spread,
 )
 
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
@@ -41,17 +48,20 @@ def quick(tmp_path_factory) -> tuple[Verification, Path]:
         *(scene for scene in half_plane_scenes(rounds=1) if scene.kind != "Hertz"),
         finite_element_scenes()[0],
         *(layer_scenes()[k] for k in SOME_LAYERS),
+        *rough_scenes(half_planes=3, finite_elements=1, layers=1),
     )
+    contacts = (*operator_contacts()[:12], *rough_operator_contacts()[:2])
     scope = Scope(
-        (*scene_cases(scenes), *operator_cases(operator_contacts()[:12])),
+        (*scene_cases(scenes), *operator_cases(contacts, spread(len(contacts)))),
         (*manufactured_cases([("flat", 2)]), *independent_cases(["smooth"])),
         fewest=60,
+        fewest_rough=10,
     )
     return verify(folder / "out", folder / "ci" / "verify.xml", scope=scope), folder
 
 
 def half_plane_scope(count: int | None = None) -> Scope:
-    return Scope(tuple(scene_cases(half_plane_scenes(rounds=1)[:count])), fewest=0)
+    return Scope(tuple(scene_cases(half_plane_scenes(rounds=1)[:count])), fewest=0, fewest_rough=0)
 
 
 class TestCases:
@@ -62,7 +72,10 @@ class TestCases:
             kinds = {scene.kind for scene in scenes if model in scene.models}
             assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
         figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
-        assert figures + sum(len(c.exact) for c in operator_contacts()) >= 585
+        assert figures + sum(len(c.exact) for c in operator_contacts()) >= 550
+        rough = (*rough_scenes(), *rough_operator_contacts())
+        assert sum(len(case.exact) for case in rough) >= FEWEST_ROUGH
+        assert len({case.name for case in rough}) == len(rough)
         assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
 
     def test_no_two_cases_put_the_edge_at_the_same_place(self):
@@ -101,6 +114,8 @@ class TestWhole:
         groups = [row.case.group for row in found.rows]
         assert {"order", "manufactured", "independent solver", "coverage"} <= set(groups)
         assert groups.count("order") >= 5
+        tables = found.groups("table", "kind")
+        assert all(tables[MODEL_ERROR, kind].count >= 2 for kind in ("layer", "rough"))
 
     def test_files_say_the_same(self, quick):
         found, folder = quick
@@ -128,7 +143,7 @@ class TestWhole:
     def test_a_case_that_cannot_be_solved_is_a_fault_and_not_the_end(self, tmp_path):
         scene = half_plane_scenes()[0]
         impossible = replace(scene, tables=scene.tables | {"resolution": {"pitch": 1.0}})
-        scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0)
+        scope = Scope(tuple(scene_cases((impossible, scene))), fewest=0, fewest_rough=0)
         found = verify(tmp_path, scope=scope)
         assert found.rows[0].error is not None and len(found.pairs) == len(scene.exact)
         assert found.exit_status == ExitStatus.OUTSIDE_TOLERANCE
