@@ -276,7 +276,7 @@ class Verification(CheckedStudy):
         return coverage(self.pairs)
 
     def groups(self, *names: str) -> dict[tuple[str, ...], Coverage]:
-        """Coverage by fields of the pairs, of `GROUPS` one, in order of appearance."""
+        """Coverage by the named fields of the pairs, in order of appearance."""
         named: dict[tuple[str, ...], list[Pair]] = {}
         for pair in self.pairs:
             named.setdefault(tuple(getattr(pair, name) for name in names), []).append(pair)

@@ -42,7 +42,7 @@ MANY, FEW = (3, 5, 4, 7, 6), (3, 2, 4)  # patches, by what a solution costs
 REACH = 1e-4  # [m] half of the distance from the first to the last contact
 PRESSURE = 2e9  # [Pa] of the highest asperities
 SAMPLES, BEYOND = 4001, 0.6  # of the trace, and its length beside the contact over REACH
-DEPTH = 0.4  # of REACH: depth of the window; it is half of the layers' thickness at most
+DEPTH = 0.4  # of REACH: depth of the window, within every layer and coating
 SOURCE = "displacement of the chosen pressures, analytic/exact/manufactured.py"
 
 
