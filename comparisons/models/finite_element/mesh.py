@@ -89,7 +89,7 @@ def is_rough(problem: Problem) -> bool:
 
 def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
     """The mesh of an elastic roller, refined as the body's `spec` is: a block, or the flat of a
-    disc's sector."""
+    disc's sector. Raises SceneError for a disc that the pressures reach beyond."""
     scene, depth = problem.scene, problem.block
     half_width = 0.5 * depth
     disc = scene.finite_element.roller_body == "disc"
@@ -99,6 +99,13 @@ def roller_spec(problem: Problem, spec: BlockSpec) -> BlockSpec:
         radius = scene.roller_radius
         depth = min(depth, DISC_DEPTH * radius)
         half_width = min(half_width, DISC_HALF_WIDTH * radius)
+        farthest = np.abs(problem.extent).max()
+        if farthest > half_width:
+            raise SceneError(
+                f'{scene.source}: finite_element.roller_body: is "disc", but pressures may reach '
+                f"to {farthest:.3g} m from the centre of a sector of {half_width:.3g} m; allowed "
+                "is a lighter load, a larger radius or a larger finite_element.block"
+            )
     return replace(spec, half_width=half_width, depth=depth, window=None, interface=None)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scenes import STEEL, problem
 
+from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
 from comparisons.models.finite_element.level import finite_element_level
@@ -104,3 +105,17 @@ def test_rubber_pressed_to_two_thirds_of_the_rollers_radius():
     assert half_widths == pytest.approx([0.666, 0.666], abs=2e-3)
     assert peaks[1] == pytest.approx(419e3, rel=5e-3)
     assert peaks[0] == pytest.approx(peaks[1], rel=1e-2)
+
+
+def test_a_disc_that_the_pressures_reach_beyond_is_an_error():
+    steel = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
+    tables = {
+        "roller": {"radius": 35e-3, **steel},
+        "body": {"youngs_modulus": 0.275e6, "poissons_ratio": 0.475, "thickness": 17.5e-3},
+        "load": {"per_length": 6e3},
+        "finite_element": {"roller_body": "disc"},
+    }
+    posed = problem(tables)
+    plan, refinement = make_plan(posed, ("finite_element",)), Refinement(posed.pitches[0])
+    with pytest.raises(SceneError, match='roller_body: is "disc", but pressures may reach'):
+        finite_element_level(posed, plan, refinement, None, Stages())
