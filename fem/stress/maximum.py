@@ -31,6 +31,7 @@ ALIKE = 1e-8
 # Largest misfit of the polynomial at its nodes, relative to the maximum: beyond it the sample is
 # better.
 MISFIT = 0.01
+FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch's size
 
 
 def maximum(
@@ -173,7 +174,8 @@ def _smooth_maximum(
     bounds = list(zip(low, high, strict=True))
     # to 1e-9 of the patch: independent of rounding of the stresses
     top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
-    if not top.success or np.any((top.x <= low) | (top.x >= high)):
+    # the slope decides, not the search, which may end where rounding hides any further descent
+    if np.abs(top.jac).max() > FLAT or np.any((top.x <= low) | (top.x >= high)):
         return None
     place = origin + unit * top.x
     return Extremum(-float(top.fun) * abs(start.value), float(place[0]), float(place[1]))

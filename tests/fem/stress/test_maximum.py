@@ -80,6 +80,18 @@ def test_rounding_does_not_choose_among_elements_that_share_the_top(ridge, rng):
     assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-8)
 
 
+def test_rounding_does_not_choose_the_polynomial(body, rng):
+    x, z = body.points.T
+    for _ in range(20):
+        hill = np.exp(-((x - rng.uniform(-0.3, 0.3)) ** 2) - 2.0 * (z - rng.uniform(0.3, 0.7)) ** 2)
+        stress, found = np.array([hill, -0.5 * hill, 0.3 * hill * (1.0 + x)]), []
+        for _ in range(6):
+            rounded = StressState(*(stress * (1.0 + 1e-14 * rng.standard_normal(stress.shape))))
+            top = maximum(body, at_mesh_points(body, rounded), tau1)
+            found.append((top.value, top.x, top.z))
+        assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-7)
+
+
 def test_a_sharp_ridge_is_not_smoothed(body):
     """A cone: its tip, on a node, is the sample's, not the lower one of a cubic."""
     x, z = body.points.T
