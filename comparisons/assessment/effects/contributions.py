@@ -52,11 +52,15 @@ class SplitVariants:
     pairs: dict[str, tuple[ModelVariant, ModelVariant]]
 
     @property
+    def wholes(self) -> tuple[ModelVariant, ...]:
+        """Those that the model error takes; the others split it."""
+        return (self.whole,) if self.own is None else (self.whole, self.own)
+
+    @property
     def all(self) -> tuple[ModelVariant, ...]:
         """Each once, the whole first."""
         of_pairs = (variant for pair in self.pairs.values() for variant in pair)
-        own = () if self.own is None else (self.own,)
-        return tuple(dict.fromkeys((self.whole, *own, self.nothing, *of_pairs)))
+        return tuple(dict.fromkeys((*self.wholes, self.nothing, *of_pairs)))
 
 
 @dataclass(frozen=True)
@@ -65,9 +69,9 @@ class EffectContributions:
 
     whole    the finite elements with all effects
     own      the scene's own
-    nothing  without any effect, None where that has no solution: nothing is split then
+    nothing  without any effect; None where nothing is split on this level
     pairs    by effect, the solutions with and without it, as far as there are any
-    unsplit  why there is no split, else None
+    unsplit  why there can be no split, else None
     """
 
     whole: QuantitiesOfInterest
@@ -128,16 +132,22 @@ def split_variants(problem: Problem, selection: EffectSelection, friction: float
 
 
 def contributions_of(
-    solutions: VariantSolutions, split: SplitVariants, friction: float, level: int
+    solutions: VariantSolutions,
+    split: SplitVariants,
+    friction: float,
+    level: int,
+    whole_alone: bool = False,
 ) -> EffectContributions:
-    """All contributions on a level; raises NotComputedError where the whole has no solution. An
-    effect without a solution by itself counts in the interaction."""
+    """All contributions on a level, or of the `whole_alone`; raises NotComputedError where that has
+    no solution. An effect without a solution by itself counts in the interaction."""
 
     def solved(variant: ModelVariant) -> QuantitiesOfInterest:
         return solutions.solution(variant, level, friction)
 
     whole = solved(split.whole)
     own = solved(split.own) if split.own else solutions.scene_solution(level, friction)
+    if whole_alone:
+        return EffectContributions(whole, own, None, {})
     try:
         nothing = solved(split.nothing)
     except NotComputedError as error:

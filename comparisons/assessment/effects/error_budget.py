@@ -5,8 +5,9 @@ the odd ones: the larger change counts. The half-plane is enough, for both model
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import attrgetter
 
 from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
@@ -21,6 +22,7 @@ from comparisons.assessment.effects.model_error import ModelError, model_errors
 from comparisons.assessment.effects.quantities_of_interest import quantities_of, relative_sizes
 from comparisons.assessment.effects.selection import EffectSelection, select_effects
 from comparisons.assessment.effects.solutions import SolvedVariants, processes_beside
+from comparisons.assessment.effects.variants import ModelVariant
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.common.cache import Cache
@@ -35,7 +37,7 @@ from comparisons.models.window import Window
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
-GROWTH_OF_TIME = 3.5  # from one level to the next, at most
+GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ class ErrorBudget:
     """What separates the half-plane from the whole model, and both from the surface.
 
     selection     which effects were computed
-    levels        that the effects were taken to; 0 where there is no solution of the whole
+    levels        that the whole was taken to; 0 where it has no solution
     unsplit       why the difference of the models could not be split, else None
     model_errors  of each quantity at each friction coefficient
     sampling      by friction and quantity: what half the samples of the trace change
@@ -133,19 +135,27 @@ def _refined(
     splits: dict[float, SplitVariants],
     solved: SolvedVariants,
 ) -> tuple[int, list[ModelError], str | None]:
-    """The level that the effects were taken to, the model errors, and why these are not split.
+    """The level that the whole was taken to, the model errors, and why these are not split.
 
-    Raises NotComputedError where a whole has no solution on the least levels.
+    The split stays on the least levels, unless the whole and the scene's own finite elements are
+    all that it takes. Raises NotComputedError where a whole has no solution on the least levels.
     """
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
     wanted = problem.scene.budget.levels or MOST_LEVELS
     most = min(MOST_LEVELS, wanted, len(runs["finite_element"].levels))
     for number in range(1, most + 1):
-        asked = dict.fromkeys(each for split in splits.values() for each in split.all)
-        solved.prepare(asked, number)
+        every, wholes = (
+            dict.fromkeys(each for split in splits.values() for each in variants(split))
+            for variants in (attrgetter("all"), attrgetter("wholes"))
+        )
+        finer = number > LEAST_LEVELS
+        if finer and _is_beyond(problem, runs, solved, number, wholes):
+            break
+        alone = finer and any(solved.is_open(each, number) for each in every if each not in wholes)
+        solved.prepare(wholes if alone else every, number)
         try:
-            new = {mu: contributions_of(solved, splits[mu], mu, number) for mu in history}
+            new = {mu: contributions_of(solved, splits[mu], mu, number, alone) for mu in history}
         except NotComputedError:
             if number <= LEAST_LEVELS:
                 raise
@@ -156,23 +166,25 @@ def _refined(
         for friction, parts in history.items():
             there = [row for row in rows if row.friction == friction]
             own += model_errors(problem, window, runs, there, parts)
-        if number >= LEAST_LEVELS and (
-            _settled(rows, own) or _is_beyond(problem, runs, solved, number)
-        ):
+        if number >= LEAST_LEVELS and _settled(rows, own):
             break
-    every = [parts for of_friction in history.values() for parts in of_friction]
-    unsplit = next((parts.unsplit for parts in every if parts.unsplit), None)
+    found = [parts.unsplit for of_friction in history.values() for parts in of_friction]
+    unsplit = next(filter(None, found), None)
     return len(next(iter(history.values()))), own, unsplit
 
 
 def _is_beyond(
-    problem: Problem, runs: dict[str, ModelRun], solved: SolvedVariants, number: int
+    problem: Problem,
+    runs: dict[str, ModelRun],
+    solved: SolvedVariants,
+    number: int,
+    asked: Iterable[ModelVariant],
 ) -> bool:
-    """Whether one more level of the effects would exceed the time, by the laws of cost: clocks
-    would give another machine other figures."""
+    """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
+    give another machine other figures."""
     spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
-    spent += sum(solved.expected_of(each) for each in range(1, number + 1))
-    finer = GROWTH_OF_TIME * solved.expected_of(number)
+    spent += sum(solved.expected_of(each) for each in range(1, number))
+    finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
     return spent + finer > problem.scene.budget.time
 
 

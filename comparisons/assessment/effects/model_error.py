@@ -92,11 +92,15 @@ def model_errors(
     """One for each row, all of one friction coefficient.
 
     rows     the models' comparison at that friction
-    history  the effects there on the first levels, coarse to fine
+    history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
+             the last of these
     """
-    friction, last = rows[0].friction, history[-1]
-    number, names = len(history) - 1, list(last.pairs)
-    names = [name for name in names if all(name in parts.pairs for parts in history)]
+    friction = rows[0].friction
+    number, divided = len(history) - 1, [parts for parts in history if parts.nothing is not None]
+    if any(parts.unsplit for parts in history):
+        divided = []
+    names = list(divided[-1].pairs) if divided else []
+    names = [name for name in names if all(name in parts.pairs for parts in divided)]
     levels = {
         model: [quantities_of(level, problem, friction) for level in run.levels]
         for model, run in runs.items()
@@ -119,7 +123,7 @@ def model_errors(
         if QUANTITIES[name].of_pair:
             values = [
                 relative_sizes(change, reference, problem, window)[name]
-                for change, reference in zip(changes, wholes, strict=True)
+                for change, reference in zip(changes, wholes, strict=False)
             ]
         else:  # by one scale: a place may jump to the surface on one level alone
             scale = _scale(whole.figures[name][at], name, problem)
@@ -131,8 +135,9 @@ def model_errors(
         return Estimate(values[-1], refined.uncertainty + unsolved)
 
     def of_effect(name: str, effect: str, at: int, numerical: float) -> Estimate:
-        found = share(name, [parts.effect(effect) for parts in history], at)
-        with_it, without = (each.figures.get(LARGEST.get(name)) for each in last.pairs[effect])
+        found = share(name, [parts.effect(effect) for parts in divided], at)
+        pair = divided[-1].pairs[effect]
+        with_it, without = (each.figures.get(LARGEST.get(name)) for each in pair)
         if with_it is None:
             return found
         ahead = with_it.max() / with_it[np.argmax(without)] - 1.0
@@ -166,8 +171,8 @@ def model_errors(
         numerical = np.inf if row.uncertainty is None else row.uncertainty
         effects = {effect: of_effect(name, effect, at, numerical) for effect in names}
         jump, moved, joint = 0.0, None, 0.0
-        if last.nothing is not None:
-            joint = share(name, [parts.interaction(names) for parts in history], at).value
+        if divided:
+            joint = share(name, [parts.interaction(names) for parts in divided], at).value
         if not QUANTITIES[name].of_pair:
             value, uncertainty = of_figure(row, numerical, at)
             before = half_plane[-1].leading(name)

@@ -94,7 +94,7 @@ class SolvedVariants:
 
     def prepare(self, asked: Iterable[ModelVariant], number: int) -> None:
         """Solve the variants that are new on a level, side by side where that pays."""
-        new = [each for each in asked if not self._is_own(each) and self._is_new(each, number)]
+        new = [each for each in asked if self.is_open(each, number)]
         new.sort(key=lambda variant: "finite_strain" not in variant.effects)  # the dearest first
 
         def here(variant: ModelVariant) -> None:
@@ -108,9 +108,14 @@ class SolvedVariants:
 
         share_out(new, here, [partial(there, call) for call in self._helpers(number, len(new))])
 
-    def expected_of(self, number: int) -> float:
-        """Seconds that the variants of a level take by the laws of cost."""
-        return math.fsum(cost for (_, level), cost in self.expected.items() if level == number)
+    def is_open(self, variant: ModelVariant, number: int) -> bool:
+        """Whether a level of a variant is yet to be solved."""
+        return not self._is_own(variant) and self._is_new(variant, number)
+
+    def expected_of(self, number: int, asked: Iterable[ModelVariant] | None = None) -> float:
+        """Seconds that the variants of a level take by the laws of cost, or those asked for."""
+        known = {each: cost for (each, level), cost in self.expected.items() if level == number}
+        return math.fsum(known.get(each, 0.0) for each in (known if asked is None else asked))
 
     def _helpers(self, number: int, count: int) -> Sequence[Call]:
         """The processes that `count` variants on a level are worth, and memory allows."""
