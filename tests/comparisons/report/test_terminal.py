@@ -83,7 +83,7 @@ def test_peaks_that_the_hardness_limits_are_marked(wavy_outcome: Outcome):
     changed = replace(wavy_outcome.comparisons[0], half_plane=hardness, finite_element=hardness)
     outcome = replace(wavy_outcome, comparisons=(changed, *wavy_outcome.comparisons[1:]))
     text = printed(outcome)
-    assert text.count("\ncapped in both ") == 1
+    assert text.count("\ncapped in both") == 1  # and what is not modelled
     assert max(map(len, text.splitlines())) <= 80
 
 
