@@ -1,11 +1,12 @@
 """The scenes of the check, their solution by these finite elements, and what is kept of it.
 
 Nobody has tuned the project on them: pieces of the traces that come along, places and loads taken
-at once. `values.json` holds their figures, from meshes down to 1/16 um under the asperities.
+at once. `values.json` holds their figures, from meshes down to 1/16 um under the asperities,
+and of `ground-unrun` with friction, down to 1/4 um.
 """
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from comparisons.scenes.scene import ResolvedScene
 
 HERE = Path(__file__).parent
 VALUES = HERE / "values.json"
-LEVELS = (0.5, 0.25, 0.125, 0.0625)  # um
+SIZES = np.array([8.0, 4.0, 2.0, 1.0])  # of elements, over the finest
+FINEST, WIDE = 0.0625, 300.0  # um; from that half-width on elements are four times as large
 REACH = 2.0  # half-widths of the smooth contact within which the coarsest mesh is fine
 # How figures are called in result.json, and their names and units here. The project's length at
 # finite deformation is that of the deformed surface.
@@ -52,14 +54,19 @@ def task_of(scene: ResolvedScene, friction: float, law: str = "neo-hookean") -> 
     )
 
 
+def levels_of(task: Task) -> np.ndarray:
+    """Sizes [um] of the elements that touch, coarse to fine."""
+    return SIZES * FINEST * (4.0 if task.half_width > WIDE else 1.0)
+
+
 def solved(
-    task: Task, levels: tuple[float, ...] = LEVELS, log: Callable[[str], None] = lambda text: None
+    task: Task, levels: Sequence[float], log: Callable[[str], None] = lambda text: None
 ) -> list[ContactFigures]:
-    """ContactFigures on every mesh, coarse to fine."""
+    """Figures on every mesh, coarse to fine."""
     return [figures(*each) for each in solutions(task, levels, REACH * task.half_width, log)]
 
 
-def kept(found: list[ContactFigures], levels: tuple[float, ...]) -> dict:
+def kept(found: list[ContactFigures], levels: Sequence[float]) -> dict:
     """For `values.json`, SI units: the finest mesh's figures, and as uncertainty of each what the
     last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
     fine, coarse = found[-1], found[-2]

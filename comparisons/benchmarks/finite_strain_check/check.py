@@ -9,11 +9,13 @@ Each scene is run with its effects, and the stated model error of each figure co
 
 The independent values come from finite elements of quadratic triangles (`solid`, `contact`) that
 share nothing with the project's: both bodies neo-Hookean at finite strain, contact on the deformed
-surfaces, friction along them, elastic rollers as discs of their own. They are kept in values.json;
-solving anew takes about a minute of processor time a scene. Within: the two differ by no more than
-both uncertainties together, the root of the sum of their squares.
+surfaces, friction along them, elastic rollers as bodies of their own, as discs where a/R exceeds
+0.03. They are kept in values.json; solving anew takes about a minute of processor time a scene.
+Within: the two differ by no more than both uncertainties together, the root of the sum of their
+squares.
 
-Exit status 0 only if every figure of every scene is within.
+Exit status 0 only if at least 95 % of the figures are, the coverage that uncertainties are stated
+with, and none is off by more than three times both.
 """
 
 import argparse
@@ -25,6 +27,7 @@ from comparisons.benchmarks.finite_strain_check import cases
 from comparisons.benchmarks.harness import Demand, print_demands, print_table
 
 COLUMNS = ("scene", "mu", "figure", "stated %", "+-", "independent %", "+-", "ratio", "within")
+COVERAGE, WORST = 0.95, 3.0
 
 
 class Held(NamedTuple):
@@ -44,11 +47,6 @@ class Held(NamedTuple):
         """Of the difference to both uncertainties: within where it is at most 1."""
         return abs(self.stated - self.found) / math.hypot(self.uncertainty, self.own)
 
-    @property
-    def demand(self) -> Demand:
-        text = f"{self.scene}, {self.quantity}: {self.ratio:.2f} of the uncertainty"
-        return Demand(self.ratio <= 1.0, text)
-
 
 def held(name: str, result: dict, figures: dict) -> list[Held]:
     """Every figure of a run (`result.json`) beside `figures` of `cases.kept`."""
@@ -63,6 +61,15 @@ def held(name: str, result: dict, figures: dict) -> list[Held]:
     return found
 
 
+def demands(rows: list[Held]) -> list[Demand]:
+    """Of the figures of all scenes."""
+    within, worst = sum(row.ratio <= 1.0 for row in rows), max(row.ratio for row in rows)
+    return [
+        Demand(within >= COVERAGE * len(rows), f"{within} of {len(rows)} figures are within"),
+        Demand(worst <= WORST, f"the worst is off by {worst:.2f} times both uncertainties"),
+    ]
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Print every figure; the exit status."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -73,9 +80,11 @@ def main(arguments: list[str] | None = None) -> int:
     if options.solve:
         for name in options.scenes:
             scene = api.load(paths[name])
-            found = cases.solved(cases.task_of(scene, scene.friction[0]), log=print)
+            task = cases.task_of(scene, scene.friction[0])
+            levels = cases.levels_of(task)
+            found = cases.solved(task, levels, print)
             values = cases.read_values() if cases.VALUES.exists() else {}
-            cases.write_values(values | {name: cases.kept(found, cases.LEVELS)})
+            cases.write_values(values | {name: cases.kept(found, levels)})
         return 0
     values, rows = cases.read_values(), []
     for name in options.scenes:
@@ -87,4 +96,4 @@ def main(arguments: list[str] | None = None) -> int:
         within = f"{row.ratio:.2f}", "yes" if row.ratio <= 1.0 else "NO"
         cells.append((row.scene, f"{row.friction:g}", row.quantity, *numbers, *within))
     print_table("The half-plane's error, as stated and as found independently", COLUMNS, cells)
-    return print_demands([row.demand for row in rows])
+    return print_demands(demands(rows))

@@ -1,4 +1,4 @@
-"""ContactFigures of a solved contact, in the definitions of the project."""
+"""Figures of a solved contact, in the definitions of the project."""
 
 from typing import NamedTuple
 

@@ -19,6 +19,8 @@ STRESSED = 0.9  # of the largest shear, from which elements are as fine as at th
 OF_DEPTH = 16.0  # no elements are finer than this part of their depth
 AT_ENDS = 0.125  # of the size elsewhere in contact
 NOWHERE = np.full((1, 2), 1e9)  # um
+SMALL = 0.03  # of the radius: half-widths from which on the roller's size matters
+CIRCLE = 6.0  # half-widths to each side in which a half-plane has the roller's exact shape
 DISC = 0.6  # of the radius: depth of the squares that a disc is mapped from; their half-width twice
 GROWTH = 0.25  # of elements per distance from the contact
 
@@ -29,8 +31,7 @@ class Task:
 
     profile   heights of x; roller  (modulus, ratio), None where rigid; body likewise
     radius    of the roller, load  per length, friction mu
-    law       of both bodies (`solid`); with `linear` these are half-planes and the roller a
-              parabola, else it is a disc held at its core
+    law       of both bodies (`solid`); with `linear` these are flat and the roller a parabola
     """
 
     x: np.ndarray
@@ -52,6 +53,12 @@ class Task:
     def half_width(self) -> float:
         """Of the smooth contact."""
         return float(np.sqrt(4.0 * self.load * self.radius / (np.pi * self.modulus)))
+
+    @property
+    def is_disc(self) -> bool:
+        """Whether the roller is a disc held at its core, else a half-plane with the circle on it.
+        Friction turns a disc, and with it the places that the shift along x goes by."""
+        return self.law != "linear" and self.half_width > SMALL * self.radius
 
     def surface(self, x: np.ndarray) -> np.ndarray:
         """Height of the rough body: the trace's spline, which fades out at its ends."""
@@ -114,14 +121,19 @@ def pair(task: Task, rough: Triangles, roller: Triangles | None, reach: float) -
     else:
         s, d = roller.nodes.T
         held = d == d.max()
-        if small:
-            held |= np.abs(s) == np.abs(s).max()
-            places = np.stack([s, d], axis=1)
-        else:  # conformal: squares stay squares
+        if task.is_disc:  # conformal: squares stay squares
             inner = r * np.exp(-d / r)
             places = np.stack([inner * np.sin(s / r), r - inner * np.cos(s / r)], axis=1)
             flat = d == 0.0
             places[flat, 1] = 2.0 * r * np.sin(0.5 * s[flat] / r) ** 2
+        else:
+            held |= np.abs(s) == np.abs(s).max()
+            near = CIRCLE * task.half_width
+            along = np.minimum(np.abs(s), near)
+            along = along + near * np.tanh((np.abs(s) - along) / near)
+            rise = along**2 / (r + np.sqrt(r**2 - along**2))
+            rise = rise * _smooth(np.clip(1.0 - 0.5 * d / near, 0.0, 1.0))
+            places = np.stack([s, d + (0.0 if small else rise)], axis=1)
         above = Solid(roller, places, held, *task.roller, task.law)
     return SurfacePair(below, above, task.load, task.friction, reach, gap)
 
@@ -131,16 +143,17 @@ Meshes = tuple[Triangles, Triangles | None]
 
 def meshes(task: Task, wanted: ElementSizes, coarse: Meshes | None = None) -> Meshes:
     """Of both bodies, bisected from coarser ones."""
-    small, r = task.law == "linear", task.radius
+    r = task.radius
     if coarse is None:
         side = wanted.fine * 2.0 ** np.ceil(np.log2(BLOCK * task.half_width / wanted.fine))
         block = strip(side, 2, 1)
         side = wanted.fine * 2.0 ** np.round(np.log2(DISC * r / wanted.fine))
-        coarse = block, (block if small else strip(side, 4, 2)) if task.roller else None
+        coarse = block, (strip(side, 4, 2) if task.is_disc else block) if task.roller else None
     rough, roller = coarse
     if roller is None:
         return refined(rough, wanted), None
-    above = wanted.on_surface(lambda x: x if small else r * np.arcsin(np.clip(x / r, -1.0, 1.0)))
+    disc = task.is_disc
+    above = wanted.on_surface(lambda x: r * np.arcsin(np.clip(x / r, -1, 1)) if disc else x)
     return refined(rough, wanted), refined(roller, above)
 
 
