@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scenes import changed
 
 from analytic.grid import HatGrid
 from comparisons.assessment.comparison import figures
@@ -76,7 +77,7 @@ class TestGroundUnrun:
         assert unrun.exit_status == ExitStatus.INCONCLUSIVE
         validity = unrun.result["validity"]
         assert validity["verdict"] == "inconclusive"
-        for effect in ("deformed gap", "rough boundary", "finite strain"):
+        for effect in ("finite deformation", "law of elasticity"):
             assert effect in validity["why"]
         assert unrun.result["refinement"] == "every judged quantity is resolved"
         assert len(unrun.runs["finite_element"].levels) == 3
@@ -167,12 +168,16 @@ def test_other_scenes_agree(name, tmp_path):
     [
         # what a thin incompressible layer, and a coating, do is none of the half-plane's
         ("layer", "fails", -0.58, 1.08),
-        ("coated", "fails", -5.3e-3, 1.4e-2),
+        # finite deformation of a coated body is not modelled, and may exceed the tolerance
+        ("coated", "inconclusive", -5.3e-3, 1.4e-2),
         ("finite-strain", "holds", -5.2e-3, 5.5e-3),
     ],
 )
 def test_scenes_that_leave_an_assumption_behind(name, verdict, peak, length):
-    outcome = run(quick(name, effects=True), None, MODELS)
+    """With the law of elasticity given: without it the verdict on rubber would be in doubt."""
+    scene = quick(name, effects=True)
+    given = changed(scene.tables, body={"law": "neo-hookean"})
+    outcome = run(replace(scene, tables=given), None, MODELS)
     assert outcome.result["validity"]["verdict"] == verdict
     found = {row.quantity: row.difference for row in outcome.comparisons}
     assert found["peak_pressure"] == pytest.approx(peak, rel=0.1)

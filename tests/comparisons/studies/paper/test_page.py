@@ -248,9 +248,9 @@ def test_the_model_error_stands_beside_each_claim_of_a_real_contact(made, page):
     assert text.count("Model error of the half-plane in this figure:") == sum(
         claim.quantity is not None for claim in claims()
     )
-    # a rough boundary was not computed: its estimate stands there
+    # finite deformation was not computed: its estimate stands there
     left = claims_in_json["twice-unrun"]["model_error"]["not_modelled"]
-    assert left["rough_boundary"] > 0.05
+    assert left["finite_strain"] > 0.05
     assert "not modelled, by estimate: at most" in text
 
 
