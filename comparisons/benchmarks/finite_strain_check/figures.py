@@ -59,8 +59,7 @@ def figures(pair: SurfacePair, state: State) -> ContactFigures:
     top = int(pressure.argmax())
     peak, peak_x = _vertex(pair.x[top - 1 : top + 2], pressure[top - 1 : top + 2])
     ends = patch_ends(pair.x, state.pressure)
-    sx, sz, txz = rough.cauchy(u)
-    tau1, orthogonal = np.hypot(0.5 * (sx - sz), txz), np.abs(txz)
+    tau1, orthogonal = shears(pair, state)
     s, d = mesh.nodes.T
     first, second = tau1.argmax(), orthogonal.argmax()
     bounds = np.concatenate([[-np.inf], 0.5 * (ends[:-1, 1] + ends[1:, 0]), [np.inf]])
@@ -81,10 +80,10 @@ def figures(pair: SurfacePair, state: State) -> ContactFigures:
     )  # fmt: skip
 
 
-def principal_shear(pair: SurfacePair, state: State) -> np.ndarray:
-    """tau1 at the rough body's nodes."""
+def shears(pair: SurfacePair, state: State) -> tuple[np.ndarray, np.ndarray]:
+    """tau1 and |txz| at the rough body's nodes."""
     sx, sz, txz = pair.rough.cauchy(state.moved[0])
-    return np.hypot(0.5 * (sx - sz), txz)
+    return np.hypot(0.5 * (sx - sz), txz), np.abs(txz)
 
 
 def _vertex(x: np.ndarray, y: np.ndarray) -> tuple[float, float]:

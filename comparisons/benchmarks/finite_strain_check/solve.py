@@ -9,13 +9,13 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
 from comparisons.benchmarks.finite_strain_check.contact import State, SurfacePair
-from comparisons.benchmarks.finite_strain_check.figures import patch_ends, principal_shear
+from comparisons.benchmarks.finite_strain_check.figures import patch_ends, shears
 from comparisons.benchmarks.finite_strain_check.mesh import Triangles, interpolated, refined, strip
 from comparisons.benchmarks.finite_strain_check.solid import Solid
 
 BLOCK = 2000.0  # half-widths to the far boundary
 FADE = 40.0  # um of depth to which the mesh follows the trace, and of length in which it ends
-STRESSED = 0.9  # of the largest shear, from which elements are as fine as at the surface
+STRESSED = 0.9  # of the largest of each shear, from which elements are as fine as at the surface
 OF_DEPTH = 16.0  # no elements are finer than this part of their depth
 AT_ENDS = 0.125  # of the size elsewhere in contact
 NOWHERE = np.full((1, 2), 1e9)  # um
@@ -170,8 +170,8 @@ def next_refinement(pair: SurfacePair, state: State, fine: float) -> ElementSize
     at, margin = pair.x[state.active], 8.0 * fine
     starts = np.concatenate([[True], np.diff(at) > 2.0 * margin])
     first, last = at[starts], at[np.append(starts[1:], True)]
-    tau1 = principal_shear(pair, state)
-    spots = pair.rough.mesh.nodes[tau1 > STRESSED * tau1.max()]
+    large = [each > STRESSED * each.max() for each in shears(pair, state)]
+    spots = pair.rough.mesh.nodes[np.logical_or(*large)]
     intervals = np.stack([first - margin, last + margin], axis=1)
     return ElementSizes(fine, intervals, spots, patch_ends(pair.x, state.pressure).ravel())
 
