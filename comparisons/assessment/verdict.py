@@ -76,8 +76,13 @@ class ToleranceCheck:
 
     @property
     def total_uncertainty(self) -> float:
-        """Uncertainty and the root of the sum of squares of what is not modelled."""
-        return self.uncertainty + math.hypot(*self.not_modelled.values())
+        """Uncertainty and what is not modelled."""
+        return self.uncertainty + self.unknown
+
+    @property
+    def unknown(self) -> float:
+        """Root of the sum of squares of what is not modelled."""
+        return math.hypot(*self.not_modelled.values())
 
     @property
     def verdict(self) -> Validity:
@@ -87,8 +92,10 @@ class ToleranceCheck:
 
     @property
     def is_unresolved(self) -> bool:
-        """Whether the numerical uncertainty alone makes the verdict inconclusive."""
-        return judge(self.value, self.uncertainty, self.tolerance) == "inconclusive"
+        """Whether the numerical uncertainty alone makes the verdict inconclusive, and is no smaller
+        than what is not modelled."""
+        alone = judge(self.value, self.uncertainty, self.tolerance) == "inconclusive"
+        return alone and self.uncertainty >= self.unknown
 
 
 def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:

@@ -1,6 +1,5 @@
 """The verdict in one sentence, with the number that decides it."""
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
@@ -70,16 +69,14 @@ def _verdict(outcome: Outcome) -> Headline:
 
 def _inconclusive(checks: list[ToleranceCheck], several: bool) -> str:
     """What prevents a verdict: the uncertainty of an error, or what is not modelled."""
-    unclear = [check for check in checks if check.verdict != "holds"]
-    numerical = [check for check in unclear if check.is_unresolved]
-    worst = _nearest(numerical or unclear)
-    if numerical:
+    worst = _nearest([check for check in checks if check.verdict != "holds"])
+    if not worst.not_modelled or worst.is_unresolved:
         return f"{_said(worst, several)}, an uncertainty that reaches across the tolerance"
-    estimates = worst.not_modelled
+    largest = max(worst.not_modelled, key=worst.not_modelled.get)
+    remedy = "; body.law and roller.law can name one" if largest == "law_of_elasticity" else ""
     return (
         f"{_said(worst, several)}, but effects that are not modelled may change it by "
-        f"{percent(math.hypot(*estimates.values()))} (estimate), "
-        f"{EFFECTS[max(estimates, key=estimates.get)].label} most"
+        f"{percent(worst.unknown)} (estimate), {EFFECTS[largest].label} most{remedy}"
     )
 
 

@@ -29,6 +29,7 @@ from comparisons.assessment.uncertainty import (
     difference_of_figures,
     difference_of_norms,
     iteration,
+    peak_resolution,
     relative_resolution,
 )
 from comparisons.assessment.verdict import Comparison
@@ -118,6 +119,8 @@ def model_errors(
     reference = runs["finite_element"].levels[number]
     stated = uncertainties(runs["finite_element"], problem, friction)
     edge = relative_resolution(reference, reference)
+    resolutions = dict.fromkeys(LENGTHS, edge)
+    resolutions["peak_pressure"] = peak_resolution(wholes[-1].pressure)
 
     def share(name: str, changes: list[QuantitiesOfInterest], at: int) -> Estimate:
         if QUANTITIES[name].of_pair:
@@ -130,8 +133,8 @@ def model_errors(
             values = [float(change.figures[name][at] / scale) for change in changes]
         if not any(values):
             return Estimate(0.0, 0.0)
-        resolution = edge if name in LENGTHS else 0.0
-        refined = grid_convergence(values, QUANTITIES[name].formal_order, resolution)
+        formal_order, resolution = QUANTITIES[name].formal_order, resolutions.get(name, 0.0)
+        refined = grid_convergence(values, formal_order, resolution)
         return Estimate(values[-1], refined.uncertainty + unsolved)
 
     def of_effect(name: str, effect: str, at: int, numerical: float) -> Estimate:

@@ -11,6 +11,7 @@ from comparisons.assessment.uncertainty import (
     difference_of_figures,
     iteration,
     length_resolution,
+    peak_resolution,
     relative_resolution,
 )
 from comparisons.models.level import ModelRun
@@ -91,3 +92,11 @@ def test_bounds_of_several_levels_add(smooth_outcome: Outcome):
     whole = pytest.approx(sum(read) / other.contact_length, rel=0.01)
     assert relative_resolution(one, other) == whole
     assert difference_of_figures(0.01, 1.0, 0.02) == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.2, 0.5])
+def test_a_peak_between_nodes_is_read_within_its_resolution(offset):
+    x = np.arange(-20, 21) + offset
+    nodal = np.sqrt(np.maximum(1.0 - (x / 15.0) ** 2, 0.0))
+    resolution = peak_resolution(nodal)
+    assert 1.0 - nodal.max() <= resolution < 2.5 * (0.5 / 15.0) ** 2
