@@ -197,7 +197,8 @@ def model_series(case: RollerCase) -> list[ModelFigures]:
     ) -> FiniteDeformation:
         bodies = [(LinearResponse(body), contact)]
         solution = press(bodies, body, case.hats, start, case.load, gap=gap)
-        return FiniteDeformation(body, case.hats, roller, 0.0, solution)
+        initial = (true if gap is None else gap) / case.grid.weights
+        return FiniteDeformation(body, case.hats, roller, 0.0, solution, initial)
 
     def undeformed(body: ElasticBody, gap: np.ndarray) -> ModelFigures:
         contact = LinearContact(FiniteElementCompliance(body, case.hats))

@@ -31,6 +31,7 @@ ALIKE = 1e-8
 # Largest misfit of the polynomial at its nodes, relative to the maximum: beyond it the sample is
 # better.
 MISFIT = 0.01
+STEP = 1e-4  # of the patch's size, between values that give its slopes
 FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch's size
 
 
@@ -151,7 +152,7 @@ def _smooth_maximum(
 ) -> Extremum | None:
     """Largest value of the polynomials through `stress` (k, 3) at `points`; None if they do not
     fit."""
-    from scipy.optimize import minimize
+    from scipy.optimize import minimize, root
 
     def of(values: np.ndarray) -> np.ndarray:
         return quantity(MaterialStress(*values.T, np.full(len(values), nu)))
@@ -170,15 +171,19 @@ def _smooth_maximum(
     def loss(at: np.ndarray) -> float:
         return -float(of(_terms(at[None], degree) @ fit)[0]) / abs(start.value)
 
+    def slope(at: np.ndarray) -> np.ndarray:
+        rises = [loss(at + step) - loss(at - step) for step in STEP * np.eye(2)]
+        return np.array(rises) / (2.0 * STEP)
+
     low, high = offset.min(axis=0), offset.max(axis=0)
     bounds = list(zip(low, high, strict=True))
-    # to 1e-9 of the patch: independent of rounding of the stresses
-    top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds)
-    # the slope decides, not the search, which may end where rounding hides any further descent
-    if np.abs(top.jac).max() > FLAT or np.any((top.x <= low) | (top.x >= high)):
+    top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds).x
+    # rounding ends a search by values 1e-8 of the patch from the top; slopes vanish more sharply
+    top = root(slope, top).x
+    if np.any((top <= low) | (top >= high)) or np.abs(slope(top)).max() > FLAT:
         return None
-    place = origin + unit * top.x
-    return Extremum(-float(top.fun) * abs(start.value), float(place[0]), float(place[1]))
+    place = origin + unit * top
+    return Extremum(-loss(top) * abs(start.value), float(place[0]), float(place[1]))
 
 
 def _terms(at: np.ndarray, degree: int) -> np.ndarray:

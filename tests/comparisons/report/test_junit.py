@@ -19,7 +19,8 @@ def suite_of(outcome: Outcome) -> ElementTree.Element:
 
 def judged(outcome: Outcome, **verdicts: str) -> Outcome:
     rows = (replace(row, verdict=verdicts.get(row.quantity)) for row in outcome.comparisons)
-    return replace(outcome, comparisons=tuple(rows), budget=None)
+    budget = replace(outcome.budget, model_errors=())
+    return replace(outcome, comparisons=tuple(rows), budget=budget)
 
 
 def test_each_judged_figure_of_both_tables_has_one(wavy_outcome: Outcome):

@@ -89,7 +89,7 @@ def test_rounding_does_not_choose_the_polynomial(body, rng):
             rounded = StressState(*(stress * (1.0 + 1e-14 * rng.standard_normal(stress.shape))))
             top = maximum(body, at_mesh_points(body, rounded), tau1)
             found.append((top.value, top.x, top.z))
-        assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-7)
+        assert np.ptp(found, axis=0) == pytest.approx(np.zeros(3), abs=1e-9)
 
 
 def test_a_sharp_ridge_is_not_smoothed(body):
