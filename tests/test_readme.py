@@ -259,8 +259,9 @@ def shown_rows() -> list[tuple[str, list[str], list[str]]]:
     *lines, _ = fenced("text").split("─\n")[1].split("\n\n")[0].splitlines()
     found = []
     for line in lines:
-        label, frictions, *cells = re.split(r"\s{2,}", line.strip())
-        found.append((names[label], frictions.split(", "), cells))
+        label, *cells = re.split(r"\s{2,}", line.strip())
+        if label in names:  # else a note on the row above
+            found.append((names[label], cells[0].split(", "), cells[1:]))
     return found
 
 
@@ -273,19 +274,24 @@ def test_shown_table_has_every_quantity_and_the_look_of_a_run(mine):
 
 
 def test_shown_verdict_follows_from_the_second_table():
+    """What is not modelled decides against every row; the sentence names the one it moves most."""
     *lines, _ = re.split("─+\n", fenced("text"))[2].split("\n\n")[0].splitlines()
-    judged = [re.split(r"\s{2,}", line) for line in lines if not line.startswith(" ")]
-    outside = [
-        row
-        for row in judged
-        if abs(float(row[2])) - float(row[3]) > float(row[4])  # error, uncertainty, tolerance
-    ]
+    judged = []
+    for line, note in zip(lines, [*lines[1:], ""], strict=True):
+        name, *cells = re.split(r"\s{2,}", line)
+        if name in SHORT.values():
+            judged.append((name, *cells[:4], note.split(" % not modelled")[0]))
     assert {row[0] for row in judged} == {"peak pressure", "contact length", "tau1 max"}
-    [[name, friction, error, uncertainty, tolerance, largest]] = outside
-    said = " ".join(fenced("text").partition("FAILS")[2].split())
+    reached = []
+    for _, _, error, uncertainty, tolerance, left in judged:
+        size, doubt = abs(float(error)), float(uncertainty) + float(left)
+        assert size - doubt <= float(tolerance) < size + doubt
+        reached.append(size + doubt - float(tolerance))
+    name, friction, error, uncertainty, tolerance, left = judged[int(np.argmax(reached))]
+    said = " ".join(fenced("text").partition("INCONCLUSIVE")[2].split())
     assert f"at friction {friction} is {error} %" in said
     assert f"(tolerance {tolerance} %, uncertainty {uncertainty} %)" in said
-    assert f"dominated by {largest.rsplit(' ', 1)[0]}" in said
+    assert f"not modelled may change it by {left} % (estimate)" in said
     assert name == "tau1 max" and "largest principal shear stress tau1" in said
 
 
@@ -295,11 +301,12 @@ def test_shown_half_plane_is_within_the_uncertainty_that_is_shown(unrun):
         if QUANTITIES[name].of_pair:
             continue
         number, *unit = cells[0].split()
-        shown = float(number) * (IN_UNITS[unit[0]] if unit else 1.0)
+        unit = IN_UNITS[unit[0]] if unit else 1.0
+        shown, rounded = float(number) * unit, 0.5 * unit / 10.0 ** len(number.partition(".")[2])
         uncertainty = float(next(c for c in cells[3:] if re.fullmatch(r"[\d.]+", c))) / 100.0
         for friction in frictions:
             found = unrun[float(friction)][name]
-            assert found == pytest.approx(shown, rel=uncertainty), name
+            assert abs(found - shown) <= rounded + uncertainty * found, name
             checked += 1
     assert checked == 12
 
