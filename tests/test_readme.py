@@ -123,9 +123,10 @@ def mine(folder) -> Call:
 
 @pytest.fixture(scope="module")
 def unrun() -> dict[float, dict[str, float]]:
-    """Figures of the half-plane on the README's first scene, by friction coefficient."""
+    """Figures of the half-plane on the README's first scene, by friction coefficient, on the level
+    with which its run ends: one more than it begins with."""
     problem = problem_of(load_scene("ground-unrun"))
-    level = half_plane_level(problem, problem.pitches[-1], window_of(problem), Stages())
+    level = half_plane_level(problem, problem.pitches[-1] / 2.0, window_of(problem), Stages())
     return {friction: figures(level, problem, friction) for friction in problem.scene.friction}
 
 
