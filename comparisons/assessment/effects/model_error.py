@@ -143,8 +143,8 @@ def model_errors(
         with_it, without = (each.figures.get(LARGEST.get(name)) for each in pair)
         if with_it is None:
             return found
-        ahead = with_it.max() / with_it[np.argmax(without)] - 1.0
-        return replace(found, moves_maximum=bool(ahead > max(found.uncertainty, numerical)))
+        there = (1.0 + max(found.uncertainty, numerical)) * with_it[np.argmax(without)]
+        return replace(found, moves_maximum=bool(with_it.max() > there))
 
     def of_figure(row: Comparison, numerical: float, at: int) -> tuple[float, float]:
         """Error of a figure and its uncertainty."""
