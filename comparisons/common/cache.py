@@ -4,6 +4,7 @@ A file holds the arrays of a result, and a JSON text that says how they make it 
 whole or not at all, and is good for the key that it was saved under.
 """
 
+import io
 import json
 import shutil
 import typing
@@ -57,11 +58,14 @@ class Cache:
             return
         arrays: dict[str, np.ndarray] = {}
         outline = json.dumps({"key": self.key, "value": encoded(value, arrays)})
+        # in memory first: an interrupt amid an archive whose file is closed would be complained of
+        content = io.BytesIO()
+        np.savez(content, outline=np.array(outline), **arrays)
         for _ in range(ATTEMPTS):
             self.folder.mkdir(parents=True, exist_ok=True)
             with suppress(FileNotFoundError):
-                with whole_file(self.path(name)) as part, part.open("wb") as file:
-                    np.savez(file, outline=np.array(outline), **arrays)
+                with whole_file(self.path(name)) as part:
+                    part.write_bytes(content.getbuffer())
                 return
 
     def discard(self) -> None:

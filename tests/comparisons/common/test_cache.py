@@ -79,21 +79,21 @@ def test_what_a_killed_process_left_is_removed(cache):
 
 
 def test_a_folder_that_another_run_removed_is_made_again(cache, monkeypatch):
-    savez = np.savez
+    write = Path.write_bytes
 
-    def after_the_other_ended(file, **arrays):
-        monkeypatch.setattr(np, "savez", savez)
+    def after_the_other_ended(part, content):
+        monkeypatch.setattr(Path, "write_bytes", write)
         shutil.rmtree(cache.folder)
-        savez(file, **arrays)
+        return write(part, content)
 
-    monkeypatch.setattr(np, "savez", after_the_other_ended)
+    monkeypatch.setattr(Path, "write_bytes", after_the_other_ended)
     cache.save("some", VALUE)
     assert names(cache.folder) == ["some.npz"]
 
 
 def test_two_runs_do_not_write_the_same_part(cache, monkeypatch):
-    parts, savez = set(), np.savez
-    monkeypatch.setattr(np, "savez", lambda file, **a: (parts.add(file.name), savez(file, **a)))
+    parts, write = set(), Path.write_bytes
+    monkeypatch.setattr(Path, "write_bytes", lambda at, c: (parts.add(at.name), write(at, c)))
     for process in (11, 12):
         monkeypatch.setattr("os.getpid", lambda process=process: process)
         cache.save("some", VALUE)
