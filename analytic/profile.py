@@ -9,6 +9,8 @@ from scipy.interpolate import CubicSpline
 
 MAX_SAMPLES = 2_000_000  # the spline of so many samples takes 0.25 GB while it is built
 ROUNDING = 1e-6  # of the sample spacing: so far beyond its end a profile is still evaluated
+# Sizes [m] between which slopes, curvatures and their powers still fit a double.
+CLOSEST, FARTHEST = 1e-33, 1e33
 
 Surface = Callable[..., np.ndarray]
 """`surface(x, derivative=0)`: height [m], slope [-] or curvature [1/m] at x [m], shape of x."""
@@ -32,8 +34,14 @@ class Profile:
             raise ValueError(f"a profile needs at least 4 samples, not {len(self.x)}")
         if not (np.all(np.isfinite(self.x)) and np.all(np.isfinite(self.height))):
             raise ValueError("a profile's samples must be finite")
-        if not np.all(np.diff(self.x) > 0.0):
+        step = np.diff(self.x)
+        if not np.all(step > 0.0):
             raise ValueError("a profile's x must ascend strictly")
+        if (least := float(step.min())) < CLOSEST:
+            raise ValueError(f"samples are {least:.3g} m apart; allowed is {CLOSEST:g} m or more")
+        for name, values in (("place", self.x), ("height", self.height)):
+            if (most := float(np.abs(values).max())) > FARTHEST:
+                raise ValueError(f"a {name} is {most:.3g} m; allowed is up to {FARTHEST:g} m")
 
     @property
     def length(self) -> float:

@@ -6,11 +6,14 @@ command needs beyond the standard library is imported by its job: `crosscheck --
 and nothing else.
 """
 
+import errno
 import os
+import resource
 import sys
 import traceback
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 
@@ -27,16 +30,17 @@ from comparisons.commands import (
     run,
     scenes,
     stability,
+    sweep,
     table,
     verify,
 )
-from comparisons.common.errors import ExitStatus, InputError, SolverError, one_line
+from comparisons.common.errors import ExitStatus, InputError, SolverError, drop, tell
 from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
 COMPLETION = "_CROSSCHECK_COMPLETE"  # by which a shell asks what a word may become
-# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map and a
-# cost study have processes of their own, and end them.
+# Commands that work in a child process, which Ctrl-C ends, and what they leave then. A map, a
+# sweep and a cost study have processes of their own, and end them.
 WATCHED = {
     "run": "finished levels are kept, the same command goes on from there",
     "rerun": "nothing was changed, the same command starts again",
@@ -66,6 +70,7 @@ for name, command in {
     "run": run.run,
     "cost": cost.cost,
     "map": maps.map_of,
+    "sweep": sweep.sweep,
     "report": report.report,
     "table": table.table,
     "rerun": rerun.rerun,
@@ -91,6 +96,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     is_own = arguments is None
     if is_own:
         _open_streams()
+        # the cores are for processes: figures are the same on every machine, none waits for another
+        os.environ.setdefault("OMP_NUM_THREADS", "1")
     arguments = list(sys.argv[1:] if arguments is None else arguments)
     if is_own and not is_several() and arguments[:1] and arguments[0] in WATCHED:
         from comparisons.common.interrupt import watched
@@ -108,7 +115,7 @@ def _open_streams() -> None:
     """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
-            setattr(sys, name, open(os.devnull, mode))  # noqa: SIM115
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode))
     sys.stdout.reconfigure(errors="backslashreplace")  # a title in Latin-1, a unit in ASCII
 
 
@@ -133,7 +140,7 @@ def _carry_out(arguments: list[str]) -> int:
             sys.stdout.flush()
             return int(ExitStatus.DONE)
         # nobody reads on: typer and rich would exit with 1, which has another meaning here
-        _drop_output()
+        drop(sys.stdout)
         return int(ExitStatus.BROKEN_PIPE)
     except InputError as error:
         return _end(ExitStatus.BAD_INPUT, str(error))
@@ -144,10 +151,12 @@ def _carry_out(arguments: list[str]) -> int:
             return _end(ExitStatus.INTERRUPTED, _interrupted(arguments))
         if hasattr(error, "format_message"):  # typer's and click's own; their base has moved
             return _end(ExitStatus.BAD_INPUT, f"{error.format_message()} (see crosscheck --help)")
+        status = _defect(error)
         if os.environ.get(TRACEBACK):
-            traceback.print_exc()
-            return int(_defect(error))
-        return _end(_defect(error), f"{_account(error)} (set {TRACEBACK}=1 for the traceback)")
+            with suppress(OSError):
+                traceback.print_exc()
+            return int(status)
+        return _end(status, f"{_account(error, status)} (set {TRACEBACK}=1 for the traceback)")
 
 
 def _interrupted(arguments: list[str], *left: str) -> str:
@@ -159,7 +168,7 @@ def _interrupted(arguments: list[str], *left: str) -> str:
 
 def _end(status: ExitStatus, message: str) -> int:
     """Print the line that goes with a status."""
-    print(f"crosscheck: {one_line(message)}", file=sys.stderr)
+    tell(message)
     return int(status)
 
 
@@ -171,24 +180,34 @@ def _is_interrupt(error: BaseException) -> bool:
 
 
 def _defect(error: Exception) -> ExitStatus:
-    if not isinstance(error, OSError):
-        return ExitStatus.DEFECT
     try:
         sys.stdout.flush()
     except OSError:
-        _drop_output()
-    return ExitStatus.CANNOT_WRITE
+        drop(sys.stdout)
+    if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
+        return ExitStatus.OUT_OF_MEMORY
+    # where the system maps no more memory, libraries say that a part of them is not there
+    if isinstance(error, ImportError) and (_address_space() or "failed to map" in str(error)):
+        return ExitStatus.OUT_OF_MEMORY
+    return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 
 
-def _drop_output() -> None:
-    """Send what is left of standard output nowhere: the last flush must not fail again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _address_space() -> int | None:
+    """Bytes of address space that the process may have, None without a limit."""
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    return None if limit == resource.RLIM_INFINITY else limit
 
 
-def _account(error: Exception) -> str:
+def _account(error: Exception, status: ExitStatus) -> str:
     """An error that is not the user's, and where in the program it was raised."""
+    if status == ExitStatus.OUT_OF_MEMORY:
+        limit = _address_space()
+        remedy = "allowed is a smaller scene (budget.memory, resolution, stress.points)"
+        if limit:
+            remedy = f"the process may have {limit / 1e9:.3g} GB of address space (ulimit -v)"
+        return f"out of memory: {str(error) or type(error).__name__}; {remedy}"
     if isinstance(error, OSError):
-        return f"{error.filename or 'output'}: {error.strerror or error}"
+        return f"{error.filename or 'standard output'}: {error.strerror or error}"
     place = traceback.extract_tb(error.__traceback__)[-1]
     return (
         f"internal error: {type(error).__name__}: {error} "

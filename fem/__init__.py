@@ -1,9 +1,22 @@
 """Plane-strain finite elements: surface compliance, stresses, an independent contact solver."""
 
 import os
+import tempfile
+from contextlib import suppress
 
 # PETSc's signal handlers turn a closed pipe (`crosscheck run … | head`) into an abort of all ranks;
 # without them Python reports an error. PETSc reads the option at its first import.
 _QUIET = "-no_signal_handler"
 if _QUIET not in os.environ.get("PETSC_OPTIONS", ""):
     os.environ["PETSC_OPTIONS"] = f"{os.environ.get('PETSC_OPTIONS', '')} {_QUIET}".strip()
+
+# Open MPI ends the process where TMPDIR is full or no folder to write in; Python finds another.
+if "TMPDIR" in os.environ:
+    with suppress(FileNotFoundError):  # there is none
+        os.environ["TMPDIR"] = tempfile.gettempdir()
+
+# A process alone needs neither Open MPI's daemon nor its search for fast networks, which take a
+# third of a second. Open MPI reads these when MPI begins; what a launcher or the user set stays.
+if not any(name.startswith(("OMPI_COMM_", "PMI_", "PMIX_")) for name in os.environ):
+    os.environ.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
+    os.environ.setdefault("OMPI_MCA_pml", "ob1")

@@ -1,12 +1,15 @@
 """Builds the flat, graded, second-order mesh of a BlockSpec with gmsh in a separate process."""
 
+import atexit
 import os
 import pickle
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import fields, replace
 from pathlib import Path
 
@@ -22,6 +25,7 @@ from meshes.size_field import SizeField
 WORKER = (sys.executable, "-P", str(Path(__file__).with_name("gmsh_worker.py")))
 # Without these variables of mpirun, gmsh does not start MPI as one more rank.
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "MPI_LOCAL", "HYDI_")
+GRACE = 1.0  # seconds that a worker with its pipes closed may take to end
 # Decimals of lengths in units of surface_size: the same block in other units gives the same mesh.
 UNIT_DECIMALS = 9
 
@@ -44,30 +48,102 @@ def field_in_units(sizes: SizeField, unit: float) -> SizeField:
     return replace(sizes, vertices=vertices, size=size)
 
 
+class GmshWorker:
+    """A process of `meshes.gmsh_worker`, which has gmsh loaded and forks for every mesh."""
+
+    def __init__(self, environment: dict[str, str]) -> None:
+        self.given, self.seconds = (os.getpid(), WORKER, environment), 0.0
+        pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+        self.process = subprocess.Popen(WORKER, env=environment, **pipes)
+
+    def serves(self, environment: dict[str, str]) -> bool:
+        """Whether it is alive, of this process, and would be started so again."""
+        return self.given == (os.getpid(), WORKER, environment) and self.process.poll() is None
+
+    def filled(self, task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
+        """As `run_worker`."""
+        late = threading.Event()
+
+        def stop() -> None:
+            late.set()
+            self.process.kill()
+
+        timer = threading.Timer(timeout, stop)
+        timer.start()
+        try:
+            pickle.dump(task, self.process.stdin)
+            self.process.stdin.flush()
+            status, complaint, output, seconds = pickle.load(self.process.stdout)
+            self.seconds += seconds
+        except Exception:  # it ended, or what it wrote raises errors of many kinds
+            status, complaint, output = *self.last_words(), b""
+        finally:
+            timer.cancel()
+        if late.is_set():
+            raise MeshError(f"gmsh was stopped: not done after {timeout:g} s")
+        if status != 0:
+            raise MeshError(explain_failure(status, complaint.decode(errors="replace")))
+        try:
+            return pickle.loads(output)
+        except Exception as error:
+            raise MeshError("gmsh ended without a mesh") from error
+
+    def last_words(self) -> tuple[int, bytes]:
+        """Exit status and standard error of the process, which is ended."""
+        with suppress(subprocess.TimeoutExpired, OSError):
+            self.process.stdin.close()
+            self.process.wait(timeout=GRACE)
+        self.process.kill()
+        return self.process.wait(), self.process.stderr.read()
+
+    def close(self) -> None:
+        """End the process, where it is this one's."""
+        if self.given[0] == os.getpid():
+            self.process.kill()
+            self.process.wait()
+        for pipe in (self.process.stdin, self.process.stdout, self.process.stderr):
+            with suppress(OSError):
+                pipe.close()
+
+
+# Workers without a task. One that runs is in no list: whoever takes it, has it alone.
+idle: list[GmshWorker] = []
+
+
+def mesh_seconds() -> float:
+    """Processor seconds of the meshes so far by processes which wait for a task: the system counts
+    those of a process among its parent's children when it has ended."""
+    return sum(worker.seconds for worker in idle)
+
+
+@atexit.register
+def close_workers() -> None:
+    """End the workers that wait for a task."""
+    while idle:
+        idle.pop().close()
+
+
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
 
     Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
-    ends with this call, whatever happens.
+    waits for further tasks, but ends where this one fails or is interrupted.
     """
     environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
     root = str(Path(__file__).resolve().parents[1])
     paths = [root, *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep))]
     environment["PYTHONPATH"] = os.pathsep.join(paths)
-    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
-    with subprocess.Popen(WORKER, env=environment, **pipes) as process:
-        try:
-            output, complaint = process.communicate(pickle.dumps(task), timeout=timeout)
-        except subprocess.TimeoutExpired as error:
-            raise MeshError(f"gmsh was stopped: not done after {timeout:g} s") from error
-        finally:
-            process.kill()
-    if process.returncode != 0:
-        raise MeshError(explain_failure(process.returncode, complaint.decode(errors="replace")))
+    worker = idle.pop() if idle else GmshWorker(environment)
     try:
-        return pickle.loads(output)
-    except Exception as error:  # incomplete output raises errors of many kinds
-        raise MeshError("gmsh ended without a mesh") from error
+        if not worker.serves(environment):
+            worker.close()
+            worker = GmshWorker(environment)
+        filled = worker.filled(task, timeout)
+    except BaseException:
+        worker.close()
+        raise
+    idle.append(worker)
+    return filled
 
 
 def explain_failure(status: int, complaint: str) -> str:

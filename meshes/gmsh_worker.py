@@ -1,7 +1,8 @@
 """Runs gmsh, which can crash its process, in a separate one, which `meshes.build` starts.
 
-Reads the arguments of `fill` from standard input and writes its results to standard output, both
-pickled, and errors to standard error.
+Reads the arguments of `fill` from standard input, pickled, one after the other. Each is done by a
+copy of this process that has gmsh loaded already and leaves nothing behind. Its exit status, what
+it wrote to standard error and its results, pickled themselves, go to standard output, pickled.
 """
 
 import ctypes
@@ -9,6 +10,9 @@ import os
 import pickle
 import signal
 import sys
+from contextlib import suppress
+from importlib import import_module
+from tempfile import TemporaryFile
 from types import ModuleType
 
 import numpy as np
@@ -111,18 +115,45 @@ def show_sizes(gmsh: ModuleType, sizes: SizeField) -> None:
     gmsh.model.mesh.field.setAsBackgroundMesh(field)
 
 
+def answer(task: tuple) -> tuple[int, bytes, bytes, float]:
+    """Exit status, complaint, pickled results and processor seconds of a copy of this process that
+    does the task."""
+    with TemporaryFile() as complaint, TemporaryFile() as output:
+        parent, child = os.getpid(), os.fork()
+        if child == 0:
+            status = 1
+            try:
+                die_with_parent()
+                os.dup2(complaint.fileno(), 2)
+                os.dup2(2, 1)  # what gmsh prints must not get into the results
+                if os.getppid() == parent:
+                    pickle.dump(fill(*task), output)
+                    output.flush()
+                    status = 0
+            except Exception as error:
+                print(f"{type(error).__name__}: {error}", file=sys.stderr, flush=True)
+            finally:
+                os._exit(status)
+        _, status, used = os.wait4(child, 0)
+        status, seconds = os.waitstatus_to_exitcode(status), used.ru_utime + used.ru_stime
+        complaint.seek(0)
+        output.seek(0)
+        return status, complaint.read(), output.read(), seconds
+
+
 def main() -> int:
     die_with_parent()
-    result = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what gmsh prints must not get into the results
-    try:
-        filled = fill(*pickle.load(sys.stdin.buffer))
-    except Exception as error:
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        return 1
-    with result:
-        pickle.dump(filled, result)
-    return 0
+    with suppress(Exception):  # the copy that needs it says why it is not there
+        import_module("gmsh")
+    with os.fdopen(os.dup(1), "wb") as answers:
+        os.dup2(2, 1)
+        while True:
+            try:
+                task = pickle.load(sys.stdin.buffer)
+            except EOFError:
+                return 0
+            pickle.dump(answer(task), answers)
+            answers.flush()
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 All readers know format 2.2 with its named sides; meshio writes 4.1 with empty entities.
 """
 
+import io
 import json
 from collections.abc import Mapping
+from contextlib import redirect_stderr
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -65,11 +67,12 @@ def read_msh(path: str | Path) -> BlockMesh:
 
     Files of former versions have a shift of one component, z. Raises MeshError for other files.
     """
-    import meshio
+    from meshio import gmsh  # meshio's own `read` ends the process where it cannot
 
     path = Path(path)
     spec = read_spec(path)
-    content = meshio.read(path, file_format="gmsh")
+    with redirect_stderr(io.StringIO()):  # and says there what the caller is told by an error
+        content = gmsh.read(path)
     shift = np.asarray(content.point_data[SHIFT], dtype=float)
     shift = shift[:, :2] if shift.ndim == 2 else np.column_stack([np.zeros_like(shift), shift])
     points = content.points[:, :2] - shift

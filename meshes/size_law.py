@@ -21,12 +21,14 @@ Nomenclature (lengths in m)
 """
 
 import math
+import pickle
 from bisect import bisect_left
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
-from meshes.block import BlockSpec, check_spec
+from meshes.block import BlockSpec, MeshError, check_spec
 from meshes.coating import LAYERS, LONGEST, core, layer_size
 
 ELEMENTS_ACROSS = 4
@@ -164,15 +166,22 @@ def own_vertices_size(spec: BlockSpec) -> Callable[[float], tuple[float, float]]
 TRIANGLES_PER_EQUILATERAL = 1.17
 # A box is small enough when the size varies by less than this part of its mean within it.
 VARIATION = 0.5
+MOST_BOXES = 2_000_000  # at once; each holds several elements
 
 
 def estimate_unknowns(spec: BlockSpec) -> int:
     """Number of displacements, before any is fixed, of the second-order mesh of spec.
 
     From the integral of the size law, within 25 % of `meshes.build.build_block`. Raises MeshError
-    if spec cannot be meshed.
+    if spec cannot be meshed. Known ones are looked up: forecasts, tasks and levels ask again.
     """
     check_spec(spec)
+    return _estimated(pickle.dumps(spec))
+
+
+@lru_cache(256)
+def _estimated(pickled: bytes) -> int:
+    spec = pickle.loads(pickled)
     half, depth = spec.half_width, spec.depth
     low, high = (-half, half) if spec.interface is None else core(spec)
     filled = [[low, high, 0.0, spec.interface or depth]]
@@ -202,6 +211,11 @@ def integral_of_power(spec: BlockSpec, box: list[float], power: float) -> float:
     cap = largest_size(spec)
     total = 0.0
     while len(boxes):
+        if len(boxes) > MOST_BOXES:
+            raise MeshError(
+                f"elements of {spec.surface_size:.3g} m in a body of {spec.depth:.3g} m are too "
+                "many to count"
+            )
         centre_x, centre_z = boxes[:, :2].mean(axis=1), boxes[:, 2:].mean(axis=1)
         half_x, half_z = 0.5 * np.diff(boxes[:, :2]).ravel(), 0.5 * np.diff(boxes[:, 2:]).ravel()
         change = spec.growth * np.hypot(half_x, half_z)

@@ -1,4 +1,4 @@
-"""Blocks that tests of meshes start from, by name; Hooke's law in plane strain."""
+"""Blocks that meshes start from, by name; Hooke's law in plane strain; two bodies as one."""
 
 from dataclasses import replace
 
@@ -78,3 +78,13 @@ def hooke(material: Material, exx, ezz, gxz) -> tuple:
     shear, nu = material.shear_modulus, material.poissons_ratio
     mean = 2.0 * shear * nu / (1.0 - 2.0 * nu) * (exx + ezz)
     return mean + 2 * shear * exx, mean + 2 * shear * ezz, shear * gxz
+
+
+class SumOfBodies:
+    """Surfaces on the same hats pressed together: the sum of their weighted displacements."""
+
+    def __init__(self, *bodies) -> None:
+        self.bodies = bodies
+
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        return sum(body.apply(pressure) for body in self.bodies)

@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import pytest
 from comparisons.common.progress import machine_memory
 
 PROJECT = Path(__file__).resolve().parents[1]
+LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file takes
 WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may take
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
@@ -27,6 +29,30 @@ def pytest_xdist_auto_num_workers() -> int:
     """One a core, as long as memory lasts; 0, and no process but pytest's own, for a single one."""
     count = int(min(len(os.sched_getaffinity(0)), machine_memory() / WORKER_MEMORY))
     return count if count > 1 else 0
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.option.loadscopereorder = False  # xdist begins with the files that come first
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Whole runs first, then the folders of ever shorter files: processes that share them out end
+    at about the same time."""
+
+    def place(item: pytest.Item) -> int:
+        folder = item.path.relative_to(PROJECT / "tests").parts[0]
+        return LAST.index(folder) if folder in LAST else -1
+
+    items.sort(key=place)
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """One line of what was not tested here, with the command that brings it."""
+    reports = terminalreporter.stats.get("skipped", [])
+    reasons = Counter(str(report.longrepr[-1]).removeprefix("Skipped: ") for report in reports)
+    if reasons:
+        listed = "; ".join(f"{reason} ({count})" for reason, count in sorted(reasons.items()))
+        terminalreporter.write_line(f"not tested here: {listed}")
 
 
 @pytest.fixture
@@ -44,7 +70,7 @@ def launch() -> Callable[..., subprocess.CompletedProcess]:
         command = [sys.executable, *map(str, arguments)]
         if processes > 1:
             if shutil.which("mpirun") is None:
-                pytest.skip("mpirun is not installed")
+                pytest.skip("no mpirun: apt-get install openmpi-bin")
             command = ["mpirun", "--oversubscribe", "-n", str(processes), *command]
         environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
         environment |= {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}

@@ -16,6 +16,8 @@ from pathlib import Path
 
 import pytest
 
+from comparisons.report.pdf import BROWSERS
+
 PROJECT = Path(__file__).resolve().parents[1]
 NOBODY = 65534
 SHARED = "-n auto --dist loadfile"
@@ -115,7 +117,7 @@ class Checkout:
         return [c for c in self.calls_file.read_text().splitlines() if c.startswith(beginning)]
 
     def set_ups(self) -> int:
-        return len(self.calls("python -m pip install"))
+        return len(self.calls("python -m venv"))
 
 
 @pytest.fixture
@@ -157,7 +159,7 @@ def test_debians_numpy_is_a_constraint_for_pip(checkout):
     assert "numpy==1.24.2" in checkout.calls()
     (pip,) = checkout.calls("python -m pip install")
     assert f"--constraint {checkout.environment}/constraints.txt" in pip
-    assert pip.endswith(f"--editable {checkout.root}[test]")
+    assert pip.endswith(f"--editable {checkout.root}")
 
 
 def test_works_through_a_link_and_from_another_folder(checkout):
@@ -182,6 +184,27 @@ def test_test_command_runs_pytest_in_the_checkout_on_one_thread(checkout):
     assert done.returncode == 5
     told = f"threads=1 folder={checkout.root} arguments=-m pytest {SHARED} -k a b\n"
     assert done.stdout == told
+
+
+def test_first_test_adds_what_only_the_tests_need_once(checkout):
+    checkout.call()
+    for _ in range(2):
+        assert checkout.call("test").returncode == 0
+    installs = checkout.calls("python -m pip install")
+    assert [i.rpartition(" ")[2] for i in installs] == ["out", "out[test]"]
+    assert checkout.set_ups() == 1
+
+
+@pytest.mark.parametrize("sudo", ["", "yes"])
+def test_a_browser_comes_where_installing_is_allowed_and_stops_nothing(checkout, sudo):
+    user = ordinary_user(checkout)
+    tools = f"{checkout.base}/tools:/usr/bin:/bin"
+    without = {name: shutil.which(name, path=tools) for name in BROWSERS}
+    done = checkout.call("test", before=user, SUDO_WORKS=sudo, PATH=tools)
+    assert done.returncode == 0 and done.stdout.startswith("threads=1")
+    expected = ["apt-get update", "apt-get install --yes --no-install-recommends chromium"]
+    allowed = sudo or not user
+    assert checkout.calls("apt-get") == (expected if allowed and not any(without.values()) else [])
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,7 @@ def solve_with_model(
     start: np.ndarray | None = None,
     tolerance: float = KKT_TOLERANCE,
     solver: Callable[..., ContactSolution] = solve_contact,
+    nearer: bool = False,
 ) -> ContactSolution:
     """Solve the contact problem of `operator`; residuals are those of `operator` itself.
 
@@ -58,11 +59,14 @@ def solve_with_model(
     start         pressures (n,) [Pa] of a nearby problem
     solver        of the model's problem: `solve_contact`, or `solve_coupled` where sliding traction
                   moves the surfaces and the model is a `CoupledOperator`
+    nearer        whether `start` is nearer to the solution than what the model alone predicts: r
+                  begins with (C - D) start
 
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
     `iterations` counts the steps and the applications of C and of D; C is applied once more than
-    there are steps where an approach is prescribed and the model is a half-plane.
+    there are steps where an approach is prescribed and the model is a half-plane, and where `start`
+    is `nearer`.
     """
     common, constraints = common_gap(weighted_gap, weights, constraints)
     weighted_gap = weighted_gap - common * weights
@@ -72,6 +76,9 @@ def solve_with_model(
     if constraints.approach is not None and isinstance(model, HalfPlane):
         model = _at_datum_of(operator, model, weights, start)
         model_applications, probes = 1, 1
+    if nearer:
+        carried = operator.apply(start) - model.apply(start)
+        model_applications, probes = model_applications + 1, probes + 1
     for step in range(1, MAX_STEPS + 1):
         trial = solver(model, weighted_gap + carried, weights, constraints, pressure)
         model_applications += 1 + trial.iterations["applications"]

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.fft import dst
 
-from analytic.contact.smooth_pressure import Patch, curve_between, nodal_values, smooth_pressure
+from analytic.contact.smooth_pressure import contact_ends, curve_between, nodal_values
 from analytic.stress.elements import FrictionStress
 from analytic.stress.points import friction_stress_at
 from analytic.stress.potential import stresses
@@ -108,21 +108,26 @@ def end_stress(x_nodes: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> En
     hats = np.concatenate([[x_nodes[0] - pitch], x_nodes, [x_nodes[-1] + pitch]])
     nodal = nodal_values(hats, pressure)
     found = (
-        _balanced(patch, x_nodes, pressure, nodal)
-        for patch in smooth_pressure(hats, pressure, gap, FEWEST)
-        if patch.smooth
+        _balanced(int(first), int(last), ends, x_nodes, pressure, nodal)
+        for (first, last), ends in zip(*contact_ends(hats, pressure, gap), strict=True)
+        if last - first + 1 >= FEWEST
     )
     return EndStress(x_nodes, pressure, tuple(filter(None, found)))
 
 
 def _balanced(
-    patch: Patch, x_nodes: np.ndarray, pressure: np.ndarray, nodal: np.ndarray
+    first: int,
+    last: int,
+    ends: np.ndarray,
+    x_nodes: np.ndarray,
+    pressure: np.ndarray,
+    nodal: np.ndarray,
 ) -> SmoothPatch | None:
-    """With ends where the curve has the hats' force and moment; None where it is no such curve."""
-    first, last, pitch = patch.first, patch.last, x_nodes[1] - x_nodes[0]
-    count = last - first + 1
+    """With ends, near these, where the curve has the hats' force and moment; None where it is no
+    such curve."""
+    count, pitch = last - first + 1, x_nodes[1] - x_nodes[0]
     held, own = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
-    places, values, ends = x_nodes[held], nodal[held], np.array(patch.ends)
+    places, values = x_nodes[held], nodal[held]
     middle = 0.5 * (x_nodes[first] + x_nodes[last])
     force = pitch * pressure[own].sum()
     moment = pitch * (pressure[own] * (x_nodes[own] - middle)).sum()

@@ -18,7 +18,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from analytic.numerics import runs_of
 
@@ -27,6 +26,9 @@ DISTURBED = 2
 DISTURBED_OPEN = 1
 # Touching nodes that a patch needs: four undisturbed ones hold a cubic.
 LEAST_NODES = 2 * DISTURBED + 4
+# Where an end may lie, from the last touching node (0) to the first open one (1) and about; looked
+# for on as many steps, of which each halving takes a half.
+WITHIN, STEPS, HALVINGS = (-0.5, 1.5), 16, 40
 
 Interval = tuple[float, float]
 _AT, _WEIGHT = np.polynomial.legendre.leggauss(8)
@@ -63,23 +65,40 @@ class Patch:
         return float(value[best]), float(x[best])
 
 
-def smooth_pressure(
-    hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray, fewest: int = 1
-) -> tuple[Patch, ...]:
-    """The patches of contact of at least `fewest` touching nodes from left to right, with the curve
-    of pressure on each."""
-    first, after = runs_of(pressure > 0.0)
-    last = after - 1
+def smooth_pressure(hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> tuple[Patch, ...]:
+    """The patches of contact from left to right, with the curve of pressure on each."""
     nodal = nodal_values(hats, pressure)
     whole = np.concatenate([[0.0], pressure, [0.0]])
-    bound = np.concatenate([[-1], last, first[1:], [len(pressure)]])
-    patches = []
-    for k in np.flatnonzero(after - first >= fewest):
-        i, j = first[k], last[k]
-        before, beyond = bound[k], bound[len(first) + 1 + k]
-        ends = _end(hats, gap, i, -1, i - before - 1), _end(hats, gap, j, 1, beyond - j - 1)
-        patches.append(_patch(hats, whole, nodal, int(i), int(j), ends))
-    return tuple(patches)
+    nodes, ends = contact_ends(hats, pressure, gap)
+    return tuple(
+        _patch(hats, whole, nodal, int(first), int(last), (float(start), float(stop)))
+        for (first, last), (start, stop) in zip(nodes, ends, strict=True)
+    )
+
+
+def contact_ends(
+    hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """First and last touching node (k, 2) of each patch, places in p, and the ends of contact
+    (k, 2) [m] beyond them.
+
+    Gaps of c d^(3/2) (1 + k d) averaged over the hats agree with those of three open nodes; half
+    way to the first open node where there is no such end, or where too few nodes are open.
+    """
+    first, after = runs_of(pressure > 0.0)
+    open_before = first - np.concatenate([[0], after[:-1]])
+    open_beyond = np.concatenate([first[1:], [len(pressure)]]) - after
+    # all left ends, then all right ones
+    node, room = np.concatenate([first, after - 1]), np.concatenate([open_before, open_beyond])
+    side = np.repeat([-1, 1], len(first))
+    start = hats[node + 1]
+    width = np.abs(hats[node + 1 + side] - start)
+    end, known = np.full(len(node), 0.5), room >= DISTURBED_OPEN + 3
+    place = (node + 1)[known, None] + side[known, None] * (DISTURBED_OPEN + np.arange(5))
+    local = (side / width)[known, None] * (hats[place] - start[known, None])
+    end[known] = _ends(local, gap[place[:, 1:-1] - 1])
+    ends = start + side * width * end
+    return np.column_stack([first, after - 1]), ends.reshape(2, -1).T
 
 
 def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
@@ -100,42 +119,30 @@ def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
     return mean - slope * first - 0.5 * bend * second
 
 
-def _end(hats: np.ndarray, gap: np.ndarray, node: int, side: int, room: int) -> float:
-    """End of contact [m] beyond the touching `node` on one side, where `room` nodes are open.
+def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
+    """Ends (k,) by the gaps (k, 3) of open nodes, at places (k, 5) with the nodes beside them; one
+    half where there is none."""
+    step = np.diff(local)
+    weighted = gap * (step[:, :-1] + step[:, 1:])
 
-    Gaps of c d^(3/2) (1 + k d) averaged over the hats agree with those of three open nodes; half
-    way to the first open node where there is no such end, or where too few nodes are open.
-    """
-    x = hats[1:-1]
-    start = x[node]
-    width = abs(hats[node + 1 + side] - start)
-    if room >= DISTURBED_OPEN + 3:
-        open_nodes = node + side * (DISTURBED_OPEN + 1 + np.arange(3))
-        local = side * (hats - start) / width
+    def mismatch(end: np.ndarray) -> np.ndarray:
+        """(k, m) at ends (k, m): the determinant of both powers and the gaps on the three hats."""
+        over = np.maximum(local[:, None] - end[..., None], 0.0)
+        once = over**3 * np.sqrt(over)  # the power 3/2 integrated twice, but for its factor
+        hats = (np.diff(np.diff(each) / step[:, None]) for each in (once, once * over))
+        return (np.cross(*hats) * weighted[:, None]).sum(axis=-1)
 
-        def mismatch(end: float) -> float:
-            law = [_mean_power(local, open_nodes, end, power) for power in (1.5, 2.5)]
-            scale = np.abs(law[0]).max(), np.abs(law[1]).max(), np.abs(gap[open_nodes]).max()
-            rows = np.stack([*law, gap[open_nodes]]) / np.array(scale)[:, None]
-            return float(np.linalg.det(rows))
-
-        ends = np.linspace(-0.5, 1.5, 17)
-        values = np.array([mismatch(end) for end in ends])
-        change = np.flatnonzero(values[:-1] * values[1:] < 0.0)
-        if len(change):
-            k = change[np.argmin(np.abs(ends[change] - 0.5))]
-            return float(start + side * width * brentq(mismatch, ends[k], ends[k + 1]))
-    return float(start + side * width * 0.5)
-
-
-def _mean_power(local: np.ndarray, nodes: np.ndarray, end: float, power: float) -> np.ndarray:
-    """Means over the hats at `nodes` of (x - end)^power for x > end, zero before."""
-    over = np.maximum(local - end, 0.0) ** (power + 2.0) / ((power + 1.0) * (power + 2.0))
-    near, middle, far = (np.take(over, nodes + 1 + offset) for offset in (-1, 0, 1))
-    before = np.take(local, nodes + 1) - np.take(local, nodes)
-    after = np.take(local, nodes + 2) - np.take(local, nodes + 1)
-    total = (near - middle) / before + (far - middle) / after
-    return 2.0 * total / (before + after)
+    sampled = np.linspace(*WITHIN, STEPS + 1)
+    value = mismatch(np.broadcast_to(sampled, (len(local), len(sampled))))
+    change = value[:, :-1] * value[:, 1:] < 0.0
+    row = np.arange(len(local))
+    best = np.argmin(np.where(change, np.abs(sampled[:-1] - 0.5), np.inf), axis=1)
+    low, high, before = sampled[best], sampled[best + 1], value[row, best]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        beyond = mismatch(middle[:, None])[:, 0] * before > 0.0
+        low, high = np.where(beyond, middle, low), np.where(beyond, high, middle)
+    return np.where(change.any(axis=1), 0.5 * (low + high), 0.5)
 
 
 def curve_between(
@@ -171,14 +178,14 @@ def _patch(
     middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0])
     # Along the angle theta of x = middle - half cos(theta) the square root is smooth.
     angle = np.arccos(np.clip((middle - breaks) / half, -1.0, 1.0))
-    norm = error = 0.0
-    for a, b, s, t in zip(breaks[:-1], breaks[1:], angle[:-1], angle[1:], strict=True):
-        if t > s:
-            theta = 0.5 * (s + t) + 0.5 * (t - s) * _AT
-            at, amount = middle - half * np.cos(theta), 0.5 * (t - s) * half * np.sin(theta)
-        else:
-            at, amount = 0.5 * (a + b) + 0.5 * (b - a) * _AT, 0.5 * (b - a)
-        norm += float(_WEIGHT @ (amount * piecewise(at) ** 2))
-        error += float(_WEIGHT @ (amount * (curve(at) - piecewise(at)) ** 2))
-    norm = np.sqrt(norm)
-    return Patch(ends, first, last, curve, smooth, norm, np.sqrt(error) if smooth else norm)
+    a, s, far, wide = (
+        each[:, None] for each in (breaks[:-1], angle[:-1], np.diff(breaks), np.diff(angle))
+    )
+    share = 0.5 * (1.0 + _AT)
+    inside = ((breaks[:-1] >= ends[0]) & (breaks[1:] <= ends[1]))[:, None]
+    theta = s + share * wide
+    at = np.where(inside, middle - half * np.cos(theta), a + share * far)
+    amount = 0.5 * np.where(inside, wide * half * np.sin(theta), far) * _WEIGHT
+    norm = float(np.sqrt((amount * piecewise(at) ** 2).sum()))
+    error = float(np.sqrt((amount * (curve(at) - piecewise(at)) ** 2).sum())) if smooth else norm
+    return Patch(ends, first, last, curve, smooth, norm, error)

@@ -5,7 +5,7 @@ A numerical model takes the problem and is judged by the rest.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -177,16 +177,12 @@ def wave_case(
     modulus = combined_modulus(*pair)
     closing = np.pi * modulus * amplitude / wavelength
     wave = westergaard_from_mean_pressure(share * closing, wavelength, amplitude, modulus)
-
-    def gap(x: np.ndarray) -> np.ndarray:
-        return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
-
     return ExactContact(
         name,
         "Westergaard 1939 (Johnson 1985, section 13.2)",
         *pair,
         load=wave.load_per_wavelength,
-        gap=gap,
+        gap=partial(_wave_gap, wavelength, amplitude),
         half_range=0.5 * wavelength,
         pressure=wave.pressure,
         quantities={
@@ -196,6 +192,10 @@ def wave_case(
         },
         period=wavelength,
     )
+
+
+def _wave_gap(wavelength: float, amplitude: float, x: np.ndarray) -> np.ndarray:
+    return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
 
 
 def _figures(peak_pressure: float, left: float, right: float) -> dict[str, float]:

@@ -264,20 +264,19 @@ class ManufacturedContact:
             values = value(self.stress(x, z))
             for best in np.argsort(values)[-_STARTS:]:
                 starts.append((values[best], x[best], z[best], 0.1 * patch.half_width))
-        starts = sorted(starts)[-_STARTS:]
+        top, *place, step = np.array(sorted(starts)[-_STARTS:]).T
+        place, each = np.column_stack(place), np.arange(len(top))
         stencil = np.array([(i, j) for i in range(-2, 3) for j in range(-2, 3)]) / 2.0
-        found = []
-        for top, x, z, step in starts:
-            for _ in range(_ZOOMS):
-                at = np.column_stack([x, z]) + step * stencil
-                at[:, 1] = np.clip(at[:, 1], 0.0, depth)
-                values = value(self.stress(at[:, 0], at[:, 1]))
-                best = int(np.argmax(values))
-                if values[best] > top:
-                    top, (x, z) = values[best], at[best]
-                step *= _ZOOM
-            found.append(Extremum(float(top), float(x), float(z)))
-        return max(found, key=lambda extremum: extremum.value)
+        for _ in range(_ZOOMS):
+            at = place[:, None] + step[:, None, None] * stencil
+            at[..., 1] = np.clip(at[..., 1], 0.0, depth)
+            values = value(self.stress(at[..., 0], at[..., 1]))
+            best = values.argmax(axis=1)
+            values, at = values[each, best], at[each, best]
+            place = np.where((values > top)[:, None], at, place)
+            top, step = np.maximum(values, top), _ZOOM * step
+        best = top.argmax()
+        return Extremum(float(top[best]), *map(float, place[best]))
 
     @cached_property
     def _waves(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

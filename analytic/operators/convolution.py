@@ -60,7 +60,7 @@ class Convolution:
         np.empty(_BUFFER, dtype=np.uint8)
         self.column, self.row = column, column if row is None else row
         self.symmetric = row is None
-        self._symbol_at, self._shorter = symbol, {}
+        self.symbol, self._shorter = symbol, {}
         self.count = len(column)
         self.periodic = periodic
         self._length = self.count if periodic else next_fast_len(2 * self.count, real=True)
@@ -80,9 +80,9 @@ class Convolution:
 
     @cached_property
     def inverse_symbol(self) -> np.ndarray:
-        if self._symbol_at is None:
+        if self.symbol is None:
             return 1.0 / self._transfer.real
-        return 1.0 / self._symbol_at(np.arange(self.ring // 2 + 1) / self.ring)
+        return 1.0 / self.symbol(np.arange(self.ring // 2 + 1) / self.ring)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""
@@ -126,7 +126,7 @@ class Convolution:
             return None
         if length not in self._shorter:
             row = None if self.symmetric else self.row[:length]
-            self._shorter[length] = Convolution(self.column[:length], self._symbol_at, row)
+            self._shorter[length] = Convolution(self.column[:length], self.symbol, row)
         return self._shorter[length]
 
     def _start_of_row(self, nodes: np.ndarray) -> int | None:

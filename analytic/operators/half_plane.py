@@ -128,22 +128,6 @@ class HalfPlane(Convolution):
         return self.pitch**2 / (np.pi * self.modulus) * seen
 
 
-class SumOfBodies:
-    """Compliances of several bodies on the same hats, each times a factor, added.
-
-    A factor stands for a body of the same shape and Poisson's ratio but another modulus.
-    """
-
-    def __init__(self, *bodies: ComplianceOperator, factors: tuple[float, ...] = ()) -> None:
-        self.bodies = bodies
-        self.factors = factors or (1.0,) * len(bodies)
-
-    def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Mutual weighted displacement (n,) [m^2] of the surfaces."""
-        pairs = zip(self.bodies, self.factors, strict=True)
-        return sum(factor * body.apply(pressure) for body, factor in pairs)
-
-
 class SumOfConvolutions(Convolution):
     """Two surfaces or more on the same elements as one: their matrices and symbols added.
 
@@ -154,12 +138,12 @@ class SumOfConvolutions(Convolution):
         if len({(body.count, body.periodic) for body in bodies}) != 1:
             raise ValueError("bodies to be added must have the same elements")
         self.bodies = bodies
-        inverse = 1.0 / sum(1.0 / body.inverse_symbol for body in bodies)
+        periodic = bodies[0].periodic
         super().__init__(
             sum(body.column for body in bodies),
-            lambda cycles: 1.0 / inverse,
+            None if periodic else lambda cycles: sum(body.symbol(cycles) for body in bodies),
             None if all(body.symmetric for body in bodies) else sum(body.row for body in bodies),
-            periodic=bodies[0].periodic,
+            periodic=periodic,
         )
 
     @made_once

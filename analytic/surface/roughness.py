@@ -132,6 +132,28 @@ def shortest_wavelength(profile: Profile, fraction: float = 0.99) -> float:
     return float(1.0 / np.interp(fraction, share, wavenumber))
 
 
+def power_spectrum(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
+    """Wavenumbers (m,) [1/m] above 0 and the one-sided power spectral density (m,) [m^3] there.
+
+    Of the spline at even places, about its mean, under a Hann window. The density's integral over
+    the wavenumber is the mean square height, but for the window.
+    """
+    count = next_fast_len(min(len(profile.x), MAX_RESAMPLED), real=True)
+    middles = (np.arange(count) + 0.5) / count
+    height = profile.spline()(profile.x[0] + profile.length * middles)
+    window = np.sin(np.pi * middles) ** 2
+    power = np.abs(rfft((height - height.mean()) * window)[1:]) ** 2
+    density = 2.0 * power * profile.length / (count * np.sum(window**2))
+    return np.arange(1, len(power) + 1) / profile.length, density
+
+
+def bearing_curve(profile: Profile, count: int = 1000) -> tuple[np.ndarray, np.ndarray]:
+    """Shares (count,) of the length and the heights (count,) [m] that they reach or exceed."""
+    places = np.linspace(profile.x[0], profile.x[-1], max(count, 2 * len(profile.x)))
+    share = (np.arange(count) + 0.5) / count
+    return share, np.quantile(profile.spline()(places), 1.0 - share)
+
+
 def _gauss_points(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Gauss points (m, n-1) [m] of every interval, and their weights, which add up to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(GAUSS_POINTS)

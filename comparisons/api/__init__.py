@@ -38,18 +38,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from comparisons.api.results import CostStudy, Figures, Map, Run
+from comparisons.api.results import CostStudy, Figures, Map, Run, Sweep
 from comparisons.common.errors import InputError
+from comparisons.common.files import check_writable
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.quantities import MODELS, models_named
-from comparisons.results.field_files import AUTOMATIC
+from comparisons.common.units import describe
+from comparisons.results.field_files import AUTOMATIC, FORMATS
+from comparisons.scenes.files import find_scene, read_toml
 from comparisons.scenes.resolve import load_scene, resolve_tables, with_tolerance
 from comparisons.scenes.scene import ResolvedScene
 
 if TYPE_CHECKING:
-    from comparisons.studies.maps.sweep import Workers
+    from comparisons.studies.points import Workers
 
-__all__ = ["compare", "cost", "load", "map", "read", "report", "run"]
+__all__ = ["compare", "cost", "load", "map", "read", "report", "run", "sweep", "tables"]
 
 Scene = ResolvedScene | Mapping | str | os.PathLike
 """A scene as loaded, as tables, by its name or by its path."""
@@ -72,9 +75,29 @@ above 0: a number in m or "8.2 mm"
     if isinstance(scene, Mapping):
         name = "scene"
         scene = resolve_tables(scene, name=name, folder=Path("."), source=name)
-    elif not isinstance(scene, ResolvedScene):
+    elif isinstance(scene, str | os.PathLike):
         scene = load_scene(scene)
+    elif not isinstance(scene, ResolvedScene):
+        allowed = "allowed is a name, a path, tables or what load returns"
+        raise InputError(f"scene: is {describe(scene)}; {allowed}")
     return scene if tolerance is None else with_tolerance(scene, tolerance)
+
+
+def tables(scene: str | os.PathLike) -> dict:
+    """A scene's tables as its file has them, to be changed and run; a profile's file by its whole
+    path, so that they hold anywhere.
+
+    >>> changed = tables("smooth")
+    >>> changed["load"]["friction"] = 0.2
+    >>> load(changed).friction
+    (0.2,)
+    """
+    path = find_scene(scene)
+    found = read_toml(path)
+    profile = found.get("profile")
+    if isinstance(profile, dict) and isinstance(profile.get("file"), str):
+        profile["file"] = str((path.parent / profile["file"]).resolve())
+    return found
 
 
 def run(
@@ -113,7 +136,11 @@ def run(
     from comparisons.runs.run import run as run_scene
 
     chosen = models_named(models, "models")
-    place = None if out is None else Path(out)
+    place = _place(out, "out")
+    if fields not in (words := (AUTOMATIC, *FORMATS)):
+        raise InputError(f"fields: is {describe(fields)}; allowed is {', '.join(words)}")
+    if place is not None:
+        check_writable(place)
     return Run(run_scene(load(scene, tolerance), place, chosen, progress, fields))
 
 
@@ -124,7 +151,7 @@ def read(folder: str | os.PathLike) -> Run:
     """
     from comparisons.report.saved import read_outcome
 
-    return Run(read_outcome(Path(folder)))
+    return Run(read_outcome(_place(folder, "folder")))
 
 
 def compare(*runs: Run) -> Figures:
@@ -156,8 +183,10 @@ def cost(
     """
     from comparisons.studies.cost.cost import cost as measured
 
+    if not isinstance(repeats, int):
+        raise InputError(f"repeats: is {describe(repeats)}; allowed is a whole number from 1")
     with TemporaryDirectory() as scratch:
-        place = Path(scratch) / "cost" if out is None else Path(out)
+        place = _place(out, "out") or Path(scratch) / "cost"
         return CostStudy(measured(load(scene), place, repeats, progress))
 
 
@@ -183,11 +212,54 @@ def map(
     from comparisons.studies.maps.make import make_map
     from comparisons.studies.maps.request import request_of
 
-    request = request_of(os.fspath(scene), points, x, y, quantity)
+    scene = os.fspath(scene) if isinstance(scene, os.PathLike) else scene
+    given = {"scene": scene, "points": points, "x": x, "y": y, "quantity": quantity}
+    for name, text in given.items():
+        if not isinstance(text, str) and not (text is None and name in ("x", "y")):
+            raise InputError(f"{name}: is {describe(text)}; allowed is a text")
+    request = request_of(**given)
     with TemporaryDirectory() as scratch:
-        place = Path(scratch) / "map" if out is None else Path(out)
+        place = _place(out, "out") or Path(scratch) / "map"
         content = make_map(request, place, workers, progress)
     return Map(content, None if out is None else place)
+
+
+def sweep(
+    scene: Mapping | str | os.PathLike,
+    over: str | Sequence[str] | Mapping[str, Sequence[float | str]],
+    models: str | Sequence[str] = "half-plane",
+    *,
+    workers: int | None = None,
+    out: str | os.PathLike | None = None,
+    progress: ProgressCallback = no_progress,
+) -> Sweep:
+    """One scene at many placements, loads, or values of any field: what `crosscheck sweep` does.
+
+    over     "position=40", "FIELD=FROM:TO:N", "FIELD=A,B,C", several of them, or values by field
+    workers  processes, one a core by default
+    `out` keeps each point, and goes on from there.
+
+    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
+    >>> smooth = {"roller": {"radius": 8e-3, **steel}, "body": steel, "load": {"per_length": 1e6}}
+    >>> found = sweep(smooth, {"load": [1e6, 4e6]}, workers=1)
+    >>> peaks = [row["half_plane"] for row in found.rows if row["quantity"] == "peak_pressure"]
+    >>> round(peaks[1] / peaks[0], 4)
+    2.0
+    """
+    from comparisons.studies.sweep.request import sweep_request
+    from comparisons.studies.sweep.study import make_sweep
+
+    if isinstance(over, Mapping):
+        over = [f"{name}={','.join(f'{v}' for v in values)}" for name, values in over.items()]
+    given = dict(scene) if isinstance(scene, Mapping) else tables(scene)
+    name = "scene" if isinstance(scene, Mapping) else find_scene(scene).stem
+    asked = [over] if isinstance(over, str) else list(over)
+    place = {"name": name, "folder": Path("."), "source": name}
+    request = sweep_request(given, asked, models_named(models, "models"), **place)
+    with TemporaryDirectory() as scratch:
+        folder = Path(scratch) / "sweep" if out is None else Path(out)
+        content = make_sweep(request, folder, workers, progress)
+    return Sweep(content, None if out is None else folder)
 
 
 def report(found: Run, path: str | os.PathLike) -> Path:
@@ -198,8 +270,15 @@ def report(found: Run, path: str | os.PathLike) -> Path:
     from comparisons.common.files import write_whole
     from comparisons.report.page import render
 
-    path = Path(path)
+    path = _place(path, "path")
     if not path.parent.is_dir() or path.is_dir():
         raise InputError(f"{path}: is no place for a page; allowed is a file in a folder")
     write_whole(path, render(found.outcome))
     return path
+
+
+def _place(given: object, name: str) -> Path | None:
+    """An argument that names a file or folder; None where it is."""
+    if given is not None and not isinstance(given, str | os.PathLike):
+        raise InputError(f"{name}: is {describe(given)}; allowed is a path")
+    return None if given is None else Path(given)

@@ -1,6 +1,7 @@
 """What the functions of `comparisons.api` return: figures, tables that print themselves, plots."""
 
 import io
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,15 +18,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from rich.console import Console, RenderableType
 
+    from comparisons.models.level import Level
+
 COLUMNS = 100  # of text; a notebook's cell is as wide
 PAGE = '<pre style="font-family: monospace; line-height: 1.2">{code}</pre>'
 
 
-class Printed:
+class Printed(ABC):
     """Prints as text and shows as HTML what `_table` returns for rich."""
 
-    def _table(self) -> "RenderableType":
-        raise NotImplementedError
+    @abstractmethod
+    def _table(self) -> "RenderableType": ...
 
     def __repr__(self) -> str:
         return "\n".join(map(str.rstrip, self._console().export_text().splitlines()))
@@ -72,16 +75,39 @@ class Run(Printed):
         """Curves of a model's finest level: x [m], pressure [Pa], gap [m], deformed height [m]."""
         from comparisons.models.level import deformed_height
 
-        levels = self.outcome.levels(self.outcome.deciding_friction)
-        if model not in levels:
-            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
-        level = levels[model]
+        level = self._level(model)
         return {
             "x": level.grid.x,
             "pressure": level.solution.pressure,
             "gap": level.solution.gap,
             "deformed_height": deformed_height(self.outcome.problem, level),
         }
+
+    def stress(self, model: str = "half_plane", friction: float | None = None) -> dict:
+        """Stresses of a model's finest level below the contact, as arrays.
+
+        friction  coefficient; the scene's first by default
+        x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
+        [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
+        stress across the plane is Poisson's ratio times sx + sz.
+        """
+        level = self._level(model)
+        frictions = self.outcome.problem.scene.friction
+        found = level.stress(frictions[0] if friction is None else friction)
+        if found is None:
+            raise InputError(
+                "stress: this run has none there; allowed is a scene with [stress], at friction "
+                + " or ".join(f"{mu:g}" for mu in frictions)
+            )
+        window, names = self.outcome.window, ("sx", "sz", "txz", "tau1")
+        depth = {"x": window.x, "z": window.z}
+        return depth | {name: np.asarray(getattr(found.field, name)) for name in names}
+
+    def _level(self, model: str) -> "Level":
+        levels = self.outcome.levels(self.outcome.deciding_friction)
+        if model not in levels:
+            raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")
+        return levels[model]
 
     def _table(self) -> "RenderableType":
         from comparisons.report.terminal import summary
@@ -159,3 +185,35 @@ class Map(Printed):
             return map_table(self.content, self.folder)
         *lines, _ = map_table(self.content, Path()).renderables  # the last one says where it is
         return Group(*lines)
+
+
+@dataclass(frozen=True, repr=False)
+class Sweep(Printed):
+    """One scene at many values of its fields; `content` is that of sweep.json, in `folder` if it
+    was kept."""
+
+    content: dict
+    folder: Path | None
+
+    @property
+    def rows(self) -> list[Row]:
+        """The figures as records, each with the values of the swept fields."""
+        names = [each["field"] for each in self.content["over"]]
+        return [
+            dict(zip(names, point["values"], strict=True)) | row
+            for point in self.content["points"]
+            for row in point["rows"]
+        ]
+
+    def plot(self) -> "list[Axes]":
+        """Each figure over the first swept field."""
+        from comparisons.report.figures.style import collected_figures
+        from comparisons.studies.sweep.picture import sweep_figure
+
+        with collected_figures():
+            return sweep_figure(self.content).axes
+
+    def _table(self) -> "RenderableType":
+        from comparisons.studies.sweep.study import sweep_table
+
+        return sweep_table(self.content, self.folder)

@@ -20,6 +20,8 @@ from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
 
+# Of the uncertainty that a difference may have: figures that are shown may have half as much again.
+SHOWN = 2.0 / 3.0
 NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-widths
 
 
@@ -184,14 +186,18 @@ def pair_histories(
 def discretisations(
     runs: dict[str, ModelRun], problem: Problem, friction: float, window: Window | None
 ) -> dict[str, float]:
-    """Discretisation uncertainty that refinement is to lower: of each figure the sum of both
-    models', for figures are shown too, and of norms that of the difference; or of one model."""
-    found = {}
-    if len(runs) == 2:
-        pair = pair_history(*runs.values(), problem, friction, window)
-        found |= {name: u.discretisation for name, u in pair.uncertainties.items()}
+    """Discretisation uncertainty that refinement is to lower: the larger of the difference's, which
+    is judged, and of SHOWN times each model's own, for figures are shown too; or of one model. Not
+    the sum: what the pressure elements leave out is in both and cancels in the difference."""
     each = [uncertainties(run, problem, friction) for run in runs.values()]
-    return found | {name: sum(u[name].discretisation for u in each) for name in each[0]}
+    if len(runs) == 1:
+        return {name: found.discretisation for name, found in each[0].items()}
+    pair = pair_history(*runs.values(), problem, friction, window).uncertainties
+    sizes = {name: found.discretisation for name, found in pair.items()}
+    for name in each[0]:
+        own = max(found[name].discretisation for found in each)
+        sizes[name] = max(sizes[name], SHOWN * own)
+    return sizes
 
 
 def compared(

@@ -12,8 +12,8 @@ searched first over whole pitches, by correlation, then refined.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
 from scipy.optimize import minimize
-from scipy.signal import correlate
 
 from analytic.grid import HatGrid
 from comparisons.assessment.comparison import relative_l2
@@ -56,10 +56,13 @@ def sideways_shift(grid: HatGrid, pressure: np.ndarray, reference: np.ndarray) -
     most = int(FARTHEST * extent / (2.0 * APART * pitch)) + 1
     lags = np.arange(1 - len(x), len(x))
     near = np.abs(lags) * pitch <= FARTHEST * extent
+    length = next_fast_len(2 * len(x), real=True)
+    spectrum = rfft(reference, length)
     starts = [np.zeros(2)]
     for stretch in APART * np.arange(-most, most + 1):
         stretched = moved(0.0, stretch * per_pitch[1])
-        product = np.where(near, correlate(reference, stretched, method="fft"), -np.inf)
+        product = irfft(spectrum * rfft(stretched, length).conj(), length)[lags]
+        product = np.where(near, product, -np.inf)
         starts.append(np.array([float(lags[np.argmax(product)]), stretch]))
     best = min(starts, key=left)
     simplex = best + np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5 * APART]])

@@ -16,6 +16,7 @@ from comparisons.assessment.effects.catalogue import EFFECTS
 
 Verdict = Literal["agree", "differ", "inconclusive"]
 Validity = Literal["holds", "fails", "inconclusive"]
+SMALL = 1.0 / 3.0  # of what is not modelled: a numerical uncertainty that hardly matters
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,27 @@ class ToleranceCheck:
         than what is not modelled."""
         alone = judge(self.value, self.uncertainty, self.tolerance) == "inconclusive"
         return alone and self.uncertainty >= self.unknown
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether a finer solution leaves the verdict as it is, wherever in the uncertainty its
+        value comes to lie. Of inconclusive ones only where what is not modelled is by far the
+        larger unknown: else the error itself is worth a finer solution."""
+        if self.verdict != "inconclusive":
+            return True
+        least = max(0.0, abs(self.value) - self.uncertainty)
+        most = abs(self.value) + self.uncertainty
+        turns = least + self.unknown <= self.tolerance or most - self.unknown > self.tolerance
+        return not turns and self.uncertainty <= SMALL * self.unknown
+
+
+def is_decided(difference: float, uncertainty: float, size: float, tolerance: float) -> bool:
+    """Whether a difference agrees or differs by the rule of `judge`, whatever effects that change
+    its reference by up to `size` in all do to it; all relative."""
+    if not size < 1.0:
+        return False
+    moved = (1.0 + abs(difference)) * size / (1.0 - size)
+    return judge(difference, uncertainty + moved, tolerance) != "inconclusive"
 
 
 def validity_verdict(checks: Sequence[ToleranceCheck]) -> tuple[Validity, str]:

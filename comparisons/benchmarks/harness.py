@@ -2,15 +2,12 @@
 
 import math
 import os
-import resource
 import statistics
 import sys
-import time
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
 
-from rich.console import Console
-from rich.table import Table
+from comparisons.common.progress import processor_seconds
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 Result = TypeVar("Result")
@@ -48,12 +45,6 @@ def run_on_one_thread(main: Callable[[], int]) -> None:
     sys.exit(main())
 
 
-def processor_seconds() -> float:
-    """Of this process and of those that it has started and that have ended."""
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + children.ru_utime + children.ru_stime
-
-
 def timed(
     work: Callable[[], Result], repeats: int, budget: float = math.inf
 ) -> tuple[float, Result]:
@@ -69,6 +60,9 @@ def timed(
 
 def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """The first column is a name, the others are numbers."""
+    from rich.console import Console
+    from rich.table import Table
+
     table = Table(title=title, title_justify="left")
     for number, name in enumerate(columns):
         table.add_column(name, justify="right" if number else "left")

@@ -99,7 +99,10 @@ class Finding:
 @job
 def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> int:
     """Show what is installed, what is missing, and how to get it."""
+    from comparisons.common.provenance import PROJECT, revision
+
     findings = [Finding("Python", True, f"{platform.python_version()}, {sys.executable}")]
+    findings.append(Finding("crosscheck", True, f"{revision() or 'no revision'}, {PROJECT}"))
     with progress() as callback, ThreadPoolExecutor(2) as pool:
         for number, finding in enumerate(pool.map(attempt, TRIALS, TRIALS.values()), start=1):
             findings.append(finding)

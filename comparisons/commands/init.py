@@ -22,23 +22,60 @@ def init(
     spacing: Annotated[
         str | None, typer.Option(help='Of samples of heights alone, such as "0.5 um".')
     ] = None,
+    columns: Annotated[
+        str | None, typer.Option(help="Of x and height in a table: names or numbers, as 0,2.")
+    ] = None,
+    channel: Annotated[
+        str | None, typer.Option(help="Of a file with several; a sheet of an xlsx.")
+    ] = None,
     row: Annotated[int | None, typer.Option(help="Of an areal map, counted from 0.")] = None,
     column: Annotated[int | None, typer.Option(help="Of an areal map instead.")] = None,
+    radius: Annotated[str | None, typer.Option(help='Of the roller, such as "8.2 mm".')] = None,
+    load: Annotated[
+        str | None, typer.Option(help='Per length, such as "3.85 N/um".', show_default="an example")
+    ] = None,
+    peak_pressure: Annotated[
+        str | None, typer.Option(help="By Hertz, instead of the load, such as 1GPa.")
+    ] = None,
+    friction: Annotated[str | None, typer.Option(help="Coefficient.")] = None,
+    youngs_modulus: Annotated[
+        str | None, typer.Option(help='Of both bodies, such as "207 GPa".')
+    ] = None,
+    poissons_ratio: Annotated[str | None, typer.Option(help="Of both bodies.")] = None,
+    hardness: Annotated[str | None, typer.Option(help="Of the rough body, as a pressure.")] = None,
+    picture: Annotated[
+        bool, typer.Option(help="Draw trace, power spectrum and bearing curve beside the scene.")
+    ] = True,
     force: Annotated[bool, typer.Option("--force", help="Replace the scene's file.")] = False,
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.studies.init.first_scene import given_fields, write_first_scene
+    from comparisons.studies.init.first_scene import (
+        columns_of,
+        given_fields,
+        given_sections,
+        write_first_scene,
+    )
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
-    made = write_first_scene(profile, out, given_fields(options), force)
+    options |= {"channel": channel, "columns": columns and columns_of(columns)}
+    bodies = {"radius": radius, "load": load, "peak_pressure": peak_pressure, "friction": friction}
+    bodies |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
+    sections = given_sections(bodies | {"hardness": hardness})
+    fields = given_fields(options)
+    made = write_first_scene(profile, out, fields, force, sections, draw=picture)
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
     from rich.console import Console
 
+    from comparisons.models.problem import problem_of
+    from comparisons.report.terminal import PLAIN
     from comparisons.studies.init.profile_view import init_table
+    from comparisons.studies.maps.place import first_answer
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
     show(init_table(made, Console().width - 1 if is_watched() else None, unicode))
+    for line in first_answer(problem_of(made.scene)):
+        print(line if unicode else line.translate(PLAIN))
     return ExitStatus.DONE

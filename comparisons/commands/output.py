@@ -1,4 +1,4 @@
-"""What commands print, and where: results to standard output, progress to a terminal alone."""
+"""What commands print, and where: results to standard output, progress to standard error."""
 
 import json
 import math
@@ -7,20 +7,22 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic
 
-from comparisons.common.errors import one_line
-from comparisons.common.mpi import is_several
+from comparisons.common.errors import tell
+from comparisons.common.mpi import is_first, is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 
 UNSEEN_WIDTH = 160  # columns of a table that goes to a file or a pipe
+SILENCE = 60.0  # seconds between lines of progress where no terminal shows it
 
 
 @contextmanager
 def progress() -> Iterator[ProgressCallback]:
     """A callback that shows the stage at work and the time left, if standard error is a terminal;
-    nothing stays there."""
+    nothing stays there. Elsewhere a line tells a stage every SILENCE seconds."""
     if not sys.stderr.isatty():
-        yield no_progress
+        yield _lines() if is_first() else no_progress
         return
     from rich import progress as rich
     from rich.console import Console
@@ -48,6 +50,22 @@ def progress() -> Iterator[ProgressCallback]:
         yield callback
 
 
+def _lines() -> ProgressCallback:
+    """A callback that tells a stage where the last line was SILENCE seconds ago, or the beginning.
+
+    No thread tells the time: a process with threads is not copied.
+    """
+    began = last = monotonic()
+
+    def callback(stage: str) -> None:
+        nonlocal last
+        if (now := monotonic()) - last >= SILENCE:
+            last = now
+            tell(f"after {now - began:.0f} s: {stage}")
+
+    return callback
+
+
 def is_watched() -> bool:
     """Whether results go to a terminal that somebody reads."""
     # Open MPI hands its processes a terminal, whatever its own output goes to
@@ -64,7 +82,7 @@ def show(renderable: object) -> None:
 
 def say(sentence: str) -> None:
     """Print to standard error what the user should know but is no failure of the command."""
-    print(f"crosscheck: {one_line(sentence)}", file=sys.stderr)
+    tell(sentence)
 
 
 def show_file(path: Path) -> None:

@@ -19,7 +19,8 @@ def report(
     summary: Annotated[
         Path | None,
         typer.Option(
-            help="Page over all runs.", show_default="results/summary.html, of several DIR"
+            help="Page over all runs; given by name, no report is drawn again.",
+            show_default="results/summary.html, of several DIR",
         ),
     ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Print each report to PDF, too.")] = False,
@@ -28,10 +29,11 @@ def report(
     """Draw reports again from result files, without solving; sum many runs up on one page."""
     from comparisons.report.redraw import draw_again, reports_content, reports_table
 
-    if summary is None and len(folders) > 1:
+    draws = summary is None
+    if draws and len(folders) > 1:
         summary = RESULTS / "summary.html"
     with progress() as callback:
-        reports = from_first(lambda: draw_again(folders, summary, pdf, callback))
+        reports = from_first(lambda: draw_again(folders, summary, pdf, callback, draws))
     if as_json:
         show_json(reports_content(reports, summary))
     else:

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -19,6 +19,9 @@ from comparisons.commands.output import progress, say, show, show_json
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.quantities import HYPHENATED, models_named
+
+if TYPE_CHECKING:
+    from comparisons.scenes.scene import ResolvedScene
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
@@ -56,7 +59,7 @@ def run(
     chosen = models_named(models, "--models")
     resolved = from_first(lambda: load_scene(scene))
     if tolerance is not None:
-        resolved = with_tolerance(resolved, tolerance)
+        resolved = with_tolerance(resolved, tolerance, "--tolerance")
     directory = out or RESULTS / resolved.name
     from_first(lambda: check_writable(directory))
     from_first(lambda: check_place(junit))
@@ -65,6 +68,7 @@ def run(
     warnings = warnings_about(resolved)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
+        _say_first_answer(resolved)
     with progress() as callback:
         try:
             outcome = run_scene(resolved, directory, chosen, callback, fields)
@@ -93,6 +97,17 @@ def _say_warnings(warnings: list[str]) -> None:
 
     for warning in warnings:
         say(f"plausibility warning: {warning.translate(PLAIN)}")
+
+
+def _say_first_answer(scene: "ResolvedScene") -> None:
+    """What maps or estimates say of the model error; not of a surface that must be run in first."""
+    if scene.running_in is not None or not is_first():
+        return
+    from comparisons.models.problem import problem_of
+    from comparisons.studies.maps.place import first_answer
+
+    for line in first_answer(problem_of(scene)):
+        say(line)
 
 
 def _print(directory: Path) -> None:

@@ -1,9 +1,12 @@
 """Errors of one line, and the exit statuses that the command line ends with."""
 
 import difflib
+import os
 import re
+import sys
 from collections.abc import Iterable
 from enum import IntEnum
+from typing import TextIO
 
 
 class ExitStatus(IntEnum):
@@ -16,6 +19,7 @@ class ExitStatus(IntEnum):
     NOT_CONVERGED = 3
     INCONCLUSIVE = 4
     DEFECT = 70  # EX_SOFTWARE: an error of the program, never of the input
+    OUT_OF_MEMORY = 71  # EX_OSERR
     CANNOT_WRITE = 74  # EX_IOERR
     INTERRUPTED = 130  # 128 + SIGINT
     BROKEN_PIPE = 141  # 128 + SIGPIPE
@@ -49,3 +53,17 @@ def one_line(text: str) -> str:
     """The text without line breaks, and with what a terminal would obey written as escapes."""
     line = re.sub(r"[ \t\r\n]+", " ", text).strip()
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def tell(message: str, before: str = "") -> None:
+    """Print one line to standard error, `before` it what a terminal obeys; nothing where standard
+    error cannot be written, now and when the process ends."""
+    try:
+        print(f"{before}crosscheck: {one_line(message)}", file=sys.stderr, flush=True)
+    except OSError:
+        drop(sys.stderr)
+
+
+def drop(stream: TextIO) -> None:
+    """Send what is left of a stream nowhere: its last flush must not fail again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

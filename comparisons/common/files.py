@@ -31,7 +31,14 @@ OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name i
 FURTHER = "whole/friction_*"
 OTHER_FILES += (f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*")
 RECORD = "record.json"  # of a run: its "files" are this program's
-STUDIES = ("cost", "map", "paper", "stability", "verify")  # whose own record is <name>.json
+STUDIES = (
+    "cost",
+    "map",
+    "paper",
+    "stability",
+    "sweep",
+    "verify",
+)  # whose own record is <name>.json
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
 LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet
@@ -152,13 +159,28 @@ def whole_file(path: Path) -> Iterator[Path]:
     is interrupted, `path` stays as it was."""
     part = path.with_name(f".{path.name}.{os.getpid()}{PART}")
     _remove_abandoned(path.parent.glob(f".{glob.escape(path.name)}.*{PART}"))
-    part.touch()
+    with _naming(part, path):
+        part.touch()
     with _held(part):
         try:
-            yield part
-            os.replace(part, path)
+            with _naming(part, path):
+                yield part
+                os.replace(part, path)
         finally:
             part.unlink(missing_ok=True)
+
+
+@contextmanager
+def _naming(part: Path, path: Path) -> Iterator[None]:
+    """Let an error of the system name what was to be written, not the unfinished file or folder
+    `part` in its place, nor nothing, as a full disk does."""
+    try:
+        yield
+    except OSError as error:
+        given = Path(os.fsdecode(error.filename)) if error.filename else part
+        if given.is_relative_to(part):
+            error.filename = str(path / given.relative_to(part))
+        raise
 
 
 @contextmanager
@@ -215,7 +237,7 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
     If the block fails or is interrupted nothing in `out` changes.
     """
     check_writable(out, own)
-    with _scratch(out) as scratch:
+    with _scratch(out) as scratch, _naming(scratch, out):
         yield scratch
         made = sorted(p.relative_to(scratch) for p in scratch.rglob("*") if p.is_file())
         made.sort(key=lambda name: str(name) not in RECORDS)  # first what claims the others

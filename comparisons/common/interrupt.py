@@ -12,7 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from types import FrameType
 
-from comparisons.common.errors import ExitStatus
+from comparisons.common.errors import ExitStatus, tell
 
 PATIENCE = 1.5  # seconds that the child has to end by itself
 SHOW_CURSOR = "\x1b[?25h\n"  # a progress bar that was cut off has hidden it
@@ -27,13 +27,12 @@ def watched(work: Callable[[], int], message: str) -> int:
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # as shells have it in the background
         return work()
     sys.stdout.flush()
-    sys.stderr.flush()
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # until handled
     ended, ends = os.pipe()  # the child writes when its work has ended
     os.set_blocking(ended, False)
     child = os.fork()
     if child == 0:
-        _end_with_parent()
+        end_with_parent()
         signal.signal(signal.SIGINT, _interrupt_once)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         status = work()
@@ -46,7 +45,7 @@ def watched(work: Callable[[], int], message: str) -> int:
     if killed and status == -signal.SIGKILL:
         if _is_empty(ended):  # else the child has printed its own line, and was slow to leave
             cursor = SHOW_CURSOR if sys.stderr.isatty() else ""
-            sys.stderr.write(f"{cursor}crosscheck: {message}\n")
+            tell(message, cursor)
         return int(ExitStatus.INTERRUPTED)
     if status < 0:  # what killed the child kills its parent: shells see a crash by that
         signal.signal(-status, signal.SIG_DFL)
@@ -87,7 +86,7 @@ def _interrupt_once(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _end_with_parent() -> None:
+def end_with_parent() -> None:
     """Let the system kill this process when its parent is killed; only Linux can."""
     import ctypes
 

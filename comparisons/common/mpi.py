@@ -97,7 +97,8 @@ def as_one(work: Callable[[], int], ends: Container[int]) -> int:
     if status not in ends:
         if not is_first():
             time.sleep(PATIENCE)
-            sys.stderr.write(errors.getvalue())
+            with suppress(OSError):
+                sys.stderr.write(errors.getvalue())
         _end_all(status)
     return status
 
@@ -106,7 +107,7 @@ def _end_all(status: int) -> None:
     """End every process with this status, if there are others and MPI knows of them."""
     with suppress(OSError):  # nobody reads on
         sys.stdout.flush()
-    sys.stderr.flush()
+        sys.stderr.flush()
     if "mpi4py.MPI" in sys.modules:
         comm = sys.modules["mpi4py.MPI"].COMM_WORLD
         if comm.size > 1:

@@ -1,23 +1,32 @@
-"""Fresh processes on one thread, which an interrupt ends at once: single ones and a pool.
+"""Processes on one thread, which an interrupt ends at once: single ones, a pool, and copies of this
+one for works that need all that it has in memory.
 
 A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
 large task (CPython's issue 94777, in Python 3.11.2 and others); `fresh_process` does not.
 """
 
+import gc
 import multiprocessing
 import os
 import signal
+import sys
 import threading
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
-from contextlib import contextmanager
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
-from threading import Lock, Thread
+from multiprocessing.process import BaseProcess
+from threading import Lock
+from types import ModuleType
 from typing import TypeVar
 
-Item = TypeVar("Item")
+from comparisons.common.interrupt import end_with_parent
+from comparisons.common.mpi import is_several
+
 Result = TypeVar("Result")
+Works = Sequence[Callable[[], object]]
 Call = Callable[..., Result]  # call(work, *given) returns work(*given), computed there
 
 # Of processes that this one starts: one thread, and no code from the working folder.
@@ -29,6 +38,40 @@ class ProcessEnded(Exception):
     """The process ended before it had answered."""
 
 
+class Worker:
+    """A process that serves a pipe, once it is started, and until it is killed.
+
+    serve   called there with the pipe's other end
+    forked  from this process, with all that it has loaded; else a fresh one
+    """
+
+    def __init__(self, serve: Callable[[Connection], None], forked: bool = False) -> None:
+        self._forked, self._serve = forked, serve
+        self._context = multiprocessing.get_context("fork" if forked else "spawn")
+        self.pipe, self._theirs = self._context.Pipe()
+        self._alive, self._held = self._context.Pipe(duplex=False)
+        self._process: BaseProcess | None = None
+
+    def start(self, others: Sequence["Worker"] = ()) -> None:
+        """`others` are forked ones beside it, whose ends it must not keep."""
+        ours = [end for each in (self, *others) for end in (each.pipe, each._held)]
+        given = self._serve, self._theirs, self._alive, ours if self._forked else []
+        self._process = self._context.Process(target=_work, args=given)
+        with _starting, environment(ONE_THREAD), _interrupts_later():
+            self._process.start()
+        self._theirs.close()  # so that reading ends when the process does
+
+    def kill(self) -> None:
+        """With what it has started; a long factorisation handles no other signal."""
+        if self._process is not None and self._process.pid is not None:
+            with suppress(ProcessLookupError):  # it has no group yet
+                os.killpg(self._process.pid, signal.SIGKILL)
+            self._process.kill()
+            self._process.join()
+        for end in (self.pipe, self._theirs, self._alive, self._held):
+            end.close()
+
+
 @contextmanager
 def fresh_process() -> Iterator[Call]:
     """A function that calls others in one process, which starts at the first call; the end of the
@@ -36,79 +79,55 @@ def fresh_process() -> Iterator[Call]:
 
     Arguments and answers go through pickle. A call raises what the work raises, and ProcessEnded.
     """
-    context = multiprocessing.get_context("spawn")
-    ours, theirs = context.Pipe()
-    alive, held = context.Pipe(duplex=False)
-    process = context.Process(target=_serve, args=(theirs, alive))
+    worker, started = Worker(_answer), []
 
     def call(work: Callable[..., Result], *given: object) -> Result:
-        if process.pid is None:
-            with _starting, environment(ONE_THREAD), _interrupts_later():
-                process.start()
-            theirs.close()  # so that reading ends when the process does
+        if not started:
+            started.append(True)
+            worker.start()
         try:
-            ours.send((work, given))
-            good, answer = ours.recv()
+            worker.pipe.send((work, given))
+            good, answer = worker.pipe.recv()
         except (EOFError, OSError) as error:
             raise ProcessEnded(str(error)) from error
         if good:
             return answer
         raise answer
 
-    with ours, theirs, alive, held:
-        try:
-            yield call
-        finally:
-            if process.pid is not None:
-                process.kill()  # a long factorisation handles no other signal
-                process.join()
+    try:
+        yield call
+    finally:
+        worker.kill()
 
 
-def share_out(
-    items: Iterable[Item], here: Callable[[Item], None], there: Sequence[Callable[[Item], None]]
-) -> None:
-    """Work on every item: `here` in this thread, each of `there` in a thread of its own that waits
-    for a process.
-
-    The item of a process that ended is worked on here. The first error ends the rest, and is
-    raised.
-    """
-    left, errors = deque(items), []
-
-    def serve(work: Callable[[Item], None]) -> None:
-        while left and not errors:
-            try:
-                item = left.popleft()
-            except IndexError:  # another one was quicker
-                return
-            try:
-                work(item)
-            except ProcessEnded:
-                left.append(item)
-                return
-            except Exception as error:
-                errors.append(error)
-
-    threads = [Thread(target=serve, args=(work,), daemon=True) for work in there]
-    for thread in threads:
-        thread.start()
-    serve(here)
-    for thread in threads:
-        thread.join()
-    serve(here)
-    if errors:
-        raise errors[0]
+def answered(work: Callable[..., Result], *given: object) -> tuple[bool, Result | Exception]:
+    """Whether the work raised nothing, and what it returned or raised."""
+    try:
+        return True, work(*given)
+    except Exception as error:
+        return False, error
 
 
-def _serve(pipe: Connection, alive: Connection) -> None:
-    begin(alive)
+def _answer(pipe: Connection) -> None:
     while True:
         work, given = pipe.recv()
-        try:
-            answer = True, work(*given)
-        except Exception as error:
-            answer = False, error
-        pipe.send(answer)
+        pipe.send(answered(work, *given))
+
+
+def _work(
+    serve: Callable[[Connection], None],
+    pipe: Connection,
+    alive: Connection,
+    inherited: Sequence[Connection],
+) -> None:
+    with suppress(OSError):
+        os.setpgid(0, 0)  # what it starts ends with it
+    for end in inherited:
+        end.close()
+    if inherited:  # forked by a thread that lasts as long as it does
+        end_with_parent()
+    begin(alive)
+    serve(pipe)
 
 
 @contextmanager
@@ -122,13 +141,17 @@ def _interrupts_later() -> Iterator[None]:
 
 
 @contextmanager
-def processes(count: int) -> Iterator[Executor]:
-    """A pool of fresh processes; what ends the block, or this process, ends them at once."""
-    context = multiprocessing.get_context("spawn")
+def processes(count: int, copied: Works | None = None) -> Iterator[Executor]:
+    """A pool of fresh processes; what ends the block, or this process, ends them at once.
+
+    copied   work that `_copied` finds in the processes, which are copies of this one then
+    """
+    context = multiprocessing.get_context("spawn" if copied is None else "fork")
     alive, held = context.Pipe(duplex=False)
     others = multiprocessing.active_children()
-    with environment(ONE_THREAD), alive, held:
-        pool = ProcessPoolExecutor(count, context, initializer=begin, initargs=(alive,))
+    with environment(ONE_THREAD), _without_main(), alive, held:
+        given = alive, copied  # a copy gets them without pickle
+        pool = ProcessPoolExecutor(count, context, initializer=begin, initargs=given)
         try:
             yield pool
         except BaseException:
@@ -141,9 +164,94 @@ def processes(count: int) -> Iterator[Executor]:
             pool.shutdown(cancel_futures=True)
 
 
-def begin(alive: Connection) -> None:
-    """Ignore Ctrl-C, and end with the process that started this one or when it closes `alive`."""
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Processes that start inside do not run the script again that this one runs: theirs is the
+    project's code alone, and a script needs no guard around its calls."""
+    script = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = script
+
+
+def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
+    """What each work returns, in their order; copies of this process carry them out, one a core.
+
+    Works share what this process has in memory, and their answers go through pickle. They use no
+    MPI, which survives no fork. They are carried out here where there is one core, where this
+    process is one of several or has several threads, and where copies cannot be made or end before
+    they have answered.
+    """
+    count = min(copies(), len(works))
+    if count > 1:
+        with suppress(BrokenProcessPool, OSError), processes(count, works) as pool:
+            with _interrupts_later(), warnings.catch_warnings():
+                warnings.simplefilter("ignore", DeprecationWarning)  # of other threads: they wait
+                answers = pool.map(_copied, range(len(works)))
+            return list(answers)  # an error of the work itself comes again below
+    return [work() for work in works]
+
+
+@contextmanager
+def meanwhile(works: Works) -> Iterator[None]:
+    """Carry out works, as in `side_by_side`, in one copy of this process while the block runs."""
+    copy = None
+    if copies() > 1:
+        copy = multiprocessing.get_context("fork").Process(target=_all_of, args=(works,))
+        with suppress(OSError), _interrupts_later(), warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)
+            copy.start()
+    try:
+        yield
+        if copy is not None and copy.pid is not None:
+            copy.join()
+    finally:
+        if copy is not None and copy.pid is not None:
+            copy.kill()
+            copy.join()
+    if copy is None or copy.exitcode != 0:
+        for work in works:
+            work()
+
+
+def _all_of(works: Works) -> None:
+    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    gc.disable()
+    with suppress(BaseException):
+        for work in works:
+            work()
+        os._exit(0)
+    os._exit(1)  # silently: the works are tried once more, and say what is wrong, in the parent
+
+
+def copies() -> int:
+    """How many copies of this process may work at once; 1: none beside it. Threads of OpenMP, which
+    are in no copy though it waits for them, may have begun where more than one is asked for."""
+    alone = not is_several() and multiprocessing.parent_process() is None
+    alone = alone and os.environ.get("OMP_NUM_THREADS") == ONE_THREAD["OMP_NUM_THREADS"]
+    return len(os.sched_getaffinity(0)) if alone else 1
+
+
+_works: Works = ()  # of a copy
+
+
+def _copied(number: int) -> object:
+    return _works[number]()
+
+
+def begin(alive: Connection, copied: Works | None = None) -> None:
+    """Ignore Ctrl-C, and end with the process that started this one or when it closes `alive`.
+
+    copied   what a copy of a process carries out
+    """
+    global _works
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if copied is not None:
+        _works = copied
+        gc.disable()  # a collection would look through, and copy, all that the parent has
     parent = multiprocessing.parent_process()
 
     def watch() -> None:

@@ -1,4 +1,4 @@
-"""Seconds of a run by stage, a callback for each stage, and memory."""
+"""Seconds of a run by stage and of the processor, a callback for each stage, and memory."""
 
 import math
 import resource
@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from time import perf_counter
+from time import perf_counter, process_time
 
 ProgressCallback = Callable[[str], None]
 
@@ -18,6 +18,14 @@ def peak_memory() -> int:
         return 1024 * found
     found = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return found * (1 if sys.platform == "darwin" else 1024)
+
+
+def processor_seconds() -> float:
+    """Of this process, of those that it has started and that have ended, and of gmsh's meshes."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    building = sys.modules.get("meshes.build")
+    meshes = building.mesh_seconds() if building else 0.0
+    return process_time() + children.ru_utime + children.ru_stime + meshes
 
 
 def machine_memory() -> float:

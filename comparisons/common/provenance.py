@@ -5,7 +5,9 @@ import json
 import marshal
 import os
 import platform
+import subprocess
 from contextlib import suppress
+from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -29,6 +31,26 @@ def versions() -> dict[str, str | None]:
         except metadata.PackageNotFoundError:
             found[name] = None
     return found
+
+
+def made() -> dict[str, str | None]:
+    """When, where and by which revision of this checkout; None for what is not known."""
+    now = datetime.now(UTC).isoformat(sep=" ", timespec="seconds")
+    return {"date": now, "host": platform.node() or None, "revision": revision()}
+
+
+@cache
+def revision() -> str | None:
+    """Commit of the checkout that this code stands in, with `+changes` where files differ from it;
+    None outside of one, or without git."""
+    if not (PROJECT / ".git").exists():
+        return None
+    git = ("git", "-C", str(PROJECT), "describe", "--always", "--exclude=*", "--dirty=+changes")
+    own = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    given = {"env": own | {"GIT_OPTIONAL_LOCKS": "0"}, "text": True, "timeout": 20.0}
+    with suppress(OSError, subprocess.SubprocessError):
+        return subprocess.run(git, capture_output=True, check=True, **given).stdout.strip() or None
+    return None
 
 
 def machine() -> dict[str, str | int | None]:
@@ -73,8 +95,17 @@ def program_code(*places: str) -> str:
 
 def _without_places(code: CodeType) -> CodeType:
     """A module's or function's code without the lines that it stands on."""
-    constants = tuple(_without_places(c) if isinstance(c, CodeType) else c for c in code.co_consts)
+    constants = tuple(map(_constant, code.co_consts))
     return code.replace(co_consts=constants, co_firstlineno=0, co_linetable=b"")
+
+
+def _constant(value: object) -> object:
+    """As marshal's version 2 takes it: Python 3.14 has slices among the constants."""
+    if isinstance(value, CodeType):
+        return _without_places(value)
+    if isinstance(value, tuple):
+        return tuple(map(_constant, value))
+    return ("slice", value.start, value.stop, value.step) if isinstance(value, slice) else value
 
 
 def key_of(*parts: object) -> str:

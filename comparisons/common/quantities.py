@@ -94,6 +94,8 @@ def models_named(given: str | Sequence[str], option: str) -> tuple[str, ...]:
     Raises InputError, with the name of the option, for an unknown one and for none.
     """
     named = given.split(",") if isinstance(given, str) else given
+    if not isinstance(named, list | tuple) or not all(isinstance(name, str) for name in named):
+        raise InputError(f"{option}: is {named!r}; allowed are {', '.join(HYPHENATED.values())}")
     found = [name.strip().replace("-", "_") for name in named if name.strip()]
     allowed = ", ".join(HYPHENATED.values())
     for name in found:

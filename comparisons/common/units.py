@@ -5,6 +5,7 @@ same double. Loading it takes ten times as long as reading a scene, so the units
 every day stand in a table here; the tests hold every entry of it against pint.
 """
 
+import datetime
 import difflib
 import math
 import re
@@ -15,6 +16,10 @@ from functools import lru_cache
 
 class UnitError(ValueError):
     """Not a quantity of the wanted dimension; `str` says what was given, not what is allowed."""
+
+
+class UnknownUnitError(UnitError):
+    """No unit of any dimension."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
     unit: (dimension, Decimal(factor))
     for dimension, units in (
         (LENGTH, {"m": "1", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "nm": "1e-9"}),
+        (LENGTH, {"angstrom": "1e-10", "inch": "0.0254", "mil": "2.54e-5", "microinch": "2.54e-8"}),
         (PRESSURE, {"Pa": "1", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9"}),
         (LOAD, {"N/m": "1", "N/mm": "1e3", "kN/m": "1e3", "kN/mm": "1e6", "N/um": "1e6"}),
         (TIME, {"s": "1", "min": "60", "h": "3600"}),
@@ -52,7 +58,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
 }
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.ASCII)
-_FACTOR = r"(?:[^\W\d]\w*|%)(?:\s*(?:\*\*|\^)\s*-?\d)?"
+_FACTOR = r"(?:[^\W\d]\w*|%)(?:\s*(?:\*\*|\^)\s*-?[1-9])?"
 # pint evaluates whatever arithmetic it is given; it is only shown products of named units
 _UNIT = re.compile(rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*")
 _LONGEST_UNIT = 60
@@ -93,6 +99,11 @@ def unit_in_si(unit: object, dimension: Dimension) -> float:
     return float(_factor(unit.strip(), dimension, unit))
 
 
+def known_units(dimension: Dimension) -> str:
+    """Units of every day, for messages."""
+    return ", ".join(name for name, (found, _) in COMMON_UNITS.items() if found is dimension)
+
+
 def describe(given: object) -> str:
     """A value of a TOML file in the words of a message, cut short where it is long."""
     if isinstance(given, bool):
@@ -108,7 +119,8 @@ def describe(given: object) -> str:
         return "a list"
     if isinstance(given, dict):
         return "a table"
-    return "a date or time"
+    dates = datetime.date | datetime.time
+    return "a date or time" if isinstance(given, dates) else f"of type {type(given).__name__}"
 
 
 def _finite(value: float, given: object) -> float:
@@ -130,14 +142,15 @@ def _factor(unit: str, dimension: Dimension, given: str) -> Decimal:
 def pint_factor(unit: str, dimension: Dimension, given: str) -> Decimal:
     """As pint has it: SI units in one `unit`. Raises UnitError, which quotes `given`."""
     if _UNIT.fullmatch(unit) is None or len(unit) > _LONGEST_UNIT:
-        raise UnitError(f"is {describe(given)}, and {describe(unit)} is not a unit")
+        raise UnknownUnitError(f"is {describe(given)}, and {describe(unit)} is not a unit")
     registry = _registry()
     try:
         parsed = registry.parse_units(unit)
         # not dimensions: to pint a byte, a radian and a bare number are all dimensionless
         root = registry.get_root_units(parsed)[1]
     except (AttributeError, ValueError, TypeError, ArithmeticError, SyntaxError) as error:
-        raise UnitError(f"is {describe(given)}, and {_unknown(unit, dimension)}") from error
+        unknown = f"is {describe(given)}, and {_unknown(unit, dimension)}"
+        raise UnknownUnitError(unknown) from error
     if root != _root(dimension):
         raise UnitError(f"is {describe(given)}, {_phrase(parsed)}")
     try:
@@ -178,4 +191,6 @@ def _root(dimension: Dimension) -> object:
 def _registry():
     import pint
 
-    return pint.UnitRegistry(non_int_type=Decimal)
+    registry = pint.UnitRegistry(non_int_type=Decimal)
+    registry.define("@alias thou = mil")  # the workshop's, not the artillery's
+    return registry

@@ -63,7 +63,8 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     for number in range(scene.resolution.most):
         pitch = problem.pitches[0] / 2.0**number
         elements = problem.grid(pitch).count
-        costs = [_expected(name, problem, plan, pitch, elements) for name in plan.models]
+        everywhere = np.array([problem.extent])
+        costs = [expected_level(name, problem, plan, pitch, everywhere) for name in plan.models]
         seconds, memory = sum(cost.seconds for cost in costs), max(cost.memory for cost in costs)
         total += seconds
         if found and total > scene.budget.time:
@@ -81,13 +82,16 @@ def forecast(problem: Problem, plan: Plan) -> Forecast:
     return Forecast(tuple(found), asked, per_wave, ends or f"{len(found)} levels are the most")
 
 
-def _expected(name: str, problem: Problem, plan: Plan, pitch: float, elements: int) -> ExpectedCost:
-    if name == "half_plane":
-        return expected_of(elements)
+def expected_level(
+    model: str, problem: Problem, plan: Plan, pitch: float, patches: np.ndarray
+) -> ExpectedCost:
+    """Of a model on pressure elements of a pitch [m], in contact on `patches` (k, 2) [m]."""
+    if model == "half_plane":
+        return expected_of(problem.grid(pitch).count)
     from comparisons.models.finite_element.cost import expected
     from comparisons.models.finite_element.mesh import Refinement
 
-    return expected(problem, plan, Refinement(pitch), np.array([problem.extent]))
+    return expected(problem, plan, Refinement(pitch), patches)
 
 
 def _cost(levels: tuple[PlannedLevel, ...]) -> str:

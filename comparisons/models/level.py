@@ -1,14 +1,18 @@
 """One model's solution on one level of refinement, as data that both models fill in."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
+from analytic.contact.end_stress import EndStress
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
+from analytic.material import Material
 from analytic.stress_state import Extremum, StressState
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.problem import Problem, mean_height
+from fem.body.coating import Coating
 from meshes.block import BlockMesh
 
 
@@ -71,6 +75,43 @@ class MeshField:
 
 
 @dataclass(frozen=True)
+class RecoverableField:
+    """What a `MeshField` of linear bodies under vertical pressures is made of. Of all levels of a
+    model the last one's field alone is written: stresses are recovered when they are asked for.
+
+    displacement    (n, c, 2) [m] at the nodes of the displacement, one for each friction
+    hats, pressure  as in `fem.compliance.operator`
+    ends            what the hats leave out
+    """
+
+    mesh: BlockMesh
+    material: Material
+    coating: Coating | None
+    degree: int
+    displacement: np.ndarray
+    hats: np.ndarray
+    pressure: np.ndarray
+    frictions: tuple[float, ...]
+    ends: EndStress
+
+    @cached_property
+    def recovered(self) -> MeshField:
+        from fem.body.elasticity import meshed_body
+        from fem.body.surface import straight_down
+        from fem.stress.stress import nodal_stresses
+        from fem.stress.surface_load import SurfaceLoad
+
+        body = meshed_body(self.mesh, self.material, self.degree, self.coating)
+        given = self.hats, self.pressure, np.array(self.frictions), straight_down
+        beside = [self.ends.at(friction) for friction in self.frictions]
+        found = nodal_stresses(self.displacement, SurfaceLoad(body, *given), beside)
+        stresses = (StressState(*each.values.T) for each in found)
+        nodes, nu = found[0].nodes, found[0].poissons_ratio
+        by_friction = dict(zip(self.frictions, stresses, strict=True))
+        return MeshField(body.points[nodes.point], nodes.triangles, by_friction, nu)
+
+
+@dataclass(frozen=True)
 class Level:
     """One model on pressure elements of one pitch.
 
@@ -102,9 +143,15 @@ class Level:
     expected_memory: float = 0.0
     stresses: tuple[StressResult, ...] = ()
     mesh: BlockMesh | None = None
-    mesh_field: MeshField | None = None
+    mesh_field: MeshField | RecoverableField | None = None
     operator: ComplianceCheck | None = None
     material: np.ndarray | None = None
+
+    @property
+    def field_on_mesh(self) -> MeshField | None:
+        """`mesh_field`, with its stresses."""
+        field = self.mesh_field
+        return field.recovered if isinstance(field, RecoverableField) else field
 
     @property
     def contact_length(self) -> float:

@@ -58,7 +58,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     coupling = "half_plane" in models and not all(uncoupled)
     unbounded = scene.thickness is None or scene.width is None or scene.roller is not None
     domain_check = finite_elements and unbounded
-    effects = set(models) == set(MODELS) and scene.budget.effects and bool(scene.tolerance)
+    effects = set(models) == set(MODELS) and bool(scene.budget.effects) and bool(scene.tolerance)
     skipped = [
         Skipped(f"{model} model", "not asked for") for model in MODELS if model not in models
     ]

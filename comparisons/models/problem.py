@@ -10,7 +10,6 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from scipy.signal import find_peaks
 
 from analytic.contact.end_stress import EndStress, end_stress
 from analytic.contact.equilibrium import Constraints
@@ -40,6 +39,9 @@ FIGURES = 5  # decimal, of the pressure elements on a half-width at the third le
 NARROW = 8.0  # stretch over contact beyond which the extent is searched again
 LEAST_BLOCK = 0.25  # of the span of pressures: half-width that an unbounded block counts in
 WIDEST_CIRCLE = 0.8  # of the radius that pressures may extend to
+# Thickness of a body or its coating, in half-widths of the smooth contact: elements as fine as a
+# thinner one takes are more than can be held, and the rounding of a thicker one shows at its top.
+THINNEST, THICKEST = 1e-3, 1e6
 LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
 # Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
 # elements beyond it, which are as wide as a smooth contact's are few.
@@ -148,6 +150,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     scene = run_in_scene(scene)
     modulus = combined_modulus(scene.roller, scene.body)
     hertz = _smooth_contact(scene, modulus, load)
+    _check_thickness(scene, hertz.half_width)
     curve = None if scene.profile is None else surface(scene.profile)
     problem = Problem(
         scene=scene,
@@ -176,6 +179,20 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
     return hertz_from_load(load, scene.roller_radius, modulus)
 
 
+def _check_thickness(scene: ResolvedScene, half_width: float) -> None:
+    """Refuse a layer whose thickness no mesh can show beside the contact."""
+    layers = {"body": scene.thickness, "coating": scene.coating and scene.coating.thickness}
+    if scene.load.kind == "approach":  # without deformation; the load is not known yet
+        half_width = np.sqrt(2.0 * scene.roller_radius * scene.load.value)
+    for name, thickness in layers.items():
+        if thickness and not THINNEST * half_width <= thickness <= THICKEST * half_width:
+            raise SceneError(
+                f"{scene.source}: {name}.thickness: is {thickness:g} m under a contact of "
+                f"{half_width:.3g} m half-width; allowed is from {THINNEST:g} to {THICKEST:g} "
+                f"half-widths, {THINNEST * half_width:.3g} m to {THICKEST * half_width:.3g} m"
+            )
+
+
 def surface_ends(scene: ResolvedScene) -> tuple[float, float]:
     """Ends [m] of the trace or the body, whichever come first; infinite without either."""
     start, stop = -np.inf, np.inf
@@ -190,6 +207,13 @@ def _contact_extent(problem: Problem) -> tuple[float, float]:
     """Outermost contact with a margin [m], by coarse half-plane solutions on fitting stretches."""
     scene, half_width = problem.scene, problem.hertz.half_width
     start, stop = surface_ends(scene)
+    narrowest = 0.0 if scene.hardness is None else problem.hertz.load_per_length / scene.hardness
+    if narrowest > 2.0 * scene.roller_radius:
+        softest = 0.5 * problem.hertz.load_per_length / scene.roller_radius
+        raise SceneError(
+            f"{scene.source}: body.hardness: is {scene.hardness:g} Pa, which carries the load on "
+            f"{narrowest:.3g} m, more than the roller is wide; allowed is {softest:.3g} Pa or more"
+        )
     relief = 0.0 if scene.profile is None else float(np.ptp(scene.profile.height))
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
@@ -267,6 +291,22 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     return tuple(finest * 2.0 ** (2 - k) for k in range(levels))
 
 
+def standing_out(values: np.ndarray, least: float) -> list[int]:
+    """Places of the largest values (n,) between falls of `least` or more on both sides."""
+    found, place, low, rises = [], 0, values[0], False
+    for k, value in enumerate(values):
+        if not rises:
+            low = min(low, value)
+            rises = value >= low + least
+            place = k
+        elif value > values[place]:
+            place = k
+        elif value <= values[place] - least:
+            found.append(place)
+            low, rises = value, False
+    return found
+
+
 def _asperities(problem: Problem) -> tuple[float, ...]:
     """Between the half-plane's peaks of pressure that stand out, in the middle of what lies lowest:
     the open gap, mostly. It moves no figure, so that the coarsest pressures are enough."""
@@ -276,7 +316,7 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
     operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
     gap = grid.hat_integrals(problem.gap, problem.knots)
     pressure = solve_on(operator, gap, grid.weights, problem.constraints()).pressure
-    peaks, _ = find_peaks(pressure, prominence=STANDS_OUT * pressure.max())
+    peaks = standing_out(pressure, STANDS_OUT * pressure.max())
     valleys = []
     for start, stop in pairwise(peaks):
         between = pressure[start : stop + 1]

@@ -19,6 +19,7 @@ from comparisons.scenes.scene import ResolvedScene
 # 0.4 %, and edges of plateaus so sharp that both models take one level more to resolve them.
 HATS_PER_WAVE = 20.0
 MOST_HATS = 60_000  # on the Hertz contact; a pass on so many takes about a tenth of a second
+FEWEST_HATS, MOST_ON_TRACE = 8, 4_000_000  # on the trace
 COARSE = 1.5  # times the pitch wanted: less than that is the rounding to a power of two
 SMOOTH_HATS = 80  # and at least so many on its half-width
 
@@ -34,6 +35,13 @@ def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
     radius, modulus = scene.roller_radius, combined_modulus(scene.roller, scene.body)
     load = _load(scene, modulus)
     pitch = _pitch(scene, hertz_from_load(load, radius, modulus).half_width)
+    count = scene.profile.length / pitch
+    if not FEWEST_HATS <= count <= MOST_ON_TRACE:
+        raise SceneError(
+            f"{scene.source}: running_in: takes {count:.2g} pressure elements of {pitch:.3g} m on "
+            f"a trace of {scene.profile.length:.3g} m; allowed are {FEWEST_HATS} to "
+            f"{MOST_ON_TRACE:g}, by another load or trace"
+        )
     limits = Constraints(load=load, hardness=settings.hardness)
     places, sweeps = np.array(settings.positions) - scene.position, settings.sweeps
     try:

@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 FOLDER = Path(__file__).parent / "templates"
 UNIT = re.compile(r"(?<=\d) (?=%|p₀|(?:a|[kMGmµnp]?(?:m|s|Pa|B)|N/mm?|byte)\b)")
+SECTION = re.compile(r'<section id="([^"]+)">\s*<h2>([^<]*)</h2>')
+HEADING = re.compile(r"<h3>([^<]*)</h3>")
 BAR = re.compile(r"\|(?=τ)")
+WORDS = 6  # of a name that is made of a text
 STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
@@ -38,7 +41,12 @@ def _environment(folder: Path) -> "Environment":
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["tight"] = tight
+    made.filters |= {
+        "tight": tight,
+        "contents": SECTION.findall,
+        "anchored": anchored,
+        "slug": slug,
+    }
     made.globals["css"] = lambda *names: Markup(
         "\n".join(made.loader.get_source(made, name)[0] for name in names)
     )
@@ -48,6 +56,26 @@ def _environment(folder: Path) -> "Environment":
 def tight(text: str) -> str:
     """The text without line ends between a number and its unit, or inside |τ|."""
     return BAR.sub("|\u2060", UNIT.sub("\u00a0", text))
+
+
+def slug(text: str) -> str:
+    """The first words of a text as a name for files and places."""
+    return "-".join(re.findall(r"\w+", text.lower())[:WORDS])
+
+
+def anchored(text: str) -> "Markup":
+    """HTML whose headings of the third order have ids by their words, each another one."""
+    from markupsafe import Markup, escape
+
+    known: list[str] = []
+
+    def with_id(heading: re.Match[str]) -> str:
+        known.append(slug(heading[1]))
+        count = known.count(known[-1])
+        name = escape(known[-1] if count == 1 else f"{known[-1]}-{count}")
+        return f'<h3 id="{name}">{heading[1]}</h3>'
+
+    return Markup(HEADING.sub(with_id, text))
 
 
 def inline(name: str) -> "tuple[Markup, str]":

@@ -1,7 +1,10 @@
 """The report: one page that opens without a network and prints without loss."""
 
 from collections.abc import Callable
+from functools import partial
+from importlib import import_module
 
+from comparisons.common.processes import side_by_side
 from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
 from comparisons.report.figures.convergence import convergence_picture
@@ -21,6 +24,7 @@ from comparisons.report.tables.comparison import comparison_rows, coupling_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.tables.text import is_shown
 from comparisons.report.tables.verification import (
     check_table,
     commands,
@@ -34,19 +38,19 @@ from comparisons.report.tables.verification import (
 from comparisons.report.tables.yielding import flow_table
 from comparisons.results.outcome import Outcome
 
-# Each gives one picture, a list, or None where it does not apply.
+# Each gives one picture, a list, or None where it does not apply; about the longest first.
 PICTURES: dict[str, Callable[[Outcome], object]] = {
-    "problem": problem_picture,
-    "running_in": running_in_picture,
-    "pressure": pressure_picture,
-    "close_up": close_up_picture,
-    "surface": surface_picture,
     "fields": field_pictures,
     "near": near_surface_pictures,
-    "sections": section_pictures,
-    "mesh": mesh_pictures,
     "model_error": model_error_picture,
+    "mesh": mesh_pictures,
+    "pressure": pressure_picture,
+    "sections": section_pictures,
     "convergence": convergence_picture,
+    "close_up": close_up_picture,
+    "problem": problem_picture,
+    "surface": surface_picture,
+    "running_in": running_in_picture,
     "cost": cost_picture,
 }
 
@@ -54,6 +58,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
 def render(outcome: Outcome) -> str:
     """The page of a finished run; equal outcomes give equal text."""
     script, policy = inline("field_values.js")
+    errors = [] if outcome.budget is None else model_error_rows(outcome)
     return rendered(
         "page.html.j2",
         script=script,
@@ -62,7 +67,7 @@ def render(outcome: Outcome) -> str:
         scene=outcome.problem.scene,
         headline=headline(outcome),
         models=[HYPHENATED[name] for name in outcome.runs],
-        comparisons=comparison_rows(outcome),
+        comparisons=[r for r in comparison_rows(outcome) if is_shown(outcome, r.quantity)],
         figure_table=None if outcome.plan.compares else figure_table(outcome),
         sheet=problem_sheet(outcome),
         assumptions=outcome.plan.assumptions,
@@ -74,7 +79,7 @@ def render(outcome: Outcome) -> str:
         words=WORDS,
         domain=outcome.plan.domain_check,
         coupling=coupling_table(outcome),
-        model_errors=[] if outcome.budget is None else model_error_rows(outcome),
+        model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),
         checks=check_table(outcome),
@@ -89,6 +94,13 @@ def render(outcome: Outcome) -> str:
 
 
 def draw(outcome: Outcome) -> dict[str, object]:
-    """What each of PICTURES gives."""
+    """What each of PICTURES gives, drawn side by side."""
+    for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
+        import_module(name)  # once for all copies
+    works = [partial(_drawn, name, outcome) for name in PICTURES]
+    return dict(zip(PICTURES, side_by_side(works), strict=True))
+
+
+def _drawn(name: str, outcome: Outcome) -> object:
     with drawing():
-        return {name: picture(outcome) for name, picture in PICTURES.items()}
+        return PICTURES[name](outcome)

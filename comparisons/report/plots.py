@@ -64,7 +64,8 @@ class Plots:
     def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
         """A field of a model on its own points in VTK, x to the right, z down; `.show()` shows it.
 
-        array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises
+        array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises; of several friction
+                coefficients the first's where none is in the name
         """
         levels = self.outcome.levels(self.outcome.deciding_friction)
         if model not in levels:
@@ -76,14 +77,15 @@ class Plots:
         from comparisons.results.field_files import field_of, vtk_grid
 
         field = field_of(self.outcome, levels[model])
+        array = next((n for n in field.arrays if n.partition(" (")[0] == array), array)
         if array not in field.arrays:
             raise InputError(f"array: is {array}; allowed is {', '.join(field.arrays)}")
         grid = pyvista.wrap(vtk_grid(field))
         plotter = pyvista.Plotter()
         title = f"{array} [{field.units[array]}]"
         plotter.add_mesh(grid, scalars=array, cmap="cividis", scalar_bar_args={"title": title})
-        x, _, z = grid.center
-        plotter.camera_position = [(x, grid.length, z), (x, 0.0, z), (0.0, 0.0, -1.0)]
+        x, z, _ = grid.center
+        plotter.camera_position = [(x, z, -grid.length), (x, z, 0.0), (0.0, -1.0, 0.0)]
         plotter.camera.parallel_projection = True
         plotter.reset_camera()
         return plotter

@@ -32,27 +32,38 @@ class Report:
 
 
 def draw_again(
-    folders: Sequence[Path], summary: Path | None, pdf: bool, callback: ProgressCallback
+    folders: Sequence[Path],
+    summary: Path | None,
+    pdf: bool,
+    callback: ProgressCallback,
+    draws: bool = True,
 ) -> list[Report]:
-    """Write report.html of each folder again, and the summary if a path for it is given.
+    """Write report.html of each folder again, if `draws`, and the summary if a path is given.
 
     All folders are read before anything is written. Raises InputError for one that holds no run,
-    or whose place cannot be written.
+    or whose place cannot be written; and at the end, where the others are drawn and summed up, for
+    those that make up no report.
     """
     for folder in folders:
         callback(f"{folder}: reading")
         read_outcome(folder, with_mesh=False)
-        check_writable(folder, ())
+        if draws or pdf:
+            check_writable(folder, ())
     if summary is not None:
         check_writable(summary.parent, ())
         if summary.is_dir():
             raise InputError(f"--summary: {summary} is a folder; allowed is a file")
-    reports = []
+    reports, damaged = [], []
     for folder in folders:
         callback(f"{folder}: drawing the report")
-        content, row = _drawn(folder)  # one at a time in memory
+        try:
+            content, row = _drawn(folder, draws)  # one at a time in memory
+        except InputError as error:
+            damaged.append(str(error))
+            continue
         report = Report(folder / "report.html", row)
-        write_whole(report.page, content)
+        if content is not None:
+            write_whole(report.page, content)
         if pdf:
             callback(f"{folder}: printing the report")
             try:
@@ -60,18 +71,21 @@ def draw_again(
             except NoPdfError as error:
                 report = replace(report, no_pdf=str(error))
         reports.append(report)
-    if summary is not None:
+    if summary is not None and reports:
         summary.parent.mkdir(parents=True, exist_ok=True)
         write_whole(summary, summary_page([report.row for report in reports], summary.parent))
+    if damaged:
+        raise InputError("; ".join(damaged))
     return reports
 
 
-def _drawn(folder: Path) -> tuple[str, SummaryRow]:
-    """The page of a run and its row; InputError where its files do not make them up."""
-    outcome = read_outcome(folder)
+def _drawn(folder: Path, draws: bool) -> tuple[str | None, SummaryRow]:
+    """The page of a run, if it `draws`, and its row; InputError where its files do not make them
+    up."""
+    outcome = read_outcome(folder, with_mesh=draws)
     try:
-        return render(outcome), summary_row(outcome)
-    except (AttributeError, LookupError, TypeError, ValueError) as error:
+        return render(outcome) if draws else None, summary_row(outcome)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(
             f"{folder}: its result.json, record.json and report.npz make up no report "
             f"({error!r}); allowed is what one run wrote"

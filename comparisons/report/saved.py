@@ -25,6 +25,7 @@ from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
 FILE = "report.npz"
 SCHEMA = 2  # 1 had another account of convergence
 REMEDY = "allowed is what this version of crosscheck wrote; crosscheck rerun --out makes one"
+LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
 MESH = Path("finite_element") / "mesh.msh"
 # Of an outcome: in other files, or not shown.
 ELSEWHERE = ("problem", "result", "record", "directory")
@@ -48,7 +49,7 @@ def save_shown(path: Path, outcome: Outcome) -> None:
     problem = {f.name: getattr(shown.problem, f.name) for f in fields(Problem)}
     parts["problem"] = {name: part for name, part in problem.items() if name not in REMADE}
     outline = json.dumps({"schema": SCHEMA, "outcome": encoded(parts, arrays)})
-    np.savez_compressed(path, outline=np.array(outline), **arrays)
+    np.savez(path, outline=np.array(outline), **arrays)  # fields compress to nine tenths only
 
 
 def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
@@ -72,7 +73,7 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
             knots=None if scene.profile is None else scene.profile.x,
         )
         outcome = Outcome(**parts, problem=problem, result=result, record=record, directory=folder)
-    except (AttributeError, KeyError, TypeError) as error:
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(outcome, folder / MESH) if with_mesh else outcome
 
@@ -86,7 +87,7 @@ def _read(path: Path) -> dict:
     except FileNotFoundError:
         raise InputError(f"{path.parent}: holds no {path.name}; {REMEDY}") from None
     except DAMAGED as error:
-        raise InputError(f"{path}: cannot be read: {error}; {REMEDY}") from None
+        raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {REMEDY}") from None
     raise InputError(f"{path}: schema: is {outline['schema']}; allowed is {SCHEMA}; {REMEDY}")
 
 
@@ -132,6 +133,6 @@ def _with_mesh(outcome: Outcome, path: Path) -> Outcome:
     except FileNotFoundError:
         raise InputError(f"{path}: is missing; {REMEDY}") from None
     except Exception as error:  # of a file that was cut short meshio may say anything
-        raise InputError(f"{path}: cannot be read: {error}; {REMEDY}") from None
+        raise InputError(f"{path}: cannot be read: {str(error)[:LONGEST]}; {REMEDY}") from None
     run = replace(run, levels=(*run.levels[:-1], replace(run.finest, mesh=mesh)))
     return replace(outcome, runs={**outcome.runs, run.name: run})

@@ -73,7 +73,10 @@ def summary_page(rows: Sequence[SummaryRow], place: Path) -> str:
         rows=rows,
         columns={name: head for name, head in COLUMNS.items() if name in shown},
         counts=counts,
-        links=[quote(os.path.relpath(row.report.resolve(), place.resolve())) for row in rows],
+        links=[
+            quote(os.fsencode(os.path.relpath(row.report.resolve(), place.resolve())))
+            for row in rows
+        ],
         script=script,
         policy=policy,
     )

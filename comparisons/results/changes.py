@@ -104,7 +104,9 @@ def check_figures(recorded: dict) -> None:
         for path, value in _figures(recorded):
             if _is_number(value):
                 stated_for(path, value, recorded)
-    except (AttributeError, IndexError, KeyError, TypeError) as error:
+                # as where they are compared with a repetition's
+                _difference(value, []) if isinstance(value, list) else float(value)
+    except (AttributeError, LookupError, TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"figures are missing or misplaced ({error!r})") from error
 
 

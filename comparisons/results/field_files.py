@@ -10,6 +10,7 @@ a vtkhdf they are texts. In a msh they stand in a section $Comments.
 """
 
 import json
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
 
 AUTOMATIC = "auto"
 LARGE = 2_000_000  # points from which a field goes to vtkhdf unless the caller says otherwise
-STRESSES = ("sx", "sz", "sy", "txz", "tau1", "von_mises")
+# [Pa]; and the direction of s1, the largest principal stress in the plane, as a vector
+STRESSES = ("sx", "sz", "sy", "txz", "tau1", "von_mises", "s1_direction")
 # Numbers that VTK and gmsh have for a kind of cell that meshio knows by name.
 CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
 
@@ -36,10 +38,10 @@ CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
 class FieldFile:
     """Arrays at points that cells connect.
 
-    points  (n, 3) [m] x, 0, z
+    points  (n, 3) [m] x, z, 0: the plane of mesh.msh
     kind    of cell, as meshio calls it
     cells   (m, k) indices of points
-    arrays  (n,) by name, in `units`
+    arrays  (n,) by name, or vectors (n, 3), in `units`
     units   of the arrays by name, and of "points"
     title, scene  of the run; the scene as JSON
     """
@@ -64,16 +66,16 @@ def scene_text(scene: ResolvedScene) -> str:
 
 
 def field_of(outcome: Outcome, level: Level) -> FieldFile:
-    """Stresses at the points of a model's level, which lie in the plane y = 0.
+    """Stresses at the points of a model's level, as STRESSES.
 
-    Arrays sx, sz, sy, txz, tau1, von_mises [Pa] for its first friction coefficient; further
-    coefficients add arrays with the coefficient in the name. Where the body yields there are
-    also what flow leaves behind when the roller is gone.
+    Of several friction coefficients each array has its own in the name. Where the body yields there
+    are also what flow leaves behind when the roller is gone.
     """
     nu = outcome.problem.scene.body.poissons_ratio
-    if level.mesh_field is not None:
-        plane, stresses = level.mesh_field.points, level.mesh_field.stresses
-        cells, nu = level.mesh_field.triangles, level.mesh_field.poissons_ratio
+    on_mesh = level.field_on_mesh
+    if on_mesh is not None:
+        plane, stresses = on_mesh.points, on_mesh.stresses
+        cells, nu = on_mesh.triangles, on_mesh.poissons_ratio
         kind = "triangle6"
     else:
         x, z = np.meshgrid(outcome.window.x, outcome.window.z)
@@ -87,22 +89,29 @@ def field_of(outcome: Outcome, level: Level) -> FieldFile:
         cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
         kind = "quad"
     arrays = _arrays(stresses, nu)
-    units = {"points": "m"} | dict.fromkeys(arrays, "Pa")
-    if level.mesh_field is not None:
-        arrays |= level.mesh_field.others
-        units |= {name: "1" if "strain" in name else "Pa" for name in level.mesh_field.others}
-    points = np.column_stack([plane[:, 0], np.zeros(len(plane)), plane[:, 1]])
+    units = {"points": "m"} | {name: "1" if v.ndim > 1 else "Pa" for name, v in arrays.items()}
+    if on_mesh is not None:
+        arrays |= on_mesh.others
+        units |= {name: "1" if "strain" in name else "Pa" for name in on_mesh.others}
+    points = np.pad(plane, ((0, 0), (0, 1)))
     scene = outcome.problem.scene
     return FieldFile(points, kind, cells, arrays, units, scene.title, scene_text(scene))
 
 
 def _arrays(stresses: Mapping[float, StressState], nu: float | np.ndarray) -> dict:
     found = {}
-    for index, (friction, s) in enumerate(stresses.items()):
-        suffix = "" if index == 0 else f" (friction {friction:g})"
-        values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu))
+    for friction, s in stresses.items():
+        suffix = f" (friction {friction:g})" if len(stresses) > 1 else ""
+        values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu), _direction(s))
         found |= {name + suffix: v for name, v in zip(STRESSES, values, strict=True)}
     return found
+
+
+def _direction(stress: StressState) -> np.ndarray:
+    """Unit vectors (n, 3) along the largest principal stress in the plane; their sign means
+    nothing."""
+    angle = 0.5 * np.arctan2(2.0 * stress.txz, stress.sx - stress.sz)
+    return np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle]).astype(np.float32)
 
 
 def write_field(folder: Path, field: FieldFile, choice: str = AUTOMATIC) -> Path:
@@ -124,7 +133,10 @@ def _write_vtu(path: Path, field: FieldFile) -> None:
         codes.SetName(name)
         grid.GetFieldData().AddArray(codes)
     writer = vtkXMLUnstructuredGridWriter()
-    writer.SetDataModeToBinary()  # meshio reads it sooner than appended data
+    writer.SetDataModeToAppended()
+    # compression, and text for bytes, take ten times as long for a file a fifth smaller at most
+    writer.SetCompressorTypeToNone()
+    writer.EncodeAppendedDataOff()
     _write(writer, path, grid)
 
 
@@ -142,7 +154,7 @@ def _write_vtkhdf(path: Path, field: FieldFile) -> None:
 
 
 def _write(writer: object, path: Path, grid: "vtkUnstructuredGrid") -> None:
-    writer.SetFileName(str(path))
+    writer.SetFileName(os.fsencode(path))  # a name need not be UTF-8
     writer.SetInputData(grid)
     if not writer.Write():
         raise OSError(None, "VTK cannot write it", str(path))

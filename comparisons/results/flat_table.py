@@ -20,6 +20,7 @@ What is unknown is empty in a CSV and null in a Parquet file.
 import csv
 import io
 from collections.abc import Iterable, Mapping
+from importlib import import_module
 from pathlib import Path
 
 from comparisons.assessment.effects.catalogue import EFFECTS
@@ -66,11 +67,12 @@ def as_csv(rows: Iterable[Row]) -> str:
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()
-    writer.writerows({name: _harmless(value) for name, value in row.items()} for row in rows)
+    writer.writerows({name: harmless(value) for name, value in row.items()} for row in rows)
     return text.getvalue()
 
 
-def _harmless(value: object) -> object:
+def harmless(value: object) -> object:
+    """A cell that neither a terminal nor a spreadsheet obeys."""
     if not isinstance(value, str):
         return value
     text = one_line(value)
@@ -87,7 +89,8 @@ def check_ending(path: Path) -> None:
         raise InputError(f"{path}: {path.parent} is no folder; allowed is one that is there")
     if path.suffix == ".parquet":
         try:
-            import pyarrow.parquet  # noqa: F401
+            import_module("pyarrow")
+            import_module("pyarrow.parquet")
         except ImportError as error:
             why = f"Parquet takes pyarrow, which is not installed ({error})"
             remedy = "allowed is .csv, or python -m pip install pyarrow"
@@ -140,7 +143,7 @@ def _rows_in(path: Path) -> list[Row]:
     result = read_table(path)
     try:
         check_schema(path, result, SCHEMA)
-        rows = rows_of(result, str(path.parent))
+        rows = rows_of(result, one_line(str(path.parent)))
     except (KeyError, TypeError, AttributeError, IndexError) as error:
         raise InputError(f"{path}: is no result of a run ({error!r}); allowed is one") from error
     for row in rows:

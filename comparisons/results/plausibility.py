@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from analytic.exact.hertz import hertz_from_load, hertz_from_peak_pressure
 from analytic.material import combined_modulus
+from analytic.surface.outliers import spikes
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.numbers import given, significant, with_unit
 from comparisons.results.outcome import Outcome
@@ -21,6 +22,7 @@ LONGEST_TRACE = 0.25  # [m] that stylus instruments drive
 SMOOTHEST, STEEPEST = 1e-4, 1.0
 LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
 FEWEST_ELEMENTS = 8  # to a wave: peak pressures are then known to some per cent
+LONGEST_BRIDGE = 5  # samples: a line across more than that is no surface any more
 FEWEST_SAMPLES = 4  # to a contact, which is else a matter of the curve between samples
 
 
@@ -97,4 +99,18 @@ def _of_trace(info: ProfileInfo) -> Iterator[str]:
         yield (
             f"profile: the rms slope is {significant(slope, 2)} at an Rq of {height}: check x_unit "
             "and z_unit"
+        )
+    if info.stretch is not None:
+        start, stop = info.stretch
+        if stop - start > LONGEST_BRIDGE * info.spacing:
+            yield (
+                f"profile: nothing was measured from {with_unit(start, 'm')} to "
+                f"{with_unit(stop, 'm')}: what is pressed there is a straight line"
+            )
+    if (found := spikes(info.trace)) is not None:
+        one = found.count == 1
+        yield (
+            f"profile: {'a spike stands' if one else f'{found.count} spikes stand'} out of the "
+            f"trace, {'' if one else 'the largest '}by {with_unit(found.height, 'm')} at x = "
+            f"{with_unit(found.place, 'm')}: dirt and lost contact are pressed like the surface"
         )

@@ -3,7 +3,8 @@
 import sys
 
 from analytic.profile import Profile
-from comparisons.common.provenance import digest, machine, versions
+from comparisons.common.errors import one_line
+from comparisons.common.provenance import digest, machine, made, versions
 from comparisons.models.level import ModelRun
 from comparisons.scenes.scene import ProfileInfo, ResolvedScene
 
@@ -24,16 +25,18 @@ def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str,
         "profile": None if profile is None else _profile(profile, scene.profile_info),
         "models": list(runs),
         "levels": max(len(run.levels) for run in runs.values()),
+        "made": made(),
         "versions": versions(),
         "machine": machine(),
         "seed": (scene.tables.get("profile") or {}).get("seed"),
         "hashes": hashes,
-        "command": " ".join(sys.argv[1:]) or None,
+        "command": one_line(" ".join(sys.argv[1:])) or None,
     }
 
 
 def _profile(pressed: Profile, info: ProfileInfo) -> dict:
-    how = {name: getattr(info, name) for name in ("format", "place", "bridged", "trimmed")}
+    names = ("format", "place", "bridged", "trimmed", "stretch")
+    how = {name: getattr(info, name) for name in names}
     trace = _samples(info.trace) | how
     return _samples(pressed) | {"file_sha256": info.sha256, "trace": trace}
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from analytic.profile import Profile
 from analytic.surface.readers.files import MeasuredProfile
-from comparisons.common.errors import InputError
+from comparisons.common.errors import InputError, one_line
+from comparisons.common.files import LARGEST_RECORD
 from comparisons.common.provenance import digest
 from comparisons.common.quantities import MODELS
 from comparisons.results.changes import check_figures
@@ -21,7 +22,7 @@ from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
 from comparisons.scenes.profile import KnownTrace
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import Resolution, ResolvedScene
+from comparisons.scenes.scene import MOST_LEVELS, Resolution, ResolvedScene
 
 _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
 
@@ -64,8 +65,8 @@ def read_record(folder: Path) -> Record:
     if not models or any(name not in MODELS for name in models):
         raise InputError(f"{path}: models: is {models!r}; allowed are {', '.join(MODELS)}")
     levels = _part(path, content, "levels", int)
-    if levels < 1:
-        raise InputError(f"{path}: levels: is {levels}; allowed is 1 or more")
+    if not 1 <= levels <= MOST_LEVELS:
+        raise InputError(f"{path}: levels: is {levels}; allowed is from 1 to {MOST_LEVELS}")
     return Record(
         scene=_scene(path, content, levels, figures),
         models=tuple(name for name in MODELS if name in models),
@@ -77,16 +78,21 @@ def read_record(folder: Path) -> Record:
 
 def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedScene:
     tables, name = _part(path, content, "scene", dict), _part(path, content, "name", str)
+    name = one_line(name)
     trace = None
     if tables.get("profile") is not None:
         trace = _trace(path, _part(path, content, "profile", dict))
     folder, source = path.parent, str(path)
     scene = resolve_tables(tables, name=name, folder=folder, source=source, trace=trace)
-    effects = figures.get("error_budget") or {}
+    budget = figures.get("error_budget") or {}
+    effects = budget.get("levels") if isinstance(budget, dict) else budget
+    if effects is not None and not (type(effects) is int and 0 <= effects <= MOST_LEVELS):
+        where = f"{path.parent / 'result.json'}: error_budget.levels"
+        raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
     return replace(
         scene,
         resolution=Resolution(scene.resolution.pitch, levels, most=levels),
-        budget=replace(scene.budget, time=inf, levels=effects.get("levels")),
+        budget=replace(scene.budget, time=inf, levels=effects),
     )
 
 
@@ -97,14 +103,20 @@ def _trace(path: Path, profile: dict) -> KnownTrace:
     try:
         x, height = (np.array(trace[name], dtype=float) for name in ("x", "height"))
         samples = Profile(x, height)
+        stretch = trace.get("stretch")
         read = MeasuredProfile(
-            samples, trace["format"], trace["place"], int(trace["bridged"]), int(trace["trimmed"])
+            profile=samples,
+            format=trace["format"],
+            place=trace["place"],
+            bridged=int(trace["bridged"]),
+            trimmed=int(trace["trimmed"]),
+            stretch=None if stretch is None else (float(stretch[0]), float(stretch[1])),
         )
         same = digest(x, height) == trace["sha256"]
         wrong = "" if same else ": has another SHA-256 than recorded"
     except KeyError as error:
         wrong = f".{error.args[0]}: is missing"
-    except (TypeError, ValueError, OverflowError) as error:
+    except (TypeError, ValueError, IndexError, OverflowError) as error:
         wrong = f": {error}"
     if wrong:
         raise InputError(f"{where}{wrong}; allowed is what was recorded")
@@ -114,6 +126,8 @@ def _trace(path: Path, profile: dict) -> KnownTrace:
 def read_table(path: Path) -> dict:
     """The table in a file of a run's folder. Raises InputError where there is none."""
     try:
+        if (size := path.stat().st_size) > LARGEST_RECORD:
+            raise InputError(f"{path}: has {size} bytes; allowed are {LARGEST_RECORD}")
         content = json.loads(path.read_bytes().decode("utf-8"), parse_constant=_no_number)
     except FileNotFoundError:
         raise InputError(
@@ -121,6 +135,8 @@ def read_table(path: Path) -> dict:
         ) from None
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}; allowed is a file") from None
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: is not JSON: {error}; allowed is what a run wrote") from None
     if not isinstance(content, dict):

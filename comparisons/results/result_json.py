@@ -284,6 +284,7 @@ def error_budget_content(
         "effects": {name: _effect(name, budget) for name in EFFECTS},
         "levels": budget.levels,
         "unsplit": budget.unsplit,
+        "left_out": budget.left_out,
         "cost": {"seconds": budget.seconds},
         "quantities": quantities,
     }

@@ -1,22 +1,31 @@
 """One scene from start to end: plan, both models level by level, comparison, files."""
 
+from functools import lru_cache
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.effects.error_budget import error_budget
-from comparisons.assessment.normal_tangential_coupling import couplings
+from comparisons.assessment.effects.error_budget import (
+    ErrorBudget,
+    announce_effects,
+    error_budget,
+)
+from comparisons.assessment.normal_tangential_coupling import Coupling, couplings
 from comparisons.assessment.refinement import refined
+from comparisons.assessment.verdict import Comparison
+from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest
+from comparisons.common.tasks import Tasks, tasks_of_a_run
 from comparisons.models.forecast import forecast
+from comparisons.models.level import ModelRun
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.running_in import run_in_scene
-from comparisons.models.window import window_of
+from comparisons.models.window import Window, window_of
 from comparisons.results.field_files import AUTOMATIC
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
@@ -26,8 +35,7 @@ from comparisons.scenes.scene import ResolvedScene
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Share of a run's time after which its levels, and all else, are solved: for progress alone.
-WITHOUT_EFFECTS, WITH_EFFECTS = (0.85, 0.85), (0.3, 0.97)
+SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
@@ -104,15 +112,9 @@ def solve(
     """Carry out a plan, as `run` does with the plan that suits the problem."""
     window = window_of(problem) if plan.stress else None
     cache = level_cache(out, problem.scene, plan)
-    levels, solved = WITH_EFFECTS if plan.compares and plan.effects else WITHOUT_EFFECTS
     try:
-        runs, stop = refined(problem, plan, window, cache, within(callback, 0.0, levels))
-        moved = couplings(problem, runs["half_plane"], window, callback) if plan.coupling else ()
-        rows = compared(problem, runs, window) if plan.compares else ()
-        budget = None
-        if plan.compares:
-            part = within(callback, levels, solved)
-            budget = error_budget(problem, plan, window, runs, rows, moved, cache, part)
+        with tasks_of_a_run(within(callback, 0.0, SOLVED), problem.scene.budget.memory) as tasks:
+            runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
@@ -138,11 +140,42 @@ def solve(
     )
     try:
         if out is not None:
-            write_files(outcome, within(callback, solved, 1.0), fields)
+            write_files(outcome, within(callback, SOLVED, 1.0), fields)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     cache.discard()
     return outcome
+
+
+def solved(
+    problem: Problem, plan: Plan, window: Window | None, cache: Cache, tasks: Tasks
+) -> tuple[
+    dict[str, ModelRun], str, tuple[Coupling, ...], tuple[Comparison, ...], ErrorBudget | None
+]:
+    """The runs of a plan's models and why their refinement stopped, the half-plane's couplings, the
+    comparison, and the error budget; of the last three what the plan asks for."""
+
+    @lru_cache
+    def moved(levels: int) -> tuple[Coupling, ...]:
+        return couplings(problem, half_planes[levels], window, tasks.callback)
+
+    def coupled(half_plane: ModelRun) -> tuple[Coupling, ...]:
+        half_planes[len(half_plane.levels)] = half_plane
+        return moved(len(half_plane.levels)) if plan.coupling else ()
+
+    def announce(half_plane: ModelRun) -> None:
+        given = problem, plan, window, half_plane, coupled(half_plane), cache, tasks
+        announce_effects(*given)
+
+    half_planes: dict[int, ModelRun] = {}
+    ahead = announce if plan.compares else None
+    runs, stop = refined(problem, plan, window, cache, tasks, ahead)
+    found = coupled(runs["half_plane"]) if "half_plane" in runs else ()
+    if not plan.compares:
+        return runs, stop, found, (), None
+    rows = compared(problem, runs, window)
+    budget = error_budget(problem, plan, window, runs, rows, found, cache, tasks)
+    return runs, stop, found, rows, budget
 
 
 def _interrupted(out: Path | None) -> KeyboardInterrupt:

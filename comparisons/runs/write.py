@@ -1,15 +1,17 @@
 """The files of a finished run: curves, fields, mesh, result, record, report."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+from comparisons.common.errors import one_line
 from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
+from comparisons.common.processes import meanwhile
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.models.level import Level, deformed_height
-from comparisons.models.problem import Problem
 from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
@@ -25,23 +27,21 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
     if not is_first():
         return
     callback(Step("writing results", 0.0))
+    from comparisons.report.page import render
+    from comparisons.report.saved import FILE, save_shown
+
     with published(outcome.directory) as folder:
+        works = [partial(save_shown, folder / FILE, outcome)]
         for name, level in _written(outcome).items():
             (folder / name).mkdir()
-            write_contact(folder / name / "contact.csv", outcome.problem, level)
-            if outcome.window is not None:
-                write_field(folder / name, field_of(outcome, level), fields)
-            if name in outcome.runs and level.mesh is not None:
-                write_mesh(folder / name / "mesh.msh", outcome, level.mesh)
+            works.append(partial(_write_level, folder / name, outcome, level, fields))
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         callback("drawing the report")
-        from comparisons.report.page import render
-        from comparisons.report.saved import FILE, save_shown
-
-        save_shown(folder / FILE, outcome)
-        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
+        with meanwhile(works):
+            page = render(outcome)
+        (folder / "report.html").write_text(page, encoding="utf-8")
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
@@ -57,6 +57,15 @@ def _written(outcome: Outcome) -> dict[str, Level]:
     return found
 
 
+def _write_level(folder: Path, outcome: Outcome, level: Level, fields: str) -> None:
+    """The files of a model's level."""
+    write_contact(folder / "contact.csv", outcome, level)
+    if outcome.window is not None:
+        write_field(folder, field_of(outcome, level), fields)
+    if folder.name in outcome.runs and level.mesh is not None:
+        write_mesh(folder / "mesh.msh", outcome, level.mesh)
+
+
 def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
     """mesh.msh: what was solved on, and the scene that it was made for."""
     from meshes.msh_file import append_comment, write_msh
@@ -66,10 +75,14 @@ def write_mesh(path: Path, outcome: Outcome, mesh: BlockMesh) -> None:
     append_comment(path, {"title": scene.title, "units": "m", "scene": scene_text(scene)})
 
 
-def write_contact(path: Path, problem: Problem, level: Level) -> None:
-    """contact.csv: a row for each pressure element."""
+def write_contact(path: Path, outcome: Outcome, level: Level) -> None:
+    """contact.csv: a row for each pressure element, below what made it and of which scene."""
+    problem, record = outcome.problem, outcome.record
+    program = f"crosscheck {record['versions']['crosscheck']}"
+    program += f", {record['made']['revision']}" if record["made"]["revision"] else ""
     columns = level.grid.x, level.solution.pressure, level.solution.gap
-    head = "x [m],pressure [Pa],gap [m],deformed height [m]"
+    head = f"# {program}: {one_line(problem.scene.title)}\n# scene: {scene_text(problem.scene)}\n"
+    head += "x [m],pressure [Pa],gap [m],deformed height [m]"
     _write_csv(path, head, *columns, deformed_height(problem, level))
 
 
@@ -82,4 +95,4 @@ def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:
 
 def _write_csv(path: Path, head: str, *columns: np.ndarray) -> None:
     rows = np.column_stack(columns)
-    np.savetxt(path, rows, delimiter=",", fmt="%.12g", header=head, comments="")
+    np.savetxt(path, rows, delimiter=",", fmt="%.12g", header=head, comments="", encoding="utf-8")

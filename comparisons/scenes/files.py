@@ -1,13 +1,24 @@
 """Where a scene's file is, and what it says as TOML; the scenes that come with the project."""
 
+import errno
 import os
+import re
 import tomllib
 from pathlib import Path
 
-from comparisons.common.errors import SceneError, nearest
+from comparisons.common.errors import SceneError, nearest, one_line
 
 SCENES = Path(__file__).parent / "library"
 LARGEST_FILE = 2**20  # bytes; a scene has a few hundred
+MOST_PARTS = 32  # of a dotted key; a scene has two, and the time of reading grows by their square
+STRINGS = re.compile(
+    r'"""(?:\\.|[^\\])*?"""|'
+    r"'''.*?'''|"
+    r'"(?:\\.|[^"\\\n])*+"|'
+    r"'[^'\n]*+'|#[^\n]*+",
+    re.DOTALL,
+)
+LONG_KEY = re.compile(rf"(?<![\w.-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{MOST_PARTS}}}")
 
 
 def scene_names() -> list[str]:
@@ -41,6 +52,12 @@ def find_scene(name_or_path: str | os.PathLike) -> Path:
     raise SceneError(f"{given}: {why} {near}, all are {every}")
 
 
+def name_of(path: Path) -> str:
+    """What a scene in a file is called: the file's name without its ending, as printable text."""
+    stem = path.stem.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+    return one_line(stem).strip(". ") or "scene"
+
+
 def read_toml(path: Path) -> dict:
     """The tables of a TOML file. Raises SceneError if it cannot be read as TOML or is empty."""
 
@@ -48,17 +65,24 @@ def read_toml(path: Path) -> dict:
         return SceneError(f"{path}: {problem}")
 
     try:
+        size = path.stat().st_size
         if not path.is_file():
             kind = "a directory" if path.is_dir() else "not a regular file"
             raise wrong(f"is {kind}; allowed is a TOML file")
-        size = path.stat().st_size
         if size > LARGEST_FILE:
             raise wrong(f"has {size} bytes; allowed are {LARGEST_FILE} for a scene")
-        tables = tomllib.loads(path.read_bytes().decode("utf-8-sig"))
+        text = path.read_bytes().decode("utf-8-sig")
+        if LONG_KEY.search(STRINGS.sub("s", text)):
+            raise wrong(
+                f"has a key of more than {MOST_PARTS} parts; allowed are a section's and one"
+            )
+        tables = tomllib.loads(text)
     except SceneError:
         raise
     except OSError as error:
-        raise wrong(f"cannot be read: {error.strerror}") from error
+        if error.errno == errno.ELOOP:
+            raise wrong("is a loop of symbolic links; allowed is a TOML file") from error
+        raise wrong(f"cannot be read: {error.strerror}; allowed is a TOML file") from error
     except UnicodeDecodeError as error:
         place = f"byte {error.start} is not UTF-8"
         raise wrong(f"is not text ({place}); allowed is a TOML file") from error

@@ -114,7 +114,8 @@ def _measured(
         trace, form = _without_form(known.read.profile, table["form"])
     except ValueError as error:
         raise SceneError(f"{source}: profile.form: {error}") from error
-    how = {name: getattr(known.read, name) for name in ("bridged", "trimmed", "format", "place")}
+    names = ("bridged", "trimmed", "stretch", "format", "place")
+    how = {name: getattr(known.read, name) for name in names}
     origin = {"source": table["file"], "path": path, "trace": known.read.profile, "form": form}
     return trace, origin | how | {"sha256": known.sha256}
 
@@ -129,6 +130,8 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
         x_scale=x_scale,
         height_scale=height_scale,
         spacing=table.get("spacing"),
+        columns=table.get("columns"),
+        channel=table.get("channel"),
         dropouts=table["dropouts"],
         chosen=MapLine(**place) if place else None,
     )

@@ -9,7 +9,8 @@ from pydantic import ValidationError
 
 from analytic.material import Law, Material
 from comparisons.common.errors import InputError
-from comparisons.scenes.files import find_scene, read_toml
+from comparisons.common.units import describe
+from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.profile import KnownTrace, profile_of, sinusoid_length
 from comparisons.scenes.scene import (
     Budget,
@@ -42,7 +43,7 @@ def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
     with the profile that it names.
     """
     path = find_scene(name_or_path)
-    name = path.stem.strip(". ") or "scene"
+    name = name_of(path)
     source = os.fspath(name_or_path)  # as it was asked for: that is how to ask for it again
     return resolve_tables(read_toml(path), name=name, folder=path.parent, source=source)
 
@@ -128,12 +129,16 @@ def _material(table: BodySection | CoatingSection | RollerSection) -> Material:
     return Material(table.youngs_modulus, table.poissons_ratio, law)
 
 
-def with_tolerance(scene: ResolvedScene, tolerance: float) -> ResolvedScene:
+def with_tolerance(
+    scene: ResolvedScene, tolerance: float, source: str = "tolerance"
+) -> ResolvedScene:
     """The scene with one relative tolerance for all that it judges.
 
-    Raises InputError unless it is above 0 and below 1.
+    Raises InputError, which calls it by its `source`, unless it is above 0 and below 1.
     """
-    if not 0.0 < tolerance < 1.0:
-        raise InputError(f"--tolerance: is {tolerance:g}; allowed is above 0 and below 1")
+    is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
+    if not (is_number and 0.0 < tolerance < 1.0):
+        given = f"{tolerance:g}" if is_number else describe(tolerance)
+        raise InputError(f"{source}: is {given}; allowed is a number above 0 and below 1")
     judged_by = dict.fromkeys(scene.tolerance, tolerance)
     return replace(scene, tolerance=judged_by, tables=scene.tables | {"tolerance": dict(judged_by)})

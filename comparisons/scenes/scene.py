@@ -16,6 +16,8 @@ from analytic.surface.form import RemovedForm
 from analytic.surface.roughness import Roughness
 from analytic.surface.roughness_standard import StandardRoughness
 
+MOST_LEVELS = 8  # of a run
+
 
 @dataclass(frozen=True)
 class Load:
@@ -75,6 +77,7 @@ class ProfileInfo:
     path, sha256, format   of the file that was read, None for a made profile
     place      the line of a map that it is, in words
     bridged, trimmed  lost samples: interpolated between their neighbours; dropped at the ends
+    stretch    [m] from where to where the longest bridge goes, None without any
     """
 
     source: str
@@ -88,6 +91,7 @@ class ProfileInfo:
     sha256: str | None = None
     bridged: int = 0
     trimmed: int = 0
+    stretch: tuple[float, float] | None = None
     format: str | None = None
     place: str | None = None
     cutoff: float | None = None
@@ -174,18 +178,19 @@ class Resolution:
 
     pitch: float | None
     levels: int
-    most: int = 8
+    most: int = MOST_LEVELS
 
 
 @dataclass(frozen=True)
 class Budget:
     """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
-    whether it computes `effects` that the scene's finite elements do not model, on how many
-    `levels` at most (None: as the time allows)."""
+    whether it computes `effects` that the scene's finite elements do not model, and where "all",
+    those too that cannot change a verdict; on how many `levels` at most (None: as the time
+    allows)."""
 
     time: float
     memory: float
-    effects: bool = True
+    effects: bool | str = True
     levels: int | None = None
 
 

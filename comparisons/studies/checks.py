@@ -18,6 +18,7 @@ from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
 from comparisons.common.quantities import LABELS
+from comparisons.common.tasks import Here, tasks_of_a_run
 from comparisons.report.junit import JunitCase, check_place, junit_xml, write_junit
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 SCHEMA = 2
 MODEL_LABELS = LABELS | {"layer": "analytic layer", "both": "both"}
+# Of a case, by its model: whether other processes are worth their start.
+USUAL_SECONDS = {"finite_element": 0.5, "half_plane": 0.05}
 COLUMNS = ("model", "case", "holds", "figure", "value", "bound", "cond.", "cost x", "s")
 
 
@@ -165,28 +168,37 @@ class CheckedRow:
 
 def run_case(case: CheckedCase) -> CheckedRow:
     """The row of a case, whatever it raises except an interrupt."""
+    return CheckedRow(case, *_found(None, case.solve))
+
+
+def _found(here: Here | None, solve: Callable[[], Findings]) -> tuple[Findings, str | None, float]:
+    """What a case finds or raises, and its processor seconds."""
     start = process_time()
     findings, error = Findings(()), None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # an overflow shows in the figures
-            findings = case.solve()
+            findings = solve()
     except Exception as raised:
         error = one_line(f"{type(raised).__name__}: {raised}")
-    return CheckedRow(case, findings, error, process_time() - start)
+    return findings, error, process_time() - start
 
 
 def run_cases(
     cases: Iterable[CheckedCase], callback: ProgressCallback = no_progress
 ) -> tuple[CheckedRow, ...]:
-    """The rows of all cases."""
+    """The rows of all cases, which processes share where that pays (`comparisons.common.tasks`):
+    what solves a case can be pickled then."""
     cases, rows = tuple(cases), []
-    for number, case in enumerate(cases, start=1):
-        failed = sum(not row.holds for row in rows)
-        name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
-        name += f"{case.model}: {case.group}: {case.name}"
-        callback(Step(name, (number - 1) / len(cases)))
-        rows.append(run_case(case))
+    with tasks_of_a_run(no_progress, math.inf) as tasks:
+        for number, case in enumerate(cases, start=1):
+            tasks.add(str(number), _found, case.solve, seconds=USUAL_SECONDS.get(case.model, 0.0))
+        for number, case in enumerate(cases, start=1):
+            failed = sum(not row.holds for row in rows)
+            name = f"{number} of {len(cases)}{f', {failed} failed' if failed else ''}: "
+            name += f"{case.model}: {case.group}: {case.name}"
+            callback(Step(name, (number - 1) / len(cases)))
+            rows.append(CheckedRow(case, *tasks.result(str(number))))
     return tuple(rows)
 
 

@@ -53,13 +53,10 @@ HORIZONTAL_BALANCE = 1e-6
 
 
 @dataclass(eq=False)
-class ElasticBody:
-    """An assembled body; factored at the first solution. Make one by `elastic_body`.
+class MeshedBody:
+    """A body before it is assembled. Make one by `meshed_body`.
 
     coated     (m,) whether a triangle belongs to the coating
-    held       (n, 2) components that the support holds
-    owned      our number of each node of `space`, of displacements, that this process owns
-    matrix     PETSc stiffness for Young's modulus 1; held rows are those of the identity
     degree     of the displacement's polynomials
     nodes      (n, 2) [m] of the displacement, in the real body
     elements   (m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`
@@ -69,18 +66,11 @@ class ElasticBody:
 
     mesh: BlockMesh
     material: Material
-    support: Support
     coating: Coating | None
     coated: np.ndarray
     numbering: Nodes
-    held: np.ndarray
-    owned: np.ndarray
-    matrix: "Mat"
-    # After the matrix, which uses its communicator: from dolfinx 0.9 on it must be freed later.
-    space: "FunctionSpace"
 
     def __post_init__(self) -> None:
-        release_with(self, self.matrix)
         self.degree, self.elements = self.numbering.degree, self.numbering.elements
         self.nodes, self.unknowns = self.numbering.real, 2 * len(self.numbering.real)
         self.curved = bool(np.any(self.mesh.shift))
@@ -132,6 +122,31 @@ class ElasticBody:
     def locator(self) -> Locator:
         return Locator(self.points, self.mesh.triangles, self.curved)
 
+    def at_points(self, displacement: np.ndarray) -> np.ndarray:
+        """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
+        return at_points(self.numbering, self.mesh, displacement)
+
+
+@dataclass(eq=False)
+class ElasticBody(MeshedBody):
+    """An assembled body; factored at the first solution. Make one by `elastic_body`.
+
+    held       (n, 2) components that the support holds
+    owned      our number of each node of `space`, of displacements, that this process owns
+    matrix     PETSc stiffness for Young's modulus 1; held rows are those of the identity
+    """
+
+    support: Support
+    held: np.ndarray
+    owned: np.ndarray
+    matrix: "Mat"
+    # After the matrix, which uses its communicator: from dolfinx 0.9 on it must be freed later.
+    space: "FunctionSpace"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        release_with(self, self.matrix)
+
     @cached_property
     def factor(self) -> SymmetricFactor:
         return SymmetricFactor(self.matrix)
@@ -152,10 +167,6 @@ class ElasticBody:
         free = np.where(self.held, 0.0, load)
         part = free[..., self.owned, :].reshape(*load.shape[:-2], -1).T
         return self._gathered(self.factor.solve(part).T) / self.material.youngs_modulus
-
-    def at_points(self, displacement: np.ndarray) -> np.ndarray:
-        """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
-        return at_points(self.numbering, self.mesh, displacement)
 
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
@@ -178,6 +189,15 @@ class ElasticBody:
         for owned, piece in pieces:
             whole[..., owned, :] = piece
         return whole
+
+
+def meshed_body(
+    mesh: BlockMesh, material: Material, degree: int = 2, coating: Coating | None = None
+) -> MeshedBody:
+    """A block with displacements of `degree`. Raises ValueError if an element crosses the lower
+    side of the coating."""
+    numbering = nodes_of(mesh, degree)
+    return MeshedBody(mesh, material, coating, coated_triangles(mesh, coating), numbering)
 
 
 def elastic_body(
@@ -220,8 +240,8 @@ def elastic_body(
     matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
 
     owned = node[: space.dofmap.index_map.size_local]
-    given = (mesh, material, support, coating)
-    return ElasticBody(*given, coated, numbering, held, owned, matrix, space)
+    given = (mesh, material, coating, coated, numbering)
+    return ElasticBody(*given, support, held, owned, matrix, space)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":

@@ -67,12 +67,15 @@ def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
     return np.einsum("mac,qad->mqcd", nodes, slopes(at, DEGREE[nodes.shape[1]]), optimize=True)
 
 
-def gradients(nodes: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.ndarray:
+def gradients(
+    nodes: np.ndarray, values: np.ndarray, at: np.ndarray, straight: bool = False
+) -> np.ndarray:
     """d values / d(x, z) (m, q, c, 2) of nodal values (m, k, c) at reference points (q, 2). `nodes`
-    (m, 6, 2) are the coordinates of the element's nodes; `values` may have another degree."""
+    (m, 6, 2) are the coordinates of the element's nodes; `values` may have another degree. On
+    `straight` elements the Jacobian is everywhere the same."""
     slope = slopes(at, DEGREE[values.shape[1]])
     reference = np.einsum("mak,qad->mqkd", values, slope, optimize=True)
-    return reference @ np.linalg.inv(jacobians(nodes, at))
+    return reference @ np.linalg.inv(jacobians(nodes, at[:1] if straight else at))
 
 
 def collapsed_gauss(count: int) -> tuple[np.ndarray, np.ndarray]:

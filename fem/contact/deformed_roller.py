@@ -114,18 +114,22 @@ class PairContact:
         self._body, self._hats = body, hats
         self._undeformed = np.vstack([body.nodes, roller.nodes])
 
-    def at(
-        self, displacement: np.ndarray, pressure: np.ndarray, tangent: bool = True
-    ) -> ContactTerms:
-        """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces; without the
-        `tangent` no stiffness."""
-        surface = DeformedSurface(self._roller, displacement[self._first :])
-        own = DeformedSurface(self._body, displacement[: self._first])
-        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
-        cuts = along_edges(self._body.surface.edges, *own.edge(below))
-        on = HatsOnSurface(self._body, self._hats, self._count, cuts)
-        place = (self._undeformed + displacement).ravel()
-        x = on.x @ place
+    def loaded(
+        self, displacement: np.ndarray, pressure: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone: cheaper."""
+        surface, on, x, place = self._under_hats(displacement)
+        rise, slope, _ = surface(x)
+        edge, t = surface.edge(x)
+        at_x, at_z = self._of_roller(2 * edge[:, None] + np.arange(3), edge_shapes(t))
+        load = on.weight * (on.hats @ pressure)
+        along, down = load * (slope + self._friction), load * (1.0 - self._friction * slope)
+        force = on.x.T @ along + on.z.T @ down - at_x.T @ along + at_z.T @ down
+        return on.hats.T @ (on.weight * (on.z @ place + rise)), force
+
+    def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
+        """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
+        surface, on, x, place = self._under_hats(displacement)
         rise, slope, bend = surface(x)
         gap = on.hats.T @ (on.weight * (on.z @ place + rise))
 
@@ -137,8 +141,6 @@ class PairContact:
         if not self.frictionless:
             sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
             force = (gradient + self._friction * sliding).tocsr()
-        if not tangent:
-            return ContactTerms(gap, gradient, force)
 
         value = np.column_stack([4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0])
         value /= (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
@@ -152,6 +154,18 @@ class PairContact:
             slides = slides + down.T @ load @ (turning + diags(bend) @ along)
             stiffness = stiffness - self._friction * slides
         return ContactTerms(gap, gradient, force, stiffness.tocsr())
+
+    def _under_hats(
+        self, displacement: np.ndarray
+    ) -> tuple[DeformedSurface, HatsOnSurface, np.ndarray, np.ndarray]:
+        """The roller's surface, points under hats, their x (q,) [m], and places (2n,) of nodes."""
+        surface = DeformedSurface(self._roller, displacement[self._first :])
+        own = DeformedSurface(self._body, displacement[: self._first])
+        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
+        cuts = along_edges(self._body.surface.edges, *own.edge(below))
+        on = HatsOnSurface(self._body, self._hats, self._count, cuts)
+        place = (self._undeformed + displacement).ravel()
+        return surface, on, on.x @ place, place
 
     def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
         """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,

@@ -35,6 +35,9 @@ class Response(Protocol):
         example if an element is inverted; the solver then tries a shorter step.
         """
 
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """The forces of `linearised` alone."""
+
     def accept(self, displacement: np.ndarray) -> None:
         """Add the displacement (n, 2) [m] at the end of an increment to the history."""
 
@@ -49,7 +52,11 @@ class LinearResponse:
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """K u (n, 2) [N/m] and K [Pa]."""
-        return (self._matrix @ displacement.ravel()).reshape(-1, 2), self._matrix
+        return self.force(displacement), self._matrix
+
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """K u (n, 2) [N/m]."""
+        return (self._matrix @ displacement.ravel()).reshape(-1, 2)
 
     def accept(self, displacement: np.ndarray) -> None:
         """No history."""

@@ -43,9 +43,9 @@ from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad
 
 # Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
-# change of the pressures.
-RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 1e-4, 1e-5
-SECANTS, SECANT_RANK = 4, 1e-10
+# change of the pressures; secants, and what one must differ from the others.
+RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 3e-2
+SECANTS, SECANT_RANK = 10, 1e-3
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean displacement of the surfaces past each other that is left, of a hat, and
 # solutions to get there.
@@ -159,7 +159,7 @@ class FiniteContact:
             self.contact = CurrentContact(body, hats, roller, friction)
         self.weights = 0.5 * (hats[2:] - hats[:-2])
         self.linear, _ = self.set_back(self.linear, start)
-        self.gap = self.contact.at(np.zeros_like(self.linear), start, tangent=False).gap
+        self.gap = self.contact.loaded(np.zeros_like(self.linear), start)[0]
 
     def by_newton(
         self, load: float | None, approach: float | None = None, hardness: float = np.inf
@@ -229,9 +229,10 @@ class FiniteCompliance:
 
         u <- u + K^-1 (T(u) p - F(u))
 
-    with secants through the last SECANTS steps (Anderson 1965). The tangent differs from K by the
-    order of the strains: each step leaves about that part of the forces. The displacement starts
-    from the last one; forces are solved as accurately as the pressure has settled.
+    with secants through the last SECANTS steps (Anderson 1965), those under former pressures
+    included. The tangent differs from K by the order of the strains: each step leaves about that
+    part of the forces. The displacement starts from the last one; forces are solved as accurately
+    as the pressure has settled.
 
     steps  so far, one assembly and one back-substitution each
     left   forces over the contact's, at the last pressure
@@ -240,6 +241,7 @@ class FiniteCompliance:
     def __init__(self, contact: FiniteContact) -> None:
         self._contact, self.displacement = contact, contact.linear
         self._last: np.ndarray | None = None
+        self._secants: list[tuple[np.ndarray, np.ndarray]] = []
         self.steps, self.left = 0, np.inf
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
@@ -249,21 +251,22 @@ class FiniteCompliance:
         if self._last is not None:
             change = np.linalg.norm(pressure - self._last) / np.linalg.norm(pressure)
             wanted = float(np.clip(SETTLED * change, RESIDUAL, MOST_LEFT))
-        self._last, moved, path = pressure, self.displacement, []
+        self._last, moved, before = pressure, self.displacement, None
         soft, free = contact.response.softness, ~contact.response.held.ravel()
         for _ in range(MOST_CORRECTIONS):
             moved, _ = contact.set_back(moved, pressure)
-            terms = contact.contact.at(moved, pressure, tangent=False)
-            applied = terms.force @ pressure
+            gap, applied = contact.contact.loaded(moved, pressure)
             left = np.where(free, applied - contact.response.force(moved).ravel(), 0.0)
             size = np.linalg.norm(soft * np.where(free, applied, 0.0))
             rest = float(np.linalg.norm(soft * left) / size)
             if rest <= wanted:
                 self.displacement, self.left = moved, rest
-                return terms.gap - contact.gap
+                return gap - contact.gap
             step = self._corrected(left.reshape(-1, 2)).ravel()
-            path = [*path[-SECANTS:], (moved.ravel(), step)]
-            moved = _onward(path).reshape(-1, 2)
+            if before is not None:
+                self._learn(moved.ravel() - before[0], step - before[1])
+            before = moved.ravel(), step
+            moved = moved + self._onward(step).reshape(-1, 2)
             self.steps += 1
         raise FemError(f"forces of {rest:.1e} are left after {MOST_CORRECTIONS} corrections")
 
@@ -271,10 +274,28 @@ class FiniteCompliance:
         """The state of the last pressure, at the `approach` [m] that belongs to it."""
         contact, moved = self._contact, self.displacement
         load = float(contact.weights @ pressure)
-        terms = contact.contact.at(moved, pressure, tangent=False)
-        gap = terms.gap / contact.weights - approach
+        gap = contact.contact.loaded(moved, pressure)[0] / contact.weights - approach
         state = ContactState((moved,), pressure, approach, load)
         return NonlinearSolution(state, gap, ((self.left,),), 0, self.steps)
+
+    def _learn(self, move: np.ndarray, change: np.ndarray) -> None:
+        """Keep what a move (2n,) [m] has changed in the correction (2n,) [m], apart from what is
+        known: the changes are orthogonal and of size one."""
+        whole = np.linalg.norm(change)
+        for known, led in self._secants:
+            amount = known @ change
+            change, move = change - amount * known, move - amount * led
+        size = np.linalg.norm(change)
+        if size > SECANT_RANK * whole:
+            self._secants = [*self._secants[1 - SECANTS :], (change / size, move / size)]
+
+    def _onward(self, step: np.ndarray) -> np.ndarray:
+        """The next move (2n,) [m] from a correction (2n,) [m] and the secants."""
+        left, move = step, np.zeros_like(step)
+        for known, led in self._secants:
+            amount = known @ left
+            left, move = left - amount * known, move - amount * led
+        return move + left
 
     def _corrected(self, force: np.ndarray) -> np.ndarray:
         pieces = np.split(
@@ -282,17 +303,6 @@ class FiniteCompliance:
         )
         bodies = zip(self._contact.elastic, pieces, strict=True)
         return np.vstack([body.solve(piece) for body, piece in bodies])
-
-
-def _onward(path: list[tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-    """The next displacement from the last ones and their corrections, the newest last."""
-    moved, step = path[-1]
-    if len(path) > 1:
-        changes = np.stack([step - former for _, former in path[:-1]], axis=1)
-        moves = np.stack([moved - former for former, _ in path[:-1]], axis=1)
-        amounts = np.linalg.lstsq(changes, step, rcond=SECANT_RANK)[0]
-        moved, step = moved - moves @ amounts, step - changes @ amounts
-    return moved + step
 
 
 def press_finitely(

@@ -15,7 +15,7 @@ from scipy.sparse import csr_matrix
 from analytic.stress_state import StressState
 from fem import compat
 from fem.body.elasticity import ElasticBody, quadrature_degree
-from fem.body.triangle import gradients, reference_nodes
+from fem.body.triangle import gradients, jacobians, reference_nodes, slopes
 from fem.nonlinear.laws import cauchy_stress, energy
 from fem.solver.compilation import compiled
 from fem.solver.mumps import FemError
@@ -56,6 +56,11 @@ class HyperelasticBody:
         self._tangent = compiled(lambda: compat.compile_form(tangent))
         self._component = (2 * body.owned[:, None] + np.arange(2)).ravel()
         self._pattern: csr_matrix | None = None
+        # at the corners, by r at all of them and then by s: of the displacement's shape functions
+        # (k, 6), and of x and z (m, 6) each
+        self._slopes = slopes(CORNERS, body.degree).transpose(1, 2, 0).reshape(-1, 6)
+        corner = jacobians(body.points[body.mesh.triangles], CORNERS)
+        self._jacobian = corner.transpose(2, 0, 3, 1).reshape(2, -1, 6)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric. Raises FemError if the
@@ -78,9 +83,11 @@ class HyperelasticBody:
 
     def _inverted(self, displacement: np.ndarray) -> bool:
         """At a corner; laws in ln J find it inside, too."""
-        body = self.body
-        moved = gradients(body.points[body.mesh.triangles], displacement[body.elements], CORNERS)
-        return bool(np.any(np.linalg.det(np.eye(2) + moved) <= 0.0))
+        moved = [u[self.body.elements] @ self._slopes for u in displacement.T]
+        (x_r, x_s), (z_r, z_s) = (
+            np.split(at + u, 2, axis=1) for at, u in zip(self._jacobian, moved, strict=True)
+        )
+        return bool(np.any(x_r * z_s - x_s * z_r <= 0.0))
 
     def _in_our_order(self, matrix) -> csr_matrix:
         """The matrix (2n, 2n) in the order of the body's own nodes."""

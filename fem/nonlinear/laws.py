@@ -41,9 +41,9 @@ def energy(law: Law, gradient: "Expr", mu: "Expr", lame: "Expr", unit: float) ->
     if law.name in ("st-venant-kirchhoff", "murnaghan"):
         strain = 0.5 * (gradient + gradient.T + gradient.T * gradient)
         first, second = ufl.tr(strain), ufl.det(strain)
-        l, m, _ = (each / unit for each in law.murnaghan or (0.0, 0.0, 0.0))  # noqa: E741
+        ell, m, _ = (each / unit for each in law.murnaghan or (0.0, 0.0, 0.0))
         quadratic = (0.5 * lame + mu) * first**2 - 2.0 * mu * second
-        return quadratic + (l + 2.0 * m) / 3.0 * first**3 - 2.0 * m * first * second
+        return quadratic + (ell + 2.0 * m) / 3.0 * first**3 - 2.0 * m * first * second
     log = ufl.ln(volume)
     if law.name == "neo-hookean":
         return 0.5 * mu * (ufl.tr(right) - 2.0) - mu * log + 0.5 * lame * log**2
@@ -81,11 +81,11 @@ def cauchy_stress(
         stress = _times(mu * factor / half, left - _times(half, eye))
         stress = stress + _times(mu * log + across, eye)
     else:
-        l, m, n = law.murnaghan or (0.0, 0.0, 0.0)  # noqa: E741
+        ell, m, n = law.murnaghan or (0.0, 0.0, 0.0)
         strain = 0.5 * (np.swapaxes(f, -1, -2) @ f - eye)
         first, second = np.trace(strain, axis1=-2, axis2=-1), np.linalg.det(strain)
         shear = 2.0 * (mu + m * first)
-        mean = (lame + 2.0 * mu) * first + (l + 2.0 * m) * first**2 - 2.0 * m * second
+        mean = (lame + 2.0 * mu) * first + (ell + 2.0 * m) * first**2 - 2.0 * m * second
         mean = mean - shear * first
         piola = _times(shear, strain) + _times(mean, eye)  # Piola and Kirchhoff's second
         stress, across = f @ piola @ np.swapaxes(f, -1, -2), mean + n * second

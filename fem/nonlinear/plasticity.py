@@ -164,10 +164,20 @@ class PlasticBody:
         `ElasticBody.stiffness`.
         """
         step = self.step(displacement)
-        force = self._stiffness @ displacement.ravel()
-        plastic = 2.0 * self.metal.elastic.shear_modulus * step.state.strain
-        plastic = np.where(self.held, 0.0, self.force_of(plastic))
-        return force.reshape(-1, 2) - plastic, self._stiffness - self._softening(step)
+        return self._force(displacement, step), self._stiffness - self._softening(step)
+
+    def force(self, displacement: np.ndarray) -> np.ndarray:
+        """The internal force alone."""
+        return self._force(displacement, self.step(displacement))
+
+    def _force(self, displacement: np.ndarray, step: PlasticStep) -> np.ndarray:
+        elastic = (self._stiffness @ displacement.ravel()).reshape(-1, 2)
+        return elastic - self.plastic_force(step.state)
+
+    def plastic_force(self, state: PlasticState) -> np.ndarray:
+        """Nodal forces (n, 2) [N/m] that move an elastic body as the plastic strain of a state."""
+        eigenstress = 2.0 * self.metal.elastic.shear_modulus * state.strain
+        return np.where(self.held, 0.0, self.force_of(eigenstress))
 
     def accept(self, displacement: np.ndarray) -> None:
         """Make the end of the step to a displacement (n, 2) [m] the accepted state."""

@@ -1,8 +1,9 @@
 """A roller pressed on an elastic-plastic body, released, and pressed again.
 
-Each load is reached in increments from the body's last state. The contact is on the undeformed
-surface, as in the linear theory; the roller is rigid or elastic. Each increment is solved by
-Newton's method for the body,
+Each load is reached in increments from the body's last state; those up to the last one at which
+nothing flows are taken at once. The contact is on the undeformed surface, as in the linear theory;
+the roller is rigid or elastic. Each increment starts from the contact in which the plastic strain
+has gone on as over the last one, and is solved by Newton's method for the body,
 
     F(u_k) + K_t (u - u_k) - T p = 0   with   g >= 0, p >= 0, complementary, w'p = P,
 
@@ -29,12 +30,15 @@ from scipy.sparse import csr_matrix
 from analytic.stress_state import StressState, von_mises
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.compliance.operator import FiniteElementCompliance
-from fem.contact.nonlinear import ContactState, solve_nonlinear_contact, state_at_rest
+from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
 from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
+from fem.nonlinear.condensed import MOST_HATS, CondensedRoller, ElasticContact
 from fem.nonlinear.plasticity import ElasticPlastic, PlasticBody, PlasticState
 from fem.solver.mumps import FemError, solve_once
 
-RESIDUAL = 1e-9  # forces over the contact's forces
+# Forces over the contact's forces, at a load and on the way there; the latter moves pressures under
+# the load by 1e-8 of the largest, the plastic strain at single points by 1e-5.
+RESIDUAL, ON_THE_WAY = 1e-9, 1e-4
 MOST_LINEAR_CONTACTS = 40
 # The line search ends where the energy's slope is below this part of the first one.
 SLACK = 0.5
@@ -62,12 +66,12 @@ class _Linearised(LinearResponse):
 
     def __init__(self, body: Response, displacement: np.ndarray) -> None:
         self.held, self.symmetric = body.held, body.symmetric
-        self.force, self._matrix = body.linearised(displacement)
+        self.start, self._matrix = body.linearised(displacement)
         self._there = displacement
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         move = (displacement - self._there).ravel()
-        return self.force + (self._matrix @ move).reshape(-1, 2), self._matrix
+        return self.start + (self._matrix @ move).reshape(-1, 2), self._matrix
 
 
 def newton_by_contacts(
@@ -77,8 +81,10 @@ def newton_by_contacts(
     start: ContactState,
     load: float | None = None,
     approach: float | None = None,
+    residual: float = RESIDUAL,
 ) -> tuple[ContactState, list[float]]:
-    """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals.
+    """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals, the last
+    one at most the given `residual`.
 
     The approach works near the limit load too. The caller accepts the displacements into the
     bodies' histories. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does
@@ -104,7 +110,7 @@ def newton_by_contacts(
         rest = [np.linalg.norm((f - a)[ok]) for f, a, ok in zip(forces, applied, free, strict=True)]
         size = [np.linalg.norm(a[ok]) for a, ok in zip(applied, free, strict=True)]
         history.append(max(r / s for r, s in zip(rest, size, strict=True)))
-        if part == 1.0 and history[-1] <= RESIDUAL:
+        if part == 1.0 and history[-1] <= residual:
             return goal, history
     raise FemError(f"residual {history[-1]:.1e} after {MOST_LINEAR_CONTACTS} linear contacts")
 
@@ -124,9 +130,9 @@ def _length(
 
     def forces_at(part: float) -> list[np.ndarray]:
         pairs = zip(bodies, state.displacements, moves, strict=True)
-        return [body.linearised(u + part * du)[0] for (body, _), u, du in pairs]
+        return [body.force(u + part * du) for (body, _), u, du in pairs]
 
-    first = slope([near.force for near in tangents])
+    first = slope([near.start for near in tangents])
     low, high, at_low, part = 0.0, 1.0, first, 1.0
     forces = forces_at(part)
     at_high = slope(forces)
@@ -191,34 +197,134 @@ def press_plastically(
     """
     if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
         raise ValueError("the first load must be positive, and none negative")
-    body = PlasticBody(compliance.body, metal)
-    bodies: list[tuple[Response, Contact]] = [(body, LinearContact(compliance, friction))]
-    if roller is not None:
-        # its z points away from the body; on it the traction acts towards -x
-        bodies.append((LinearResponse(roller.body), LinearContact(roller, -friction)))
-
-    state, history = state_at_rest(bodies, guess), []
+    way = _LoadHistory(compliance, metal, gap, weights, guess, friction, roller)
+    body, history = way.body, []
     for load in loads:
-        target = load or min(LAST_TOUCH * max(loads), state.load)
-        iterations = 0
-        for stage in np.linspace(state.load, target, increments + 1)[1:]:
-            try:
-                state, residuals = newton_by_contacts(bodies, gap, weights, state, float(stage))
-            except FemError as error:
-                raise FemError(f"the load of {stage:g} N/m was not reached: {error}") from error
-            body.accept(state.displacements[0])
-            iterations += len(residuals)
+        target = load or min(LAST_TOUCH * max(loads), way.state.load)
+        iterations = way.through(np.linspace(way.state.load, target, increments + 1)[1:])
         if load == 0.0:
-            free = _released(body, state.displacements[0])
-            state = replace(state, displacements=(free, *state.displacements[1:]))
-        pressure = state.pressure if load else np.zeros_like(state.pressure)
-        reached = (state.approach, state.displacements[0], body.state, iterations)
+            way.release()
+        pressure = way.state.pressure if load else np.zeros_like(way.state.pressure)
+        reached = (way.state.approach, way.state.displacements[0], body.state, iterations)
         history.append(PlasticContact(load, pressure, *reached))
     return body, tuple(history)
 
 
+class _LoadHistory:
+    """The contact from load to load, with what stays elastic condensed.
+
+    body   with its accepted plastic state
+    state  of the last contact
+    """
+
+    def __init__(
+        self,
+        compliance: FiniteElementCompliance,
+        metal: ElasticPlastic,
+        gap: np.ndarray,
+        weights: np.ndarray,
+        guess: np.ndarray,
+        friction: float,
+        roller: FiniteElementCompliance | None,
+    ) -> None:
+        self._compliance, self._gap, self._weights = compliance, gap, weights
+        self._friction = friction
+        self.body = PlasticBody(compliance.body, metal)
+        others: list[tuple[Response, Contact]] = []
+        self._elastic = None
+        if compliance.count <= MOST_HATS:
+            flexible = compliance.matrix(friction)
+            if roller is not None:
+                own = flexible
+                if friction or not _alike(roller, compliance):
+                    own = roller.matrix(-friction)
+                condensed = CondensedRoller(own, weights, not friction)
+                others, flexible = [(condensed, condensed)], flexible + own
+            self._elastic = ElasticContact(flexible, weights)
+        elif roller is not None:
+            # its z points away from the body; on it the traction acts towards -x
+            others = [(LinearResponse(roller.body), LinearContact(roller, -friction))]
+        self._bodies = [(self.body, LinearContact(compliance, friction)), *others]
+        moved = tuple(np.zeros(response.held.shape) for response, _ in self._bodies)
+        self.state = ContactState(moved, guess, approach=0.0)
+        self._former = 0.0, self.body.state  # load and plastic state before the last increment
+
+    def through(self, loads: np.ndarray) -> int:
+        """Linear contacts that lead through the loads [N/m] in turn. Those below the last one at
+        which nothing has flowed are elastic, too: the way there does not matter."""
+        contacts = elastic = 0
+        if self._elastic is not None:
+            rest = probe = len(loads)
+            while elastic < rest:
+                contacts += 1
+                if self._to_elastic(float(loads[probe - 1])):
+                    elastic = probe
+                else:
+                    rest = probe - 1
+                probe = (elastic + rest + 1) // 2
+        for load in map(float, loads[elastic:]):
+            given = self._bodies, self._gap, self._weights, self._ahead(load), load, None
+            left = RESIDUAL if load == loads[-1] else ON_THE_WAY
+            try:
+                found, residuals = newton_by_contacts(*given, left)
+            except FemError as error:
+                raise FemError(f"the load of {load:g} N/m was not reached: {error}") from error
+            self._accept(found)
+            contacts += len(residuals)
+        return contacts
+
+    def release(self) -> None:
+        """Without the roller."""
+        _, *others = self.state.displacements
+        free = _released(self.body, self.state.displacements[0])
+        self.state = replace(self.state, displacements=(free, *others))
+
+    def _to_elastic(self, load: float) -> bool:
+        """Whether nothing flows up to a load [N/m], and then that load."""
+        found = self._frozen(load, self.body.state)
+        if found is None or self.body.step(found.displacements[0]).yields.any():
+            return False
+        self._accept(found)
+        return True
+
+    def _ahead(self, load: float) -> ContactState:
+        """Where to start for a load [N/m]: the plastic strain of the points that flow goes on as
+        over the last increment."""
+        if self._elastic is None:
+            return self.state
+        (before, former), now, last = self._former, self.body.state, self.state.load
+        part = max(0.0, (load - last) / (last - before)) if last != before else 0.0
+        strain = now.strain + part * (now.strain - former.strain)
+        return self._frozen(load, replace(now, strain=strain)) or self.state
+
+    def _frozen(self, load: float, plastic: PlasticState) -> ContactState | None:
+        """The contact of the bodies in a plastic state that does not change; None if it is not
+        found."""
+        compliance, flowed = self._compliance, self.body.plastic_force(plastic)
+        left = compliance.weighted(self.body.body.solve(flowed))
+        try:
+            pressure, approach = self._elastic(self._gap + left, load, self.state.pressure)
+        except FemError:
+            return None
+        moved = self.body.body.solve(compliance.load(pressure, self._friction) + flowed)
+        others = [roller.moved(pressure) for roller, _ in self._bodies[1:]]
+        return ContactState((moved, *others), pressure, approach, load)
+
+    def _accept(self, found: ContactState) -> None:
+        self._former = self.state.load, self.body.state
+        self.body.accept(found.displacements[0])
+        self.state = found
+
+
+def _alike(one: FiniteElementCompliance, other: FiniteElementCompliance) -> bool:
+    return one.body is other.body and (one.normal != other.normal).nnz == 0
+
+
 def _released(body: PlasticBody, displacement: np.ndarray) -> np.ndarray:
     """Displacement (n, 2) of the body without load, accepted into its history."""
+    elastic = body.body.solve(body.plastic_force(body.state))
+    if not body.step(elastic).yields.any():
+        return elastic
     free = np.flatnonzero(~body.held.ravel())
     scale = np.abs(body.force_of(body.stress(displacement, body.state)[0])).max()
     for _ in range(MOST_RELEASE_STEPS):

@@ -51,7 +51,8 @@ class Weights:
 
 @dataclass(frozen=True)
 class Kinks:
-    """Places in ascending x (k,) as x + i z [m], unit tangents towards +x, jumps f (k,) [Pa/m]."""
+    """Places in ascending x (k,) as x + i z [m], unit tangents towards +x, jumps f [Pa/m]: (k,), or
+    (k, c) for c loads at once, whose sums have a further axis before the components."""
 
     place: np.ndarray
     tangent: np.ndarray
@@ -65,7 +66,7 @@ class Kinks:
         across = np.sqrt(np.maximum(0.0, reach**2 - below**2))
         first = np.searchsorted(self.place.real, centre.real - across)
         count = np.searchsorted(self.place.real, centre.real + across) - first
-        row, place = _runs(count)
+        row, place = runs(count)
         kink = first[row] + place
         distance = np.abs(centre[row] - self.place[kink]) / reach[row]
         weight = np.maximum(0.0, 1.0 - distance**4) ** 2
@@ -73,39 +74,43 @@ class Kinks:
 
     def _stress(self, kink: np.ndarray, where: np.ndarray) -> list[np.ndarray]:
         """sx + sz and sz - sx + 2 i txz [Pa] of each of the kinks (r,) at places (r,) [m]."""
-        w, log, jump = self._around(kink, where)
-        turned = 2.0 / np.pi * (w.imag * jump * (log + 1.0) + jump.imag * w * log)
-        return [-2.0 / np.pi * (jump * w * log).imag, turned / self.tangent[kink] ** 2]
+        w, log, jump, tangent = self._around(kink, where)
+        steep = w * log
+        turned = 2.0 / np.pi * (w.imag * (log + 1.0) * jump + jump.imag * steep)
+        return [-2.0 / np.pi * (jump * steep).imag, turned / tangent**2]
 
     def _displacement(self, kink: np.ndarray, where: np.ndarray, nu: float) -> list[np.ndarray]:
         """G (u_x + i u_z) [N/m] of each of the kinks (r,) at places (r,) [m]."""
-        w, log, jump = self._around(kink, where)
+        w, log, jump, tangent = self._around(kink, where)
         integral = 0.5 * w**2 * (log - 0.5)
-        both = (3.0 - 4.0 * nu) * integral + integral.conj()
-        moved = 1j * jump * both - 2.0 * w.imag * (jump * w * log).conj()
-        return [moved * self.tangent[kink] / (4.0 * np.pi)]
+        both = 1j * tangent * ((3.0 - 4.0 * nu) * integral + integral.conj()) / (4.0 * np.pi)
+        steep = tangent * w.imag * (w * log).conj() / (2.0 * np.pi)
+        return [jump * both - jump.conj() * steep]
 
     def _around(self, kink: np.ndarray, where: np.ndarray) -> tuple[np.ndarray, ...]:
-        """w, ln w (0 at the kink) and f; the logarithm's branch cut points out of the body."""
-        w = (where - self.place[kink]) / self.tangent[kink]
+        """w, ln w (0 at the kink), f and the tangent; the logarithm's branch cut points out of the
+        body."""
+        tangent, jump = self.tangent[kink], self.jump[kink]
+        w = (where - self.place[kink]) / tangent
         log, square = np.empty_like(w), w.real**2 + w.imag**2  # thrice as fast as numpy's complex
         log.real = 0.5 * np.log(np.where(square == 0.0, 1.0, square))
         log.imag = np.where(square == 0.0, 0.0, 0.5 * np.pi - np.arctan2(w.real, w.imag))
-        return w, log, self.jump[kink]
+        single = len(w), *(1,) * (jump.ndim - 1)
+        return w.reshape(single), log.reshape(single), jump, tangent.reshape(single)
 
     def stress(
         self, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
     ) -> np.ndarray:
-        """sx, sz, txz (r, q, 3) [Pa] of the kinks, weighted as for each `patch`. patch (r,) rows of
-        the weights, place (n, 2) [m], point (r, q) numbers of places."""
+        """sx, sz, txz (r, q, …, 3) [Pa] of the kinks, weighted as for each `patch`. patch (r,) rows
+        of the weights, place (n, 2) [m], point (r, q) numbers of places."""
         total, turned = _weighted(self._stress, weights, patch, place, point)
-        total, turned = 0.5 * total.real, 0.5 * turned
+        total, turned = 0.5 * total, 0.5 * turned
         return np.stack([total - turned.real, total + turned.real, turned.imag], axis=-1)
 
     def displacement(
         self, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray, nu: float
     ) -> np.ndarray:
-        """G (u_x, u_z) (r, q, 2) [N/m] of the kinks, with other arguments as of `stress`."""
+        """G (u_x, u_z) (r, q, …, 2) [N/m] of the kinks, with other arguments as of `stress`."""
         field = partial(self._displacement, nu=nu)
         (moved,) = _weighted(field, weights, patch, place, point)
         return np.stack([moved.real, moved.imag], axis=-1)
@@ -114,8 +119,11 @@ class Kinks:
 def _weighted(
     field: Field, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
 ) -> list[np.ndarray]:
-    """Sums (r, q) over the kinks of the values of a field at `place`[point], weighted by patch. The
+    """Sums (r, q, …) over the kinks of a field's values at `place`[point], weighted by patch. The
     field is computed once for each pair of a place and a kink."""
+    if point.shape[1] * len(point) == len(place):  # no place is shared
+        sums = _at_each(field, weights, np.repeat(patch, point.shape[1]), place, point.ravel())
+        return [total.reshape(*point.shape, *total.shape[1:]) for total in sums]
     near = np.flatnonzero(weights.count[patch])
     first, count = weights.first[patch[near]], weights.count[patch[near]]
     point, start = point[near], weights.start[patch[near]]
@@ -126,20 +134,41 @@ def _weighted(
     span = np.maximum(high - low, 0)
     where, tables = place[:, 0] + 1j * place[:, 1], []
     for part in _parts(span):
-        row, number = _runs(span[part])
+        row, number = runs(span[part])
         tables.append(field(low[part][row] + number, where[part][row]))
     values = [np.concatenate(each) for each in zip(*tables, strict=True)]
     begin = (np.cumsum(span) - span)[point] + first[:, None] - low[point]
 
-    sums = [np.zeros((len(patch), point.shape[1]), dtype=complex) for _ in values]
+    sums = [np.zeros((len(patch), point.shape[1], *v.shape[1:]), dtype=v.dtype) for v in values]
     for part in _parts(count):
-        row, number = _runs(count[part])
-        weight = weights.value[start[part][row] + number, None]
+        row, number = runs(count[part])
+        weight = weights.value[start[part][row] + number]
         begins = np.flatnonzero(number == 0)
         for total, value in zip(sums, values, strict=True):
             share = value[begin[part][row] + number[:, None]]
-            share *= weight
+            share *= weight.reshape(-1, *(1,) * (share.ndim - 1))
             total[near[part]] = np.add.reduceat(share, begins)
+    return sums
+
+
+def _at_each(
+    field: Field, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
+) -> list[np.ndarray]:
+    """`_weighted` (r, …) where each patch (r,) has one point (r,)."""
+    near = np.flatnonzero(weights.count[patch])
+    first, count = weights.first[patch[near]], weights.count[patch[near]]
+    where, start, sums = (place @ [1.0, 1j])[point[near]], weights.start[patch[near]], []
+    for part in _parts(count):
+        row, number = runs(count[part])
+        values = field(first[part][row] + number, where[part][row])
+        weight = weights.value[start[part][row] + number]
+        for value in values:
+            value *= weight.reshape(-1, *(1,) * (value.ndim - 1))
+        begins = np.flatnonzero(number == 0)
+        if not sums:
+            sums = [np.zeros((len(patch), *v.shape[1:]), dtype=v.dtype) for v in values]
+        for total, value in zip(sums, values, strict=True):
+            total[near[part]] = np.add.reduceat(value, begins)
     return sums
 
 
@@ -149,7 +178,7 @@ def _parts(count: np.ndarray) -> list[np.ndarray]:
     return np.split(np.arange(len(count)), several)
 
 
-def _runs(count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def runs(count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Run of each entry, and its number within the run, for runs of lengths `count` (n,)."""
     row = np.repeat(np.arange(len(count)), count)
     return row, np.arange(len(row)) - (np.cumsum(count) - count)[row]

@@ -1,7 +1,8 @@
 """The largest value of a stress quantity in a body, and its place.
 
-Nodes alone miss the place of a flat maximum by half an element. Elements with a high node are
-sampled, the best of them finely. Away from the surface a polynomial fitted to the stresses around
+Nodes alone miss the place of a flat maximum by half an element. A rough estimate at all nodes says
+which elements may hold it; these alone are recovered and sampled, the best of them finely. Away
+from the surface a polynomial fitted to the stresses around
 the best sample gives the maximum: of degree 5 to two rings of elements, next to the surface or
 where that does not fit of degree 3 to one ring, which amplifies the waves of the elements. On six
 Hertz contacts of quadratic elements, friction 0 to 0.3, 55 to 130 edges a half-width, the depth of
@@ -21,9 +22,13 @@ from fem.stress.stress import NodalStress, within
 Quantity = Callable[[MaterialStress], np.ndarray]
 Window = tuple[float, float, float]
 
-UNSEEN = 0.25  # largest excess over an element's highest node, as a part of the maximum
+# By how much, of the maximum, the highest node of the element that holds it is below it, at most,
+# by the rough estimate: that is off by 0.25 where five elements make a wave, by 0.02 on finer.
+DOUBT = 0.5
+FEW, MANY = 32, 512  # highest nodes and elements of a cell, by the estimate, that are looked at
 COARSE, FINE = 4, 32  # samples along an element's edge: of promising elements, of the best ones
-BEST = 16  # elements sampled finely
+BEST = 16  # elements sampled finely, but for those that cannot reach the highest sample:
+RISE = 0.25  # between coarse samples, of what an element's differ by; twice a parabola's
 NEAR = 0.7  # of the largest value: cells whose own are below it are not sampled between the nodes
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
 # the polynomial: it uses those around all of them.
@@ -31,8 +36,10 @@ ALIKE = 1e-8
 # Largest misfit of the polynomial at its nodes, relative to the maximum: beyond it the sample is
 # better.
 MISFIT = 0.01
-STEP = 1e-4  # of the patch's size, between values that give its slopes
+STEP = 1e-4  # of the patch's size, between values that give its slopes and bends
 FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch's size
+# Newton's steps up the polynomial, the longest, and the one that is none, in units of the patch
+STEPS, LONGEST, NONE = 30, 0.25, 1e-10
 
 
 def maximum(
@@ -43,7 +50,9 @@ def maximum(
     `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1. Raises ValueError
     if no sample lies in it.
     """
-    return _maximum(body, nodal, quantity, window, quantity(nodal.stress))
+    rough = quantity(MaterialStress(*nodal.estimate().T, nodal.poissons_ratio))
+    (found,) = _between_nodes(body, nodal, quantity, rough, [window])
+    return found
 
 
 def maxima(
@@ -51,7 +60,7 @@ def maxima(
     nodal: NodalStress,
     quantity: Quantity,
     window: Window,
-    cells: Sequence[float],
+    cells: Sequence[float] = (),
 ) -> np.ndarray:
     """The same in each cell of x, from left to right: value, x and z (3, k + 1) [m].
 
@@ -61,49 +70,114 @@ def maxima(
     node in the window has the value 0 and no place.
     """
     x0, x1, z1 = window
-    points, values = body.points[nodal.nodes.point], quantity(nodal.stress)
+    points, nu = body.points[nodal.nodes.point], nodal.poissons_ratio
+    rough = quantity(MaterialStress(*nodal.estimate().T, nu))
     inside = np.flatnonzero(_inside(points, window))
     ends = np.clip([x0, *cells, x1], x0, x1)
-    cell = np.searchsorted(cells, points[inside, 0])
+    cell, top = np.searchsorted(cells, points[inside, 0]), np.full(len(ends) - 1, -np.inf)
+    np.maximum.at(top, cell, rough[inside])
+    high = rough[inside] >= (top - DOUBT * np.abs(top))[cell]
+    inside, cell = inside[high], cell[high]
+    order = np.lexsort((-rough[inside], cell))
+    first = np.searchsorted(cell[order], np.arange(len(ends)))
+    few = order[np.arange(len(order)) - first[cell[order]] < FEW]
+    node, cell = inside[few], cell[few]
+    value = quantity(MaterialStress(*nodal.at(node).T, nu[node]))
     found = np.full((3, len(ends) - 1), np.nan)
-    found[0], least = 0.0, NEAR * values[inside].max(initial=0.0)
+    found[0], least = 0.0, NEAR * value.max(initial=0.0)
     for k in np.unique(cell):
-        mine = inside[cell == k]
-        highest = mine[np.argmax(values[mine])]
-        found[:, k] = values[highest], *points[highest]
-        if values[highest] >= least > 0.0:
-            best = _maximum(body, nodal, quantity, (ends[k], ends[k + 1], z1), values)
-            found[:, k] = best.value, best.x, best.z
+        mine = np.flatnonzero(cell == k)
+        highest = mine[np.argmax(value[mine])]
+        found[:, k] = value[highest], *points[node[highest]]
+    near = np.flatnonzero((found[0] >= least) & (found[0] > 0.0)) if least > 0.0 else []
+    windows = [(ends[k], ends[k + 1], z1) for k in near]
+    for k, best in zip(near, _between_nodes(body, nodal, quantity, rough, windows), strict=True):
+        found[:, k] = best.value, best.x, best.z
     return found
 
 
-def _maximum(
+def _between_nodes(
+    body: ElasticBody,
+    nodal: NodalStress,
+    quantity: Quantity,
+    rough: np.ndarray,
+    windows: Sequence[Window | None],
+) -> list[Extremum]:
+    """`maximum` in each window, by the estimate of the quantity at all nodes (n,)."""
+    if not windows:
+        return []
+    triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
+
+    def sampled(elements: list[np.ndarray], count: int) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Values (r, q), -inf outside, and places (r, q, 2) in the elements (r,) of each window."""
+        at, (held, which) = (
+            _lattice(count),
+            np.unique(np.concatenate(elements), return_inverse=True),
+        )
+        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(at))
+        stress = np.moveaxis(within(body, nodal, held, at), -1, 0)
+        nu = np.broadcast_to(body.poissons_ratio[held, None], stress.shape[1:])
+        value = quantity(MaterialStress(*stress, nu))
+        ends = np.cumsum([len(each) for each in elements])[:-1]
+        return [
+            (np.where(_inside(place[mine], window), value[mine], -np.inf), place[mine])
+            for mine, window in zip(np.split(which, ends), windows, strict=True)
+        ]
+
+    promising, best = _promising(points, triangles, rough, windows), []
+    for elements, (value, _) in zip(promising, sampled(promising, COARSE), strict=True):
+        highest, lowest = (
+            value.max(axis=1),
+            value.min(axis=1, where=value > -np.inf, initial=np.inf),
+        )
+        highest_of_all = highest.max()
+        able = np.argsort(highest)[-BEST:]
+        if highest_of_all > -np.inf:
+            rise = RISE * (highest - lowest)[able]
+            able = able[~(highest[able] + rise < highest_of_all)]
+        best.append(np.sort(elements[able]))
+    fine = sampled(best, FINE)
+    on_surface = np.zeros(len(body.points), dtype=bool)
+    on_surface[body.top.point] = True
+    surface = on_surface[nodal.nodes.point]
+    return [
+        _top(body, nodal, quantity, window, points, surface, elements, *samples)
+        for window, elements, samples in zip(windows, best, fine, strict=True)
+    ]
+
+
+def _promising(
+    points: np.ndarray, triangles: np.ndarray, rough: np.ndarray, windows: Sequence[Window | None]
+) -> list[np.ndarray]:
+    """Elements that may hold the largest value in each window, all of them in one between nodes."""
+    tops = [rough[_inside(points, window)].max(initial=-np.inf) for window in windows]
+    least = min(top - DOUBT * abs(top) if top > -np.inf else -np.inf for top in tops)
+    some = np.flatnonzero((rough >= least)[triangles].any(axis=1))
+    node = triangles[some]
+    value, place, found = rough[node], points[node], []
+    for top, window in zip(tops, windows, strict=True):
+        if top == -np.inf:
+            found.append(np.arange(len(triangles)))
+            continue
+        highest = np.where(_inside(place, window), value, -np.inf).max(axis=1)
+        order = np.argsort(-highest, kind="stable")[:MANY]
+        found.append(some[order[highest[order] >= top - DOUBT * abs(top)]])
+    return found
+
+
+def _top(
     body: ElasticBody,
     nodal: NodalStress,
     quantity: Quantity,
     window: Window | None,
-    values: np.ndarray,
+    points: np.ndarray,
+    surface: np.ndarray,
+    best: np.ndarray,
+    fine: np.ndarray,
+    place: np.ndarray,
 ) -> Extremum:
-    """`maximum` by the quantity's values at all nodes (n,)."""
-    triangles, points = nodal.nodes.triangles, body.points[nodal.nodes.point]
-
-    def sampled(elements: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        at = _lattice(count)
-        place = np.einsum("mac,qa->mqc", points[triangles[elements]], shapes(at))
-        stress = np.moveaxis(within(body, nodal, elements, at), -1, 0)
-        nu = np.broadcast_to(body.poissons_ratio[elements, None], stress.shape[1:])
-        value = quantity(MaterialStress(*stress, nu))
-        return np.where(_inside(place, window), value, -np.inf), place
-
-    at_nodes = np.where(_inside(points, window), values, -np.inf)
-    highest = at_nodes[triangles].max(axis=1)
-    top = highest.max()
-    promising = np.flatnonzero(highest >= top - UNSEEN * abs(top))
-    if top == -np.inf:  # a window between the nodes
-        promising = np.arange(len(triangles))
-    coarse, _ = sampled(promising, COARSE)
-    best = np.sort(promising[np.argsort(coarse.max(axis=1))[-BEST:]])
-    fine, place = sampled(best, FINE)
+    """The largest value by samples (r, q) at places (r, q, 2) in the best elements (r,). points
+    (k, 2) are the nodes' [m], surface (k,) whether they are on it."""
     top = fine.max()
     if top == -np.inf:
         raise ValueError(f"no part of the body lies in the window {window}")
@@ -111,24 +185,19 @@ def _maximum(
     element, point = np.argwhere(high)[0]
     found = Extremum(float(fine[element, point]), *map(float, place[element, point]))
 
-    away = np.linalg.norm(place - place[element, point], axis=-1)
+    away = np.linalg.norm(place[high] - place[element, point], axis=-1)
     size = np.ptp(place[element], axis=0).max()
-    sharing = best[(high & (away < ALIKE * size)).any(axis=1)]
+    sharing = np.unique(best[np.nonzero(high)[0][away < ALIKE * size]])
     nu = body.poissons_ratio[best[element]]
-    once = _ring(triangles, triangles[sharing])
-    for around, degree in ((_ring(triangles, once), 5), (once, 3)):
-        patch = np.unique(around)
-        if np.isin(nodal.nodes.point[patch], body.top.point).any():
+    once = nodal.nodes.around(sharing)
+    for around, degree in ((nodal.nodes.around(once), 5), (once, 3)):
+        patch = np.unique(nodal.nodes.triangles[around])
+        if surface[patch].any():
             continue
-        smooth = _smooth_maximum(points[patch], nodal.values[patch], degree, nu, quantity, found)
+        smooth = _smooth_maximum(points[patch], nodal.at(patch), degree, nu, quantity, found)
         if smooth and _inside(np.array([smooth.x, smooth.z]), window):
             return smooth
     return found
-
-
-def _ring(triangles: np.ndarray, inner: np.ndarray) -> np.ndarray:
-    """Nodes (k, 6) of the triangles that touch the nodes of `inner`, these included."""
-    return triangles[np.isin(triangles, inner).any(axis=1)]
 
 
 def _lattice(count: int) -> np.ndarray:
@@ -152,7 +221,6 @@ def _smooth_maximum(
 ) -> Extremum | None:
     """Largest value of the polynomials through `stress` (k, 3) at `points`; None if they do not
     fit."""
-    from scipy.optimize import minimize, root
 
     def of(values: np.ndarray) -> np.ndarray:
         return quantity(MaterialStress(*values.T, np.full(len(values), nu)))
@@ -168,22 +236,33 @@ def _smooth_maximum(
     if np.abs(misfit).max() > MISFIT * abs(start.value):
         return None
 
-    def loss(at: np.ndarray) -> float:
-        return -float(of(_terms(at[None], degree) @ fit)[0]) / abs(start.value)
-
-    def slope(at: np.ndarray) -> np.ndarray:
-        rises = [loss(at + step) - loss(at - step) for step in STEP * np.eye(2)]
-        return np.array(rises) / (2.0 * STEP)
-
-    low, high = offset.min(axis=0), offset.max(axis=0)
-    bounds = list(zip(low, high, strict=True))
-    top = minimize(loss, np.zeros(2), jac="3-point", tol=1e-10, bounds=bounds).x
-    # rounding ends a search by values 1e-8 of the patch from the top; slopes vanish more sharply
-    top = root(slope, top).x
-    if np.any((top <= low) | (top >= high)) or np.abs(slope(top)).max() > FLAT:
+    low, high, top = offset.min(axis=0), offset.max(axis=0), np.zeros(2)
+    for _ in range(STEPS):
+        value = of(_terms(top + STEP * _STENCIL, degree) @ fit) / abs(start.value)
+        slope, bend = _derivatives(value)
+        curvature, axes = np.linalg.eigh(bend)
+        curvature = np.maximum(np.abs(curvature), FLAT)
+        step = axes @ (axes.T @ slope / curvature)  # uphill, whichever way the polynomial bends
+        step *= min(1.0, LONGEST / max(np.abs(step).max(), LONGEST))
+        if np.abs(step).max() < NONE:
+            break
+        top = np.clip(top + step, low, high)
+    if np.any((top <= low) | (top >= high)) or np.abs(slope).max() > FLAT:
         return None
     place = origin + unit * top
-    return Extremum(-loss(top) * abs(start.value), float(place[0]), float(place[1]))
+    return Extremum(value[4] * abs(start.value), float(place[0]), float(place[1]))
+
+
+_STENCIL = np.array([[i, j] for i in (-1, 0, 1) for j in (-1, 0, 1)])
+
+
+def _derivatives(value: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Slope (2,) and second derivatives (2, 2) by values (9,) on the stencil, a STEP apart."""
+    v = value.reshape(3, 3)
+    slope = np.array([v[2, 1] - v[0, 1], v[1, 2] - v[1, 0]]) / (2.0 * STEP)
+    mixed = 0.25 * (v[2, 2] - v[2, 0] - v[0, 2] + v[0, 0])
+    along = v[2, 1] + v[0, 1] - 2.0 * v[1, 1], v[1, 2] + v[1, 0] - 2.0 * v[1, 1]
+    return slope, np.array([[along[0], mixed], [mixed, along[1]]]) / STEP**2
 
 
 def _terms(at: np.ndarray, degree: int) -> np.ndarray:

@@ -18,15 +18,23 @@ The difference between recovered and element stresses estimates the error of the
 source), in the energy norm E^2 = integral (s* - s) : strain of (s* - s).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy.sparse import csr_matrix, diags
 
 from analytic.stress_state import StressState
-from fem.body.elasticity import ElasticBody
-from fem.body.triangle import GAUSS, collapsed_gauss, edge_shapes, gradients, jacobians, shapes
-from fem.stress.kinks import Kinks, Weights
+from fem.body.elasticity import MeshedBody
+from fem.body.triangle import (
+    GAUSS,
+    edge_shapes,
+    gradients,
+    reference_nodes,
+    shapes,
+)
+from fem.stress.kinks import Kinks, Weights, runs
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 from meshes.block import EDGES
 
@@ -52,8 +60,9 @@ SURFACE_WEIGHT = 4.0
 # Weight of a small curvature against the fit: decides only where samples leave it open.
 RIDGE = 1e-9
 
-# Points a line of the error's quadrature: exact for the square of a quadratic on straight elements.
-LINE_POINTS = 3
+PIECE = 2**15  # nodes, neighbours along x, whose stresses are recovered at once: memory
+ELEMENTS = 2**14  # whose stresses are averaged at once
+VERTICES = reference_nodes(1)
 
 
 @dataclass(frozen=True)
@@ -70,6 +79,19 @@ class StressNodes:
         node[self.point] = np.arange(len(self.point))
         return node[point]
 
+    @cached_property
+    def touch(self) -> csr_matrix:
+        """Which triangle touches which node that is a vertex (k, m)."""
+        node = self.triangles[:, :3].ravel()
+        triangle = np.repeat(np.arange(len(self.triangles)), 3)
+        return csr_matrix(
+            (np.ones(len(node)), (node, triangle)), (len(self.point), triangle[-1] + 1)
+        )
+
+    def around(self, inner: np.ndarray) -> np.ndarray:
+        """Triangles that touch some inner ones, these included."""
+        return np.unique(self.touch[np.unique(self.triangles[inner, :3])].indices)
+
 
 @dataclass(frozen=True)
 class MaterialStress(StressState):
@@ -78,8 +100,19 @@ class MaterialStress(StressState):
     poissons_ratio: np.ndarray
 
 
-def stress_nodes(body: ElasticBody) -> StressNodes:
-    """The mesh's points in their order; with a coating the body's first, then the coating's."""
+# Of the bodies in use: loads, friction coefficients and what lies in the gap share them.
+_NODES: WeakKeyDictionary[MeshedBody, StressNodes] = WeakKeyDictionary()
+
+
+def stress_nodes(body: MeshedBody) -> StressNodes:
+    """The mesh's points in their order; with a coating the body's first, then the coating's. Made
+    once for a body, like its `patches_of`."""
+    if body not in _NODES:
+        _NODES[body] = _stress_nodes(body)
+    return _NODES[body]
+
+
+def _stress_nodes(body: MeshedBody) -> StressNodes:
     if not body.coated.any():
         return StressNodes(np.arange(len(body.points)), body.mesh.triangles)
     count = len(body.points)
@@ -108,8 +141,38 @@ class Patches:
     def patch(self) -> np.ndarray:
         return np.repeat(np.arange(len(self.vertex)), np.diff(self.start))
 
+    def of(self, wanted: np.ndarray) -> "Patches":
+        """Those alone that give the stresses at the `wanted` (k,) of all stress nodes."""
+        edge = wanted[self.middle]
+        chosen = wanted[self.vertex]
+        chosen[self.ends[edge]] = True
+        number, beside = np.cumsum(chosen) - 1, self.beside[chosen[self.beside[:, 0]]]
+        count = np.diff(self.start)[chosen]
+        row, place = runs(count)
+        return replace(
+            self,
+            vertex=self.vertex[chosen],
+            coated=self.coated[chosen],
+            start=np.concatenate([[0], np.cumsum(count)]),
+            element=self.element[self.start[:-1][chosen][row] + place],
+            beside=np.column_stack([number[beside[:, 0]], beside[:, 1]]),
+            ends=number[self.ends[edge]],
+            middle=self.middle[edge],
+            shares=self.shares[edge],
+        )
 
-def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
+
+_PATCHES: WeakKeyDictionary[MeshedBody, Patches] = WeakKeyDictionary()
+
+
+def patches_of(body: MeshedBody, nodes: StressNodes) -> Patches:
+    """The patches of a body, made once."""
+    if body not in _PATCHES:
+        _PATCHES[body] = _all_patches(body, nodes)
+    return _PATCHES[body]
+
+
+def _all_patches(body: MeshedBody, nodes: StressNodes) -> Patches:
     vertex = np.unique(nodes.triangles[:, :3])
     position = np.zeros(len(nodes.point), dtype=np.int64)
     position[vertex] = np.arange(len(vertex))
@@ -119,7 +182,7 @@ def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
     top = position[nodes.at_surface(body.top.point[::2])]
     edge = np.arange(len(top) - 1)
     beside = np.column_stack([np.concatenate([top[:-1], top[1:]]), np.tile(edge, 2)])
-    start, element = _around(corner, len(vertex))
+    start, element = _around(nodes.touch[vertex])
     sides, outer = body.sides, np.zeros(len(body.points), dtype=bool)
     outer[np.concatenate([sides.top, sides.bottom, sides.left, sides.right])] = True
 
@@ -131,10 +194,10 @@ def patches_of(body: ElasticBody, nodes: StressNodes) -> Patches:
     return Patches(vertex, coated, start, element, beside, ends, middle, shares)
 
 
-def _around(corner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Elements around each vertex, as compressed rows: starts (count + 1,) and elements."""
-    element = np.repeat(np.arange(len(corner)), 3)
-    touch = csr_matrix((np.ones(corner.size), (corner.ravel(), element)), (count, len(corner)))
+def _around(touch: csr_matrix) -> tuple[np.ndarray, np.ndarray]:
+    """Elements around each vertex, as compressed rows: starts (count + 1,) and elements; by which
+    element touches which vertex."""
+    count = touch.shape[0]
     few = np.diff(touch.indptr) < LEAST_ELEMENTS
     around = touch[few] @ touch.T @ touch
     place = (np.flatnonzero(few), np.arange(few.sum()))
@@ -145,81 +208,137 @@ def _around(corner: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     return patch.indptr, patch.indices
 
 
-def element_stress(body: ElasticBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """sx, sz, txz (m, q, 3) [Pa] of a displacement (n, 2) at reference points (q, 2)."""
+def element_stress(body: MeshedBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (m, q, …, 3) [Pa] of a displacement (n, …, 2) at reference points (q, 2)."""
     return _stress(body, np.arange(len(body.elements)), displacement[body.elements], at)
 
 
+def averaged_stress(body: MeshedBody, displacement: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (k, …, 3) [Pa] at the `stress_nodes` of a displacement (n, …, 2) [m]: the mean of
+    the elements around them, in which stresses are taken for linear."""
+    nodes, shape = stress_nodes(body), displacement.shape[1:-1]
+    triangles, size = nodes.triangles, int(np.prod(shape)) * 3
+    total = np.zeros((len(nodes.point), size))
+    for start in range(0, len(triangles), ELEMENTS):
+        element = np.arange(start, min(start + ELEMENTS, len(triangles)))
+        corner = _stress(body, element, displacement[body.elements[element]], VERTICES)
+        stress = np.concatenate(
+            [corner, 0.5 * (corner[:, EDGES[:, 0]] + corner[:, EDGES[:, 1]])], 1
+        )
+        node = triangles[element].ravel()
+        low, high = node.min(), node.max() + 1
+        for column, value in enumerate(stress.reshape(len(node), size).T):
+            total[low:high, column] += np.bincount(node - low, value, high - low)
+    total /= np.bincount(triangles.ravel(), minlength=len(total))[:, None]
+    return total.reshape(len(total), *shape, 3)
+
+
 def recovered_stress(
-    body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad | None = None
+    body: MeshedBody, displacement: np.ndarray, load: SurfaceLoad | None = None
 ) -> np.ndarray:
     """sx, sz, txz (k, 3) [Pa] at the body's `stress_nodes` of a displacement (n, 2) [m]. `load`
     gives the tractions on the surface; None: no samples there."""
-    nodes = stress_nodes(body)
-    points, patches = body.points[nodes.point], patches_of(body, nodes)
-    sampled = SAMPLED[body.degree]
-    corner = body.points[body.mesh.triangles]
-    place = np.einsum("mac,qa->mqc", corner, shapes(sampled), optimize=True)
-    centre, patch, first = points[patches.vertex], patches.patch, patches.start[:-1]
-    offset = place[patches.element] - centre[patch][:, None]
-    count = np.diff(patches.start) * len(sampled)
-    radius = np.sqrt(np.add.reduceat((offset**2).sum(axis=(1, 2)), first) / count)
-    stress = element_stress(body, displacement, sampled)[patches.element]
-    if load is not None:
-        seen = patches.coated == body.coated.any()
-        weights = load.kinks.weights(centre, radius, seen)
-        near = _NearKinks(body, load.kinks, weights, patches, points)
-        stress -= near.samples(sampled)
+    recovery = Recovery(body, displacement, load)
+    return recovery.at(np.arange(len(recovery.known)))
 
-    terms = _terms(offset / radius[patch][:, None, None], body.degree)
-    moments = np.add.reduceat(terms.transpose(0, 2, 1) @ terms, first, axis=0)
-    sums = np.add.reduceat(terms.transpose(0, 2, 1) @ stress, first, axis=0)
-    if load is not None:
-        patch, place, stress = near.surface_samples(load, displacement)
-        terms = _terms((place - centre[patch][:, None]) / radius[patch][:, None, None], body.degree)
-        weighted = SURFACE_WEIGHT * terms.transpose(0, 2, 1)
-        np.add.at(moments, patch, weighted @ terms)
-        np.add.at(sums, patch, weighted @ stress)
-    curved = np.arange(3, terms.shape[-1])
-    moments[:, curved, curved] += RIDGE * count[:, None]
-    fit = np.linalg.solve(moments, sums)
 
-    offset = points[patches.middle][:, None] - centre[patches.ends]
-    terms = _terms(offset / radius[patches.ends][..., None], body.degree)
-    at_vertex, at_middle = fit[:, 0], np.einsum("eki,ekic->ekc", terms, fit[patches.ends])
-    if load is not None:
-        at_vertex = at_vertex + near.at(np.arange(len(centre)), patches.vertex)
-        ends, middle = patches.ends.ravel(), np.repeat(patches.middle, 2)
-        at_middle = at_middle + near.at(ends, middle).reshape(-1, 2, 3)
-    result = np.empty((len(points), 3))
-    result[patches.vertex] = at_vertex
-    result[patches.middle] = np.einsum("ek,ekc->ec", patches.shares, at_middle)
-    return result
+class Recovery:
+    """Recovered stresses at those stress nodes that are asked for, each computed once.
+
+    displacement  (n, …, 2) [m], load as for `recovered_stress`; one, or (n, c, 2) and a load of c
+                  friction coefficients: what depends on the mesh and on places is shared
+    known         (k,) at which nodes the stresses are known
+    """
+
+    def __init__(
+        self, body: MeshedBody, displacement: np.ndarray, load: SurfaceLoad | None = None
+    ) -> None:
+        self.body, self.displacement, self.load = body, displacement, load
+        self.nodes = stress_nodes(body)
+        self.known = np.zeros(len(self.nodes.point), dtype=bool)
+        self._stress = np.empty((len(self.known), *displacement.shape[1:-1], 3))
+
+    def at(self, node: np.ndarray) -> np.ndarray:
+        """sx, sz, txz (q, …, 3) [Pa] at stress nodes (q,)."""
+        new = np.unique(node[~self.known[node]])
+        if len(new) > PIECE:
+            new = new[np.argsort(self.body.points[self.nodes.point[new], 0])]
+        for piece in range(0, len(new), PIECE):
+            wanted = np.zeros(len(self.known), dtype=bool)
+            wanted[new[piece : piece + PIECE]] = True
+            self._recover(patches_of(self.body, self.nodes).of(wanted))
+        return self._stress[node]
+
+    def _recover(self, patches: Patches) -> None:
+        body, load, displacement = self.body, self.load, self.displacement
+        points, shape = body.points[self.nodes.point], self._stress.shape[1:]
+        sampled = SAMPLED[body.degree]
+        held, which = np.unique(patches.element, return_inverse=True)
+        corner = body.points[body.mesh.triangles[held]]
+        place = np.einsum("mac,qa->mqc", corner, shapes(sampled), optimize=True)
+        centre, patch, first = points[patches.vertex], patches.patch, patches.start[:-1]
+        offset = place[which] - centre[patch][:, None]
+        count = np.diff(patches.start) * len(sampled)
+        radius = np.sqrt(np.add.reduceat((offset**2).sum(axis=(1, 2)), first) / count)
+        stress = _stress(body, held, displacement[body.elements[held]], sampled)[which]
+        if load is not None:
+            seen = patches.coated == body.coated.any()
+            weights = load.kinks.weights(centre, radius, seen)
+            near = _NearKinks(body, load.kinks, weights, patches, points)
+            near.subtract_from(stress, sampled)
+
+        def product(terms: np.ndarray, stress: np.ndarray) -> np.ndarray:
+            return terms.transpose(0, 2, 1) @ stress.reshape(*terms.shape[:2], -1)
+
+        terms = _terms(offset / radius[patch][:, None, None], body.degree)
+        moments = np.add.reduceat(product(terms, terms), first, axis=0)
+        sums = np.add.reduceat(product(terms, stress), first, axis=0)
+        if load is not None and len(patches.beside):
+            patch, place, stress = near.surface_samples(load, displacement)
+            offset = place - centre[patch][:, None]
+            terms = _terms(offset / radius[patch][:, None, None], body.degree)
+            np.add.at(moments, patch, SURFACE_WEIGHT * product(terms, terms))
+            np.add.at(sums, patch, SURFACE_WEIGHT * product(terms, stress))
+        curved = np.arange(3, terms.shape[-1])
+        moments[:, curved, curved] += RIDGE * count[:, None]
+        fit = np.linalg.solve(moments, sums)
+
+        offset = points[patches.middle][:, None] - centre[patches.ends]
+        terms = _terms(offset / radius[patches.ends][..., None], body.degree)
+        at_vertex = fit[:, 0].reshape(-1, *shape)
+        at_middle = (terms[:, :, None] @ fit[patches.ends])[:, :, 0].reshape(-1, 2, *shape)
+        if load is not None:
+            at_vertex = at_vertex + near.at(np.arange(len(centre)), patches.vertex)
+            ends, middle = patches.ends.ravel(), np.repeat(patches.middle, 2)
+            at_middle = at_middle + near.at(ends, middle).reshape(at_middle.shape)
+        self._stress[patches.vertex] = at_vertex
+        self._stress[patches.middle] = np.einsum("ek,ek...->e...", patches.shares, at_middle)
+        self.known[patches.vertex] = self.known[patches.middle] = True
 
 
 @dataclass(frozen=True)
 class _NearKinks:
     """The kinks near each patch: stresses to subtract from its samples and to add to its fit."""
 
-    body: ElasticBody
+    body: MeshedBody
     kinks: Kinks
     weights: Weights
     patches: Patches
     points: np.ndarray
 
-    def samples(self, sampled: np.ndarray) -> np.ndarray:
-        """sx, sz, txz (p, q, 3) of the kinks' displacement interpolated on the elements."""
-        near = self.weights.count[self.patches.patch] > 0
+    def subtract_from(self, stress: np.ndarray, sampled: np.ndarray) -> None:
+        """Take the stress of the kinks' displacement, interpolated on the elements, off sx, sz, txz
+        (p, q, …, 3)."""
+        near = np.flatnonzero(self.weights.count[self.patches.patch])
         element = self.patches.element[near]
         moved = self._displacement(self.patches.patch[near], self.body.elements[element])
-        samples = np.zeros((len(near), len(sampled), 3))
-        samples[near] = _stress(self.body, element, moved, sampled)
-        return samples
+        stress[near] -= _stress(self.body, element, moved, sampled)
 
     def surface_samples(
         self, load: SurfaceLoad, displacement: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Patch (s,), place (s, q, 2) and stress (s, q, 3) without kinks on the surface's edges."""
+        """Patch (s,), place (s, q, 2) and stress (s, q, …, 3) without kinks on the surface's
+        edges."""
         body, (patch, edge) = self.body, self.patches.beside.T
         point = body.top.point[2 * edge[:, None] + np.arange(3)]
         node = body.surface.point[body.degree * edge[:, None] + np.arange(body.degree + 1)]
@@ -228,13 +347,14 @@ class _NearKinks:
         place = edge_shapes(at, 2) @ body.points[point]
         longer = _edge_slopes(at, 2) @ body.points[point]
         moved = displacement[node] - self._displacement(patch, node)
-        stretch = _edge_slopes(at, body.degree) @ moved
+        stretch = np.einsum("qk,sk...->sq...", _edge_slopes(at, body.degree), moved)
         number = np.arange(place[..., 0].size).reshape(place.shape[:2])
         own = self.kinks.stress(self.weights, patch, place.reshape(-1, 2), number)
 
         x = place[..., 0].ravel()
-        t = load.tangent(x).reshape(place.shape)
-        s_nn, s_nt = (s.reshape(number.shape) for s in load.across(x))
+        single = *number.shape, *(1,) * (own.ndim - 3), 2
+        t, longer = load.tangent(x).reshape(single), longer.reshape(single)
+        s_nn, s_nt = (s.reshape(own.shape[:-1]) for s in load.across(x))
         _, kinks_nn, kinks_nt = to_surface(t, own)
         s_nn, s_nt = s_nn - kinks_nn, s_nt - kinks_nt
         material = body.surface_material
@@ -244,11 +364,11 @@ class _NearKinks:
         return patch, place, from_surface(t, s_tt, s_nn, s_nt)
 
     def at(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """sx, sz, txz (r, 3) at stress nodes (r,), of the kinks near the patches (r,)."""
+        """sx, sz, txz (r, …, 3) at stress nodes (r,), of the kinks near the patches (r,)."""
         return self.kinks.stress(self.weights, patch, self.points, node[:, None])[:, 0]
 
     def _displacement(self, patch: np.ndarray, node: np.ndarray) -> np.ndarray:
-        """u_x, u_z (r, k, 2) of the kinks near each patch (r,) at nodes (r, k) of the body."""
+        """u_x, u_z (r, k, …, 2) of the kinks near each patch (r,) at nodes (r, k) of the body."""
         body, count = self.body, len(self.body.nodes)
         pair, which = np.unique(patch[:, None] * count + node, return_inverse=True)
         patch, point = np.divmod(pair, count)
@@ -264,14 +384,19 @@ def _edge_slopes(at: np.ndarray, degree: int) -> np.ndarray:
     return slope @ np.linalg.inv((power[:, None] / degree) ** power)
 
 
-def _stress(
-    body: ElasticBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray
-) -> np.ndarray:
-    """sx, sz, txz (r, q, 3) [Pa] in elements (r,) from displacements (r, k, 2) of their nodes."""
-    slope = gradients(body.points[body.mesh.triangles[element]], moved, at)
+def _stress(body: MeshedBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) from displacements (r, k, …, 2) of their
+    nodes."""
+    corner = body.points[body.mesh.triangles[element]]
+    flat = moved.reshape(*moved.shape[:2], int(np.prod(moved.shape[2:])))
+    slope = gradients(corner, flat, at, straight=not body.curved)
+    slope = slope.reshape(len(moved), len(at), *moved.shape[2:], 2)
     exx, ezz = slope[..., 0, 0], slope[..., 1, 1]
-    shear = body.shear_modulus[element, None]
-    pressure = body.lame[element, None] * (exx + ezz)
+    shear, lame = (
+        value[element].reshape(-1, *(1,) * (exx.ndim - 1))
+        for value in (body.shear_modulus, body.lame)
+    )
+    pressure = lame * (exx + ezz)
     twist = shear * (slope[..., 0, 1] + slope[..., 1, 0])
     return np.stack([pressure + 2.0 * shear * exx, pressure + 2.0 * shear * ezz, twist], axis=-1)
 
@@ -281,15 +406,3 @@ def _terms(offset: np.ndarray, degree: int) -> np.ndarray:
     x, z = offset[..., 0], offset[..., 1]
     powers = [(d - j, j) for d in range(degree + 1) for j in range(d + 1)]
     return np.stack([x**i * z**j for i, j in powers], axis=-1)
-
-
-def energy_errors(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """E (m,) [(J/m)^(1/2)] of each element, for a displacement (n, 2) [m]."""
-    at, weight = collapsed_gauss(LINE_POINTS)
-    smooth = recovered_stress(body, displacement)[stress_nodes(body).triangles]
-    error = np.einsum("mac,qa->mqc", smooth, shapes(at)) - element_stress(body, displacement, at)
-    sx, sz, txz = np.moveaxis(error, -1, 0)
-    shear, nu = body.shear_modulus[:, None], body.poissons_ratio[:, None]
-    density = ((1.0 - nu) * (sx**2 + sz**2) - 2.0 * nu * sx * sz) / (2.0 * shear) + txz**2 / shear
-    area = np.abs(np.linalg.det(jacobians(body.points[body.mesh.triangles], at)))
-    return np.sqrt((density * area) @ weight)

@@ -1,18 +1,25 @@
 """Stresses of a solved body at its nodes and at any point."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from analytic.stress_state import StressState
-from fem.body.elasticity import ElasticBody
+from fem.body.elasticity import MeshedBody
 from fem.body.surface import Direction, straight_down
 from fem.body.triangle import shapes
 from fem.stress.kinks import Kinks
-from fem.stress.recovery import MaterialStress, StressNodes, recovered_stress, stress_nodes
+from fem.stress.recovery import (
+    MaterialStress,
+    Patches,
+    Recovery,
+    StressNodes,
+    averaged_stress,
+    stress_nodes,
+)
 from fem.stress.surface_load import SurfaceLoad, from_surface, tangent_on, to_surface
 
 Beside = Callable[[np.ndarray, np.ndarray], StressState]
@@ -21,37 +28,58 @@ Beside = Callable[[np.ndarray, np.ndarray], StressState]
 @dataclass(frozen=True)
 class FurtherStress:
     """Stresses `of` x and depth [m] [Pa], along and across a `surface` z(x) [m], which the body's
-    displacement does not have."""
+    displacement does not have; c of them."""
 
     surface: CubicSpline
-    of: Beside
+    of: tuple[Beside, ...]
 
     def at(self, place: np.ndarray) -> np.ndarray:
-        """sx, sz, txz (…, 3) [Pa] at places (…, 2) [m]."""
+        """sx, sz, txz (…, c, 3) [Pa] at places (…, 2) [m]."""
         flat = place.reshape(-1, 2)
         x = flat[:, 0]
-        own = self.of(x, np.maximum(flat[:, 1] - self.surface(x), 0.0))
-        found = from_surface(tangent_on(self.surface, x), own.sx, own.sz, -own.txz)
-        return found.reshape(*place.shape[:-1], 3)
+        t, depth = tangent_on(self.surface, x), np.maximum(flat[:, 1] - self.surface(x), 0.0)
+        own = (each(x, depth) for each in self.of)
+        found = [from_surface(t, each.sx, each.sz, -each.txz) for each in own]
+        return np.stack(found, axis=1).reshape(*place.shape[:-1], len(self.of), 3)
 
 
 @dataclass(frozen=True)
 class NodalStress:
-    """Stresses at the nodes of a body, and what interpolates them."""
+    """Stresses at the nodes of a body, and what interpolates them; or c of them, which adds an axis
+    before the components.
 
-    stress: MaterialStress  # (k,) at the nodes [Pa], with Poisson's ratio there
-    nodes: StressNodes  # their mesh points, and the nodes of each triangle
-    kinks: Kinks | None = None  # of the pressure; None: stresses are quadratic in every element
-    further: FurtherStress | None = None  # that the nodes have already
+    nodes           their mesh points, and the nodes of each triangle
+    poissons_ratio  (k,) at the nodes
+    at              sx, sz, txz (q, 3) [Pa] at nodes (q,); computed where they are first asked for
+    estimate        sx, sz, txz (k, 3) [Pa] at all nodes, cheap and rough: where to ask
+    kinks           of the pressure; None: stresses are quadratic in every element
+    further         that the nodes have already
+    together        with those of other friction coefficients, and which of them this is
+    displacement    (n, c, 2) [m] that they are recovered from, where they are known together
+    """
+
+    nodes: StressNodes
+    poissons_ratio: np.ndarray
+    at: Callable[[np.ndarray], np.ndarray]
+    estimate: Callable[[], np.ndarray]
+    kinks: Kinks | None = None
+    further: FurtherStress | None = None
+    together: tuple["NodalStress", int] | None = None
+    displacement: np.ndarray | None = None
 
     @cached_property
     def values(self) -> np.ndarray:
         """sx, sz, txz (k, 3) [Pa]."""
-        return np.column_stack([self.stress.sx, self.stress.sz, self.stress.txz])
+        return self.at(np.arange(len(self.nodes.point)))
+
+    @property
+    def stress(self) -> MaterialStress:
+        """(k,) [Pa], with Poisson's ratio."""
+        return MaterialStress(*self.values.T, self.poissons_ratio)
 
 
 def nodal_stress(
-    body: ElasticBody,
+    body: MeshedBody,
     displacement: np.ndarray,
     hats: np.ndarray,
     pressure: np.ndarray,
@@ -67,49 +95,114 @@ def nodal_stress(
     (`fem.stress.recovery`). `beside` gives what the hats leave out of the stresses [Pa] of the
     pressure that they stand for, at x [m] and depths [m] below the surface.
     """
-    nodes = stress_nodes(body)
-    load = SurfaceLoad(body, hats, pressure, friction, direction)
-    values = recovered_stress(body, displacement, load)
-    top, x = nodes.at_surface(body.top.point), body.top.x
-    t = load.tangent(x)
-    s_tt, _, _ = to_surface(t, values[top])
-    values[top] = from_surface(t, s_tt, *load.across(x))
-    further = None if beside is None else FurtherStress(load.surface, beside)
-    if further is not None:
-        values += further.at(body.points[nodes.point])
-    return _nodal(body, StressState(*values.T), load.kinks, further)
+    load = SurfaceLoad(body, hats, pressure, np.array([friction]), direction)
+    return nodal_stresses(displacement[:, None], load, beside and (beside,))[0]
 
 
-def at_mesh_points(body: ElasticBody, stress: StressState) -> NodalStress:
+def nodal_stresses(
+    displacement: np.ndarray, load: SurfaceLoad, beside: Sequence[Beside] | None = None
+) -> tuple[NodalStress, ...]:
+    """`nodal_stress` for each of c friction coefficients of a load, with displacements (n, c, 2)
+    [m]: together they cost little more than one."""
+    further = beside and FurtherStress(load.surface, tuple(beside))
+    recovery, nu = _LoadedRecovery(displacement, load, further), _poissons_ratio(load.body)
+    shape = recovery.nodes, nu
+    every = NodalStress(
+        *shape,
+        recovery.at,
+        lambda: recovery.estimate,
+        load.kinks,
+        further,
+        displacement=displacement,
+    )
+
+    def of(column: int) -> NodalStress:
+        one = slice(column, column + 1)
+        return NodalStress(
+            *shape,
+            lambda node: recovery.at(node)[:, column],
+            lambda: recovery.estimate[:, column],
+            replace(load.kinks, jump=load.kinks.jump[:, column]),
+            beside and FurtherStress(load.surface, tuple(beside[one])),
+            (every, column),
+        )
+
+    return tuple(map(of, range(displacement.shape[1])))
+
+
+class _LoadedRecovery(Recovery):
+    """Recovered stresses with the load's own across the surface, and what is further."""
+
+    def __init__(
+        self, displacement: np.ndarray, load: SurfaceLoad, further: FurtherStress | None
+    ) -> None:
+        super().__init__(load.body, displacement, load)
+        self.further = further
+        top = load.body.top
+        self._x = np.full(len(self.known), np.nan)  # of the nodes on the surface
+        self._x[self.nodes.at_surface(top.point)] = top.x
+
+    @cached_property
+    def estimate(self) -> np.ndarray:
+        """Means (k, c, 3) [Pa] at the nodes of the stresses in the elements around them."""
+        return averaged_stress(self.body, self.displacement)
+
+    def _recover(self, patches: Patches) -> None:
+        super()._recover(patches)
+        node = np.concatenate([patches.vertex, patches.middle])
+        top = node[~np.isnan(self._x[node])]
+        t = self.load.tangent(self._x[top])[:, None]
+        s_tt, _, _ = to_surface(t, self._stress[top])
+        self._stress[top] = from_surface(t, s_tt, *self.load.across(self._x[top]))
+        if self.further is not None:
+            self._stress[node] += self.further.at(self.body.points[self.nodes.point[node]])
+
+
+def at_mesh_points(body: MeshedBody, stress: StressState) -> NodalStress:
     """Stresses of a plain body from those at the mesh's points (n,), quadratic between them."""
     if body.coated.any():
         raise ValueError("a coated body has two stresses at the points of its interface")
-    return _nodal(body, stress)
+    values = np.column_stack([stress.sx, stress.sz, stress.txz])
+    nodes, nu = stress_nodes(body), _poissons_ratio(body)
+    return NodalStress(nodes, nu, values.__getitem__, lambda: values)
 
 
-def evaluate(body: ElasticBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> StressState:
+def evaluate(body: MeshedBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray) -> StressState:
     """Stresses [Pa] at points x, z [m] of any shape, broadcast together; NaN outside."""
+    return evaluate_all(body, (nodal,), x, z)[0]
+
+
+def evaluate_all(
+    body: MeshedBody, nodal: Sequence[NodalStress], x: np.ndarray, z: np.ndarray
+) -> list[StressState]:
+    """Several stresses at the same points, which are looked for once; and evaluated once where
+    they are known together."""
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
-    inside = element >= 0
-    found = np.full((3, x.size), np.nan)
-    found[:, inside] = within(body, nodal, element[inside], at[inside, None])[:, 0].T
-    return StressState(*found.reshape(3, *x.shape))
+    inside, fields, known = element >= 0, [], {}
+    for each in nodal:
+        every, column = each.together or (each, ...)
+        if id(every) not in known:
+            known[id(every)] = within(body, every, element[inside], at[inside, None])[:, 0]
+        found = np.full((3, x.size), np.nan)
+        found[:, inside] = known[id(every)][:, column].T
+        fields.append(StressState(*found.reshape(3, *x.shape)))
+    return fields
 
 
-def within(
-    body: ElasticBody, nodal: NodalStress, element: np.ndarray, at: np.ndarray
-) -> np.ndarray:
-    """sx, sz, txz (r, q, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
+def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
 
     Quadratic between the nodes, plus the difference between the stress of the kinks near the
     element, and of what is further, and its quadratic interpolation.
     """
     share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
     held, which = np.unique(element, return_inverse=True)
-    value = nodal.values[nodal.nodes.triangles[held]]
+    value = nodal.at(nodal.nodes.triangles[held].ravel())
+    shape = value.shape[1:]
+    value = value.reshape(len(held), 6, *shape)
     if nodal.kinks is None:
-        return share @ value[which]
+        return np.einsum("rqa,ra...->rq...", share, value[which])
     triangles = body.mesh.triangles[held]
     corner = body.points[triangles[:, :3]]
     centre = corner.mean(axis=1)
@@ -119,22 +212,19 @@ def within(
     every = np.arange(len(held))
     value = value - nodal.kinks.stress(weights, every, body.points, triangles)
     if nodal.further is not None:
-        value -= nodal.further.at(body.points[triangles])
+        value -= nodal.further.at(body.points[triangles]).reshape(value.shape)
     place = np.einsum("rac,rqa->rqc", body.points[triangles[which]], share, optimize=True)
     number = np.arange(place.shape[0] * place.shape[1]).reshape(place.shape[:2])
-    found = share @ value[which]
+    found = (share @ value.reshape(len(held), 6, -1)[which]).reshape(*number.shape, *shape)
     found += nodal.kinks.stress(weights, which, place.reshape(-1, 2), number)
-    return found if nodal.further is None else found + nodal.further.at(place)
+    if nodal.further is not None:
+        found += nodal.further.at(place).reshape(found.shape)
+    return found
 
 
-def _nodal(
-    body: ElasticBody,
-    stress: StressState,
-    kinks: Kinks | None = None,
-    further: FurtherStress | None = None,
-) -> NodalStress:
-    """Stresses with Poisson's ratio of the material at each node."""
+def _poissons_ratio(body: MeshedBody) -> np.ndarray:
+    """Of the material at each of the body's stress nodes."""
     nodes = stress_nodes(body)
     nu = np.empty(len(nodes.point))
     nu[nodes.triangles] = body.poissons_ratio[:, None]
-    return NodalStress(MaterialStress(stress.sx, stress.sz, stress.txz, nu), nodes, kinks, further)
+    return nu

@@ -11,19 +11,20 @@ from functools import cached_property
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from fem.body.elasticity import ElasticBody
+from fem.body.elasticity import MeshedBody
 from fem.body.surface import Direction, tangent_of
 from fem.stress.kinks import Kinks
 
 
 @dataclass(frozen=True)
 class SurfaceLoad:
-    """Hat pressures on a body and the sliding traction that goes with them."""
+    """Hat pressures on a body and the sliding traction that goes with them; or several of these,
+    one a friction coefficient, which adds an axis (c,) to kinks and tractions."""
 
-    body: ElasticBody
+    body: MeshedBody
     hats: np.ndarray  # (count + 2,) [m] nodes of the hats, with the feet of the outer two
     pressure: np.ndarray  # (count,) [Pa]
-    friction: float  # times the pressure is the sliding traction towards +x
+    friction: float | np.ndarray  # (c,); times the pressure is the sliding traction towards +x
     direction: Direction  # of the pressure, as in `fem.compliance.operator`
 
     @cached_property
@@ -34,17 +35,20 @@ class SurfaceLoad:
         x, bend = self.hats[bend != 0.0], bend[bend != 0.0]
         along = self.tangent(x) @ [1.0, 1j]
         # from a force per length of x, differentiated along x, to both by length of arc
-        jump = self._force(x) @ [1.0, 1j] * bend * along.real**2
-        return Kinks(x + 1j * self.surface(x), along, 1j * jump / along)
+        per_force = 1j * bend * along.real**2 / along
+        jump = (self._force(x) @ [1.0, 1j]).T * per_force
+        return Kinks(x + 1j * self.surface(x), along, jump.T)
 
     def tangent(self, x: np.ndarray) -> np.ndarray:
         """t (k, 2) at x (k,) [m]."""
         return tangent_on(self.surface, x)
 
     def across(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """s_nn and s_nt (k,) [Pa] at x (k,) [m]."""
-        t = self.tangent(x)
-        load = (np.interp(x, self.hats, self._nodal) * t[:, 0])[:, None] * self._force(x)
+        """s_nn and s_nt (k, …) [Pa] at x (k,) [m]."""
+        t, force = self.tangent(x), self._force(x)
+        t = t.reshape(len(x), *(1,) * (force.ndim - 2), 2)
+        pressure = np.interp(x, self.hats, self._nodal).reshape(*t.shape[:-1], 1)
+        load = pressure * t[..., :1] * force
         return (load * normal(t)).sum(-1), (load * t).sum(-1)
 
     @cached_property
@@ -58,9 +62,12 @@ class SurfaceLoad:
         return CubicSpline(top.x, self.body.points[top.point, 1])
 
     def _force(self, x: np.ndarray) -> np.ndarray:
-        """Force (k, 2) per length of x under unit pressure, its sliding traction included."""
+        """Force (k, …, 2) per length of x under unit pressure, its sliding traction included."""
         along = np.stack(tangent_of(self.direction)(x), axis=-1)
-        return np.stack(self.direction(x), axis=-1) + self.friction * along
+        down = np.stack(self.direction(x), axis=-1)
+        if np.ndim(self.friction):
+            along, down = along[:, None], down[:, None]
+        return down + np.multiply.outer(self.friction, [1.0, 1.0]) * along
 
 
 def tangent_on(surface: CubicSpline, x: np.ndarray) -> np.ndarray:

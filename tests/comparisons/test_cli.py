@@ -115,6 +115,16 @@ def interrupted_import() -> ImportError:
             "crosscheck: results/a: No space left on device (set CROSSCHECK_TRACEBACK=1 for the tr",
         ),
         (
+            MemoryError("Unable to allocate 9 GB"),
+            71,
+            "crosscheck: out of memory: Unable to allocate 9 GB; allowed is a smaller scene (budg",
+        ),
+        (
+            ImportError("a.so: failed to map segment from shared object"),
+            71,
+            "crosscheck: out of memory: a.so: failed to map segment from shared object; allowed",
+        ),
+        (
             ZeroDivisionError("two\nlines"),
             70,
             "crosscheck: internal error: ZeroDivisionError: two lines in test_cli.py, line ",
@@ -207,13 +217,10 @@ def test_help_of_run_names_its_options(capsys):
 
 
 def python(code: str, **options) -> subprocess.CompletedProcess:
+    # without what MPI, used in this process, would hand on
+    options = {"env": dict(os.environ)} | options
     return subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=PROJECT,
-        env=dict(os.environ),  # without what MPI, used in this process, would hand on
-        capture_output=True,
-        text=True,
-        **options,
+        [sys.executable, "-c", code], cwd=PROJECT, capture_output=True, text=True, **options
     )
 
 
@@ -227,6 +234,15 @@ def test_help_loads_nothing_heavy(arguments):
     loaded = set(done.stderr.split())
     assert "comparisons.cli" in loaded
     assert loaded.isdisjoint(HEAVY)
+
+
+@pytest.mark.parametrize(("given", "taken"), [(None, "1"), ("7", "7")])
+def test_one_thread_unless_the_user_says_otherwise(given, taken):
+    environment = {k: v for k, v in os.environ.items() if k != "OMP_NUM_THREADS"}
+    environment |= {"OMP_NUM_THREADS": given} if given else {}
+    code = "import os, sys; from comparisons.cli import main; sys.argv = ['crosscheck', 'scenes']; "
+    done = python(f"{code} main(); print(os.environ['OMP_NUM_THREADS'])", env=environment)
+    assert done.stdout.splitlines()[-1] == taken
 
 
 def printing_to(output, arguments: list[str]) -> subprocess.CompletedProcess:
@@ -275,4 +291,71 @@ def test_a_full_disc_is_one_line():
         done = printing_to(full, ["scenes"])
     assert done.returncode == ExitStatus.CANNOT_WRITE
     assert done.stderr.count("\n") == 1
-    assert done.stderr.startswith("crosscheck: output: No space left on device")
+    assert done.stderr.startswith("crosscheck: standard output: No space left on device")
+
+
+def with_streams(redirections: str, arguments: list[str]) -> subprocess.CompletedProcess:
+    program = f'exec "$0" -m comparisons.cli "$@" {redirections}'
+    return subprocess.run(
+        ["sh", "-c", program, sys.executable, *arguments],
+        cwd=PROJECT,
+        env={name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize("redirections", ["2>/dev/full", "2>&-", "2>&- >&-", "2>/dev/full >&-"])
+@pytest.mark.parametrize(
+    ("arguments", "status"),
+    [
+        (["run", "absent.toml"], ExitStatus.BAD_INPUT),
+        (["report", "absent"], ExitStatus.BAD_INPUT),
+        (["scenes"], ExitStatus.DONE),
+    ],
+)
+def test_the_status_does_not_depend_on_who_reads_standard_error(redirections, arguments, status):
+    assert with_streams(redirections, arguments).returncode == status
+
+
+def test_what_cannot_be_told_leaves_its_status(tmp_path):
+    """Both streams full, and a plausibility warning in between."""
+    (tmp_path / "large.toml").write_text(SMALL.replace("0.01", "80"))
+    given = ["run", str(tmp_path / "large.toml"), "--models", "half-plane", "--out"]
+    done = with_streams("2>/dev/full", [*given, str(tmp_path / "out")])
+    assert (done.returncode, done.stderr) == (ExitStatus.DONE, "")
+    assert "peak pressure" in done.stdout
+    done = with_streams(">/dev/full 2>/dev/full", [*given, str(tmp_path / "out")])
+    assert done.returncode == ExitStatus.CANNOT_WRITE
+
+
+def test_too_little_address_space_is_no_missing_library(tmp_path):
+    arguments = ["run", "smooth", "--out", str(tmp_path / "out")]
+    code = (
+        "import resource, sys; limit = 3 * 10**8\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (limit, limit))\n"
+        f"from comparisons.cli import main; sys.exit(main({arguments!r}))"
+    )
+    done = python(code, check=False)
+    assert done.returncode == ExitStatus.OUT_OF_MEMORY
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("crosscheck: out of memory: ")
+    assert "0.3 GB of address space (ulimit -v)" in line
+
+
+def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):
+    monkeypatch.setattr("comparisons.commands.output.SILENCE", 60.0)
+    clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
+    monkeypatch.setattr("comparisons.commands.output.monotonic", lambda: next(clock))
+
+    def slow(scene, out, models, callback, fields):
+        for stage in ("first", "second", "third", "fourth"):
+            callback(stage)
+        return types.SimpleNamespace(result={}, exit_status=ExitStatus.DONE, directory=out)
+
+    monkeypatch.setattr(solver, "run", slow)
+    assert main(["run", "smooth"]) == 0
+    out, err = capsys.readouterr()
+    assert out == "peak pressure agree\n"
+    assert err == "crosscheck: after 61 s: second\ncrosscheck: after 125 s: fourth\n"

@@ -40,3 +40,9 @@ def test_blocks_too_large_to_build_are_estimated():
 def test_impossible_block_is_refused():
     with pytest.raises(MeshError, match="depth"):
         estimate_unknowns(spec(1.0, -1.0, [[-0.5, 0.5]], 0.1))
+
+
+def test_what_is_beyond_counting_is_refused():
+    """Each halving of the boxes doubles them: it would take all memory."""
+    with pytest.raises(MeshError, match=r"elements of 1e-12 m in a body of 1 m are too many"):
+        estimate_unknowns(spec(1.0, 1.0, [[-0.5, 0.5]], 1e-12))

@@ -44,6 +44,17 @@ def test_each_failure_is_one_clear_error(monkeypatch, code, words):
     assert "\n" not in str(caught.value)
 
 
+def test_the_time_of_a_mesh_is_known_while_its_process_waits():
+    """Then the system does not count it yet."""
+    build.close_workers()
+    build.build_block(SPEC)
+    once = build.mesh_seconds()
+    build.build_block(SPEC)
+    assert 0.0 < once < build.mesh_seconds()
+    build.close_workers()
+    assert build.mesh_seconds() == 0.0
+
+
 def test_time_out_stops_the_process(monkeypatch):
     started = []
 
@@ -115,6 +126,54 @@ def test_a_hole_in_the_mesh_is_refused(monkeypatch):
         build.build_block(SPEC)
 
 
+def process_id():
+    (waiting,) = build.idle
+    return waiting.process.pid
+
+
+def test_one_process_makes_all_meshes_alike():
+    build.close_workers()
+    first = build.build_block(SPEC)
+    served = process_id()
+    other = build.build_block(replace(SPEC, depth=30.0))
+    again = build.build_block(SPEC)
+    assert process_id() == served
+    assert len(other.points) != len(first.points)
+    np.testing.assert_array_equal(again.points, first.points)
+    np.testing.assert_array_equal(again.triangles, first.triangles)
+
+
+def test_another_process_follows_one_that_failed_or_was_killed(monkeypatch):
+    first = build.build_block(SPEC)
+    served = process_id()
+    with monkeypatch.context() as patch:
+        outline_changed(patch, lambda given: replace(given, regions=((1, 2, 3),)))
+        with pytest.raises(MeshError):
+            build.build_block(SPEC)
+    assert not build.idle
+    build.build_block(SPEC)
+    assert process_id() != served
+    os.kill(process_id(), signal.SIGKILL)
+    build.idle[0].process.wait()
+    np.testing.assert_array_equal(build.build_block(SPEC).points, first.points)
+
+
+def test_a_forked_process_starts_its_own():
+    build.build_block(SPEC)
+    served = process_id()
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            build.build_block(SPEC)
+            status = int(process_id() == served)
+        finally:
+            os._exit(status)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    build.build_block(SPEC)
+    assert process_id() == served
+
+
 def test_launchers_of_parallel_runs_are_hidden_from_gmsh(monkeypatch):
     monkeypatch.setenv("OMPI_COMM_WORLD_SIZE", "4")
     monkeypatch.setenv("PMIX_RANK", "1")
@@ -165,13 +224,14 @@ def test_no_orphan_is_left_however_the_caller_ends(how):
         # Its own command line shows that the child runs gmsh by now and not the caller's copy.
         while b"gmsh_worker" not in Path(f"/proc/{gmsh}/cmdline").read_bytes():
             time.sleep(0.02)
-        while "libgmsh" not in Path(f"/proc/{gmsh}/maps").read_text():
+        while not (found := children(gmsh)):
             time.sleep(0.02)
+        (mesher,) = found
         os.kill(caller.pid, how)
         caller.wait(timeout=10.0)
-        while alive(gmsh) and time.monotonic() < deadline:
+        while (alive(gmsh) or alive(mesher)) and time.monotonic() < deadline:
             time.sleep(0.02)
-        assert not alive(gmsh)
+        assert not alive(gmsh) and not alive(mesher)
     finally:
         caller.kill()
         caller.wait()

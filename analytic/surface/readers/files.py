@@ -1,31 +1,47 @@
 """Measured profiles from any file: text, SDF, or what an instrument wrote.
 
-Text of one or two columns is a profile (`columns`). Everything else is a topography: surface data
-files (`topography`), and what SurfaceTopography knows (`instruments`), among it text with more than
-two columns whose header gives the map's size and unit.
+Text of columns, spreadsheets and arrays are tables, of which one or two columns are a profile
+(`columns`). Everything else is a topography: surface data files (`topography`), PRF, and what
+SurfaceTopography knows (`instruments`), among it text that is no profile and whose header gives the
+map's size and unit. Any of them may be packed as gz.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import gzip
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
 
 from analytic.profile import MAX_SAMPLES, Profile
-from analytic.surface.readers.columns import MIN_SAMPLES, bridge, read_profile
+from analytic.surface.readers.arrays import is_arrays, read_arrays
+from analytic.surface.readers.columns import (
+    MIN_SAMPLES,
+    bridge,
+    fill_gaps,
+    longest_bridge,
+    most_bytes,
+    profile_in,
+)
 from analytic.surface.readers.instruments import (
     AbsentReaderError,
     install_command,
     read_instrument_file,
 )
-from analytic.surface.readers.text import (
+from analytic.surface.readers.prf import is_prf, read_prf
+from analytic.surface.readers.source import (
+    GZIP,
+    MAX_BYTES,
     NOT_TEXT,
-    ColumnsError,
+    NotRowsError,
     NotTextError,
     ProfileError,
     regular_file,
     unreadable,
 )
+from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_columns, read_table
 from analytic.surface.readers.topography import (
     MapLine,
     Topography,
@@ -36,7 +52,6 @@ from analytic.surface.readers.topography import (
 )
 
 HEAD = 4096  # bytes by which text is recognised
-MAX_BYTES = 2**31  # of a topography
 SAME_UNIT = 1e-9  # relative
 
 
@@ -48,6 +63,7 @@ class MeasuredProfile:
     place      which line of which map, None for a line scan
     bridged    dropouts put on the straight line between their neighbours
     trimmed    dropouts left out at the ends of the trace
+    stretch    [m] from where to where the longest bridge goes, None without any
     """
 
     profile: Profile
@@ -55,6 +71,7 @@ class MeasuredProfile:
     place: str | None
     bridged: int
     trimmed: int
+    stretch: tuple[float, float] | None = None
 
 
 class MissingUnitError(ProfileError):
@@ -65,8 +82,85 @@ class MissingUnitError(ProfileError):
         super().__init__(path, message)
 
 
+def open_measured(
+    path: str | Path,
+    *,
+    columns: Sequence[str | int] | None = None,
+    channel: str | None = None,
+    one_column: bool = False,
+    max_samples: int = MAX_SAMPLES,
+) -> ProfileTable | Topography:
+    """What a file holds: a table of one or two columns, or a topography.
+
+    columns     as `analytic.surface.readers.text.chosen_columns` has them
+    channel     of a file with several, by its name (of xlsx a sheet); None is the first, or what
+                the file says
+    one_column  as `read_table` has it
+    Raises ColumnsError where columns are to be chosen, ProfileError for a file that nothing reads.
+    """
+    path = Path(path)
+    head = _head(path)
+    if is_arrays(path, head):
+        return read_arrays(path, MAX_BYTES, columns, channel)
+    if is_sdf(head) or is_prf(head):
+        _refuse(path, columns, channel)
+        return (read_sdf if is_sdf(head) else read_prf)(path)
+    wide = head[:2] in (b"\xff\xfe", b"\xfe\xff")
+    if NOT_TEXT.search(head.decode("latin-1")) and not wide:
+        return _by_library(path, columns, channel)
+    if channel is not None:
+        return _by_library(path, columns, channel)
+    try:
+        return read_table(path, most_bytes(max_samples), one_column, columns)
+    except NotTextError:
+        return _by_library(path, columns, channel)
+    except NotRowsError as error:
+        if columns is not None:
+            raise
+        return _map_in_text(path, error)
+
+
+def _refuse(path: Path, columns: object, channel: object) -> None:
+    for name, given in (("columns", columns), ("channel", channel)):
+        if given is not None:
+            raise ProfileError(path, f"is one profile or map; allowed is to leave out {name}")
+
+
+def _by_library(
+    path: Path, columns: Sequence[str | int] | None, channel: str | None
+) -> ProfileTable | Topography:
+    if (size := regular_file(path)) > MAX_BYTES:
+        message = f"is too large, {size / 1e9:.3g} GB; allowed are {MAX_BYTES / 1e9:.3g} GB"
+        raise ProfileError(path, message)
+    found = read_instrument_file(path, channel)
+    if isinstance(found, ProfileTable):
+        return chosen_columns(found, columns)
+    _refuse(path, columns, None)
+    return found
+
+
 def read_measured(
     path: str | Path,
+    *,
+    columns: Sequence[str | int] | None = None,
+    channel: str | None = None,
+    spacing: float | None = None,
+    max_samples: int = MAX_SAMPLES,
+    **how: object,
+) -> MeasuredProfile:
+    """The profile in a file: `open_measured`, then `profile_of`, which has the other arguments."""
+    opened = open_measured(
+        path,
+        columns=columns,
+        channel=channel,
+        one_column=spacing is not None,
+        max_samples=max_samples,
+    )
+    return profile_of(opened, spacing=spacing, max_samples=max_samples, **how)
+
+
+def profile_of(
+    opened: ProfileTable | Topography,
     *,
     x_scale: float | None = None,
     height_scale: float | None = None,
@@ -75,67 +169,70 @@ def read_measured(
     chosen: MapLine | None = None,
     max_samples: int = MAX_SAMPLES,
 ) -> MeasuredProfile:
-    """The profile in a file.
+    """The profile in what a file holds.
 
-    x_scale, height_scale  m per unit of the file; text needs the second, a file that names its
+    x_scale, height_scale  m per unit of the file; a table needs the second, a file that names its
                unit neither, and where they are given nevertheless they must agree with it
-    spacing    [m] of samples: of text with heights alone, and of a file without a size
-    dropouts   "refuse" or "bridge", as `read_profile` has it
+    spacing    [m] of samples: of a table of heights alone, and of a file without a size
+    dropouts   "refuse" or "bridge", as `profile_in` has it
     chosen     the line of a map; needed for a map, wrong for anything else
     Raises MissingUnitError for what else is needed, ProfileError for a file that cannot be used.
     """
-    path = Path(path)
-    head = _head(path)
-    rest = (path, x_scale, height_scale, spacing, dropouts, chosen)
-    if is_sdf(head):
-        return _from_topography(read_sdf, *rest)
-    if NOT_TEXT.search(head.decode("latin-1")) and head[:2] not in (b"\xff\xfe", b"\xfe\xff"):
-        return _from_topography(read_instrument_file, *rest)
-    try:
-        read = read_profile(
-            path,
-            x_scale=x_scale or 1.0,
-            height_scale=height_scale or 1.0,
-            spacing=spacing,
-            dropouts=dropouts,
-            max_samples=max_samples,
-        )
-    except NotTextError:
-        return _from_topography(read_instrument_file, *rest)
-    except ColumnsError as error:
-        return _from_topography(_map_in_text(error), *rest)
+    if isinstance(opened, Topography):
+        return _from_topography(opened, x_scale, height_scale, spacing, dropouts, chosen)
+    read = profile_in(
+        opened,
+        x_scale=x_scale or 1.0,
+        height_scale=height_scale or 1.0,
+        spacing=spacing,
+        dropouts=dropouts,
+        max_samples=max_samples,
+    )
+    path = opened.path
     refuse_line(path, chosen)
-    _check_given(path, x_scale or spacing, height_scale, "is text, which names no unit")
-    return MeasuredProfile(read.profile, "text", None, read.bridged, read.trimmed)
+    because = f"is {opened.format}, from whose header no unit is taken"
+    _check_given(path, x_scale or spacing, height_scale, because)
+    return MeasuredProfile(
+        profile=read.profile,
+        format=opened.format,
+        place=None,
+        bridged=read.bridged,
+        trimmed=read.trimmed,
+        stretch=read.stretch,
+    )
 
 
 def _head(path: Path) -> bytes:
     regular_file(path)
     try:
         with path.open("rb") as file:
-            return file.read(HEAD)
+            head = file.read(HEAD)
+        if head.startswith(GZIP):
+            with gzip.open(path) as file:
+                return file.read(HEAD)
+        return head
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ProfileError(path, f"is a damaged gz file ({error})") from error
     except OSError as error:
         raise unreadable(path, error) from error
 
 
-def _map_in_text(columns: ColumnsError) -> Callable[[Path], Topography]:
-    """Reader of a matrix of heights; what the other readers do not know stays a wrong profile."""
-
-    def read(path: Path) -> Topography:
-        try:
-            topography = read_instrument_file(path)
-        except AbsentReaderError:
-            hint = "a map with its size and unit in its header is read by SurfaceTopography"
-            raise ProfileError(
-                path, f"{columns.message}; {hint}, to install it: {install_command()}", columns.line
-            ) from None
-        except ProfileError:
-            raise columns from None
-        if topography.unit is None or topography.pitch is None:
-            raise columns
-        return topography
-
-    return read
+def _map_in_text(path: Path, refusal: ProfileError) -> Topography:
+    """What SurfaceTopography reads of text that is no profile, with its size and unit; what it does
+    not know stays a wrong profile."""
+    try:
+        topography = read_instrument_file(path)
+    except AbsentReaderError:
+        if not isinstance(refusal, ColumnsError):
+            raise refusal from None
+        hint = "a map with its size and unit in its header is read by SurfaceTopography"
+        refusal.args = (f"{refusal}; {hint}, to install it: {install_command()}",)
+        raise refusal from None
+    except ProfileError:
+        raise refusal from None
+    if topography.unit is None or (topography.pitch is None and topography.x is None):
+        raise refusal
+    return topography
 
 
 def _check_given(path: Path, x: float | None, height: float | None, because: str) -> None:
@@ -145,18 +242,16 @@ def _check_given(path: Path, x: float | None, height: float | None, because: str
 
 
 def _from_topography(
-    reader: Callable[[Path], Topography],
-    path: Path,
+    found: Topography,
     x_scale: float | None,
     height_scale: float | None,
     spacing: float | None,
     dropouts: str,
     chosen: MapLine | None,
 ) -> MeasuredProfile:
-    if (size := regular_file(path)) > MAX_BYTES:
-        message = f"is too large, {size / 1e9:.3g} GB; allowed are {MAX_BYTES / 1e9:.3g} GB"
-        raise ProfileError(path, message)
-    found = _in_metres(reader(path), x_scale, height_scale, spacing)
+    path = found.path
+    _check_size(found)
+    found = _in_metres(found, x_scale, height_scale, spacing)
     x, height = trace_of(found, chosen)
     lost = np.isnan(height)
     if dropouts == "refuse" and np.any(lost):
@@ -181,13 +276,27 @@ def _from_topography(
         profile = Profile(x, height)
     except ValueError as error:
         raise ProfileError(path, f"holds no profile: {error}") from error
+    x, height, filled = fill_gaps(path, profile.x, profile.height, dropouts, MAX_SAMPLES)
+    bridged = filled.copy()
+    bridged[~filled] = lost[inside]
     return MeasuredProfile(
-        profile=profile,
+        profile=Profile(x, height),
         format=found.format,
         place=f"{chosen} of {found.size()}" if chosen else None,
-        bridged=int(np.count_nonzero(lost[inside])),
+        bridged=int(np.count_nonzero(bridged)),
         trimmed=len(lost) - len(inside),
+        stretch=longest_bridge(x, bridged),
     )
+
+
+def _check_size(found: Topography) -> None:
+    """Refuse a map without samples, or whose samples are no distance apart."""
+    if found.heights.size == 0:
+        shape = " by ".join(map(str, found.heights.shape))
+        raise ProfileError(found.path, f"is a damaged file: it holds {shape} heights")
+    if found.pitch is not None and not all(isfinite(step) and step > 0.0 for step in found.pitch):
+        steps = " and ".join(f"{step:g}" for step in found.pitch)
+        raise ProfileError(found.path, f"is a damaged file: its samples are {steps} apart")
 
 
 def _in_metres(
@@ -216,4 +325,4 @@ def _in_metres(
             x = None if x is None else x * x_scale
     if not sized:
         pitch = (spacing, spacing)
-    return Topography(path, heights, pitch, x, 1.0, found.format)
+    return replace(found, heights=heights, pitch=pitch, x=x, unit=1.0)

@@ -12,15 +12,21 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 
-from analytic.surface.readers.text import ProfileError, shown
+from analytic.surface.readers.source import GZIP, MAX_BYTES, ProfileError, contents, shown
+from analytic.surface.readers.text import ProfileTable
 from analytic.surface.readers.topography import Topography
 
+# Names the interpreter of an environment with a newer SurfaceTopography, which knows more formats
+# and works with no numpy that Debian 12's dolfinx takes.
+OTHER_PYTHON = "CROSSCHECK_SURFACE_PYTHON"
 # By its path, and without the working folder's modules (-P).
-WORKER = (sys.executable, "-P", str(Path(__file__).with_name("instrument_worker.py")))
+WORKER = ("-P", str(Path(__file__).with_name("instrument_worker.py")))
 PATIENCE = 300.0  # s; the largest maps take ten
+MOST_UNPACKED = 2**29  # bytes: 67 million heights as doubles
 ROOT = Path(__file__).resolve().parents[3]
 
 
@@ -37,15 +43,22 @@ def install_command() -> str:
     return shlex.join([sys.executable, "-m", "pip", "install", *held, *what])
 
 
-def read_instrument_file(path: Path) -> Topography:
-    """The default channel of a file that SurfaceTopography knows.
+def read_instrument_file(path: Path, channel: str | None = None) -> Topography | ProfileTable:
+    """The default channel of a file that SurfaceTopography knows, or another; a table of xlsx.
 
     Raises ProfileError, one line, where the library is absent (with the way to get it), does not
     know the file, or fails on it.
     """
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "heights.npz"
-        answer = _ask(path, target)
+        source = path
+        with path.open("rb") as file:
+            packed = file.read(len(GZIP)) == GZIP
+        if packed:
+            source = Path(folder) / path.stem
+            source.write_bytes(contents(path, MAX_BYTES))
+        check_unpacked(source)
+        answer = _ask(source, target, channel)
         if "absent" in answer:
             raise AbsentReaderError(
                 path,
@@ -55,8 +68,12 @@ def read_instrument_file(path: Path) -> Topography:
         if "problem" in answer:
             raise ProfileError(path, answer["problem"])
         with np.load(target) as arrays:
+            if "table" in arrays.files:
+                return _table(path, arrays["table"], int(arrays["first"]), answer)
             heights = arrays["heights"]
             x = arrays["x"] if "x" in arrays.files else None
+    if heights.size == 0:
+        raise ProfileError(path, "holds no heights")
     if answer["unit"] is None and answer["unit_name"]:
         name = shown(answer["unit_name"])
         raise ProfileError(path, f"counts in {name}, which is no length; a profile has heights")
@@ -70,16 +87,48 @@ def read_instrument_file(path: Path) -> Topography:
         x=None if x is None else x * factor,
         unit=unit,
         format=f"{answer['format']}, by SurfaceTopography {answer['version']}",
+        channels=tuple(answer.get("channels", ())),
+        channel=answer.get("channel"),
     )
 
 
-def _ask(path: Path, target: Path) -> dict:
+def check_unpacked(path: Path) -> None:
+    """Raise ProfileError for an archive, as an X3P is one, that unpacks to more than MOST_UNPACKED:
+    of zeros, 2 MB hold 2 GB."""
+    try:
+        with ZipFile(path) as archive:
+            size = sum(member.file_size for member in archive.infolist())
+    except (BadZipFile, OSError, ValueError, NotImplementedError):
+        return  # none, or one that is damaged or of another kind of ZIP, which its reader tells
+    if size > MOST_UNPACKED:
+        message = f"unpacks to {size / 1e9:.3g} GB; allowed are {MOST_UNPACKED / 1e9:.3g} GB"
+        raise ProfileError(path, message)
+
+
+def _table(path: Path, numbers: np.ndarray, first: int, answer: dict) -> ProfileTable:
+    """The rows of a spreadsheet, of which row `first` is the first."""
+    return ProfileTable(
+        path=path,
+        numbers=numbers,
+        text=range(len(numbers)),
+        lines=np.arange(first, first + len(numbers)),
+        names=tuple(answer["names"]) if all(answer["names"]) else (),
+        head=tuple(answer["head"]),
+        format=answer["format"],
+    )
+
+
+def _ask(path: Path, target: Path, channel: str | None) -> dict:
     """What the worker says of a file, {"problem": one line} if it fails; arrays are in `target`."""
     paths = [str(ROOT), *filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(paths), "OMP_NUM_THREADS": "1"}
+    python = os.environ.get(OTHER_PYTHON) or sys.executable
+    if python != sys.executable:
+        del environment["PYTHONPATH"]
+    arguments = [str(path.resolve()), str(target), *([] if channel is None else [channel])]
     try:
         done = subprocess.run(
-            [*WORKER, str(path.resolve()), str(target)],
+            [python, *WORKER, *arguments],
             capture_output=True,
             stdin=subprocess.DEVNULL,
             text=True,
@@ -87,6 +136,8 @@ def _ask(path: Path, target: Path) -> dict:
             env=environment,
             timeout=PATIENCE,
         )
+    except OSError as error:
+        return {"problem": f"{OTHER_PYTHON} is {python}, which cannot be run ({error.strerror})"}
     except subprocess.TimeoutExpired:
         return {"problem": f"SurfaceTopography has not read it within {PATIENCE:g} s"}
     if done.returncode != 0:

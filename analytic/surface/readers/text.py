@@ -7,7 +7,8 @@ quotes     "1,5" in quotes is a number with a decimal comma, and comes out as 1.
 comments   a line that starts with # % ; or //, and what follows a blank and # % or //. Not a
            comment: `#N/A` and its like, which are dropouts, and `;` with only a number behind
            it, which is a row that lost its x
-header     text lines before the first row; they do not start with a number
+header     text lines before the first row; they do not start with a number. After them may stand,
+           alone on its line, how many rows of two columns or more follow
 rows       all other lines. Beside two columns a blank line means nothing; in the middle of a
            single column it is a lost height
 separator  semicolon if at least half of the rows hold one; else tab likewise; else blanks if at
@@ -24,90 +25,18 @@ dropouts   an empty cell, a number that is not finite, only asterisks, hyphens o
 
 import re
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-QUOTED = re.compile(r'"([^"\n]*)"')
-OTHER_BLANKS = re.compile(r"[^\S\n\t ]")  # form feed, no-break blank and the like
-NOT_TEXT = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
-
-
-class ProfileError(ValueError):
-    """A profile file that cannot be used. One line: file, line, what is wrong, what is allowed."""
-
-    def __init__(self, path: object, message: str, line: int | None = None) -> None:
-        self.message, self.line = message, line
-        place = str(path) if str(path).isprintable() else repr(str(path))
-        super().__init__(f"{place}{f', line {line}' if line else ''}: {message}")
-
-
-class NotTextError(ProfileError):
-    """The file is not text; another reader may know it."""
-
-
-def regular_file(path: Path) -> int:
-    """Size [bytes] of the file at `path`; ProfileError unless there is one that can be read."""
-    try:
-        if path.exists() and not path.is_file():  # a pipe would block
-            kind = "a directory" if path.is_dir() else "no regular file"
-            raise ProfileError(path, f"is {kind}; a profile is a text file")
-        return path.stat().st_size
-    except FileNotFoundError:
-        raise ProfileError(path, "there is no such file") from None
-    except ProfileError:
-        raise
-    except (OSError, ValueError) as error:  # ValueError: a null character in the path
-        raise unreadable(path, error) from error
-
-
-def unreadable(path: Path, error: Exception) -> ProfileError:
-    """The error to raise where the system does not let a file be read."""
-    reason = getattr(error, "strerror", None) or str(error)
-    return ProfileError(path, f"cannot be read ({reason})")
-
-
-def read_lines(path: Path, max_bytes: int) -> list[str]:
-    """The file's lines without their ends; it may have `max_bytes` at most."""
-    if regular_file(path) > max_bytes:
-        raise ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        raise unreadable(path, error) from error
-    text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
-    if not text.strip():
-        raise ProfileError(path, "is empty; a profile has lines of numbers")
-    binary = NOT_TEXT.search(text)
-    if binary:
-        line = text.count("\n", 0, binary.start()) + 1
-        code = f"byte {ord(binary[0]):#04x}"
-        raise NotTextError(path, f"is not text ({code}); export the profile as text or CSV", line)
-    text = OTHER_BLANKS.sub(" ", text.replace("\u2212", "-"))  # the typographer's minus sign
-    if '"' in text:
-        text = QUOTED.sub(lambda cell: cell[1].replace(",", "."), text)
-    return text.split("\n")
-
-
-def _decoded(path: Path, raw: bytes) -> str:
-    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        try:
-            return raw.decode("utf-16")
-        except UnicodeDecodeError:
-            message = "is not text (broken UTF-16); export the profile as text or CSV"
-            raise NotTextError(path, message) from None
-    try:
-        return raw.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return raw.decode("latin-1")
-
-
-def shown(text: str) -> str:
-    """Text from a file, quoted, on one line and not too long."""
-    text = text.strip()
-    return repr(text if len(text) <= 40 else text[:37] + "...")
-
+from analytic.surface.readers.source import (
+    NotRowsError,
+    ProfileError,
+    read_lines,
+    shown,
+)
 
 NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eEdD][+-]?\d+)?", re.ASCII)
 ONE_COMMA = re.compile(r"[+-]?\d*,?\d*([eEdD][+-]?\d+)?", re.ASCII)
@@ -131,27 +60,29 @@ DECIMAL_COMMAS = (
 )
 
 
-class ColumnsError(ProfileError):
-    """Most rows have more than two columns; another reader may know the file as a map."""
-
-
 @dataclass(frozen=True)
 class ProfileTable:
     """The rows of a file.
 
-    numbers    (rows, columns), 1 or 2 columns, NaN for a dropout
+    numbers    (rows, columns), NaN for a dropout
     text       each row as it stands in the file, without comments
     lines      each row's line number in the file, from 1
     separator  ";", tab, " " (any run of blanks), "," or "" for a single column
     decimal    "." or ","
+    names      of the columns, as the file has them, or () where it has none
+    head       the lines above the rows
+    format     of the file, in words
     """
 
     path: Path
     numbers: np.ndarray
-    text: list[str]
+    text: Sequence[str]
     lines: np.ndarray
-    separator: str
-    decimal: str
+    separator: str = ""
+    decimal: str = "."
+    names: tuple[str, ...] = ()
+    head: tuple[str, ...] = ()
+    format: str = "text"
 
     def error(self, row: int, message: str) -> ProfileError:
         """The error to raise about one row."""
@@ -162,29 +93,92 @@ class ProfileTable:
         return self.separator == "," and not any("." in row for row in self.text)
 
 
-def read_table(path: Path, max_bytes: int, one_column: bool) -> ProfileTable:
+MOST_ROWS = 0.9  # have one width in a table; a text with fewer is something else
+
+
+class ColumnsError(NotRowsError):
+    """There are more than two columns in `table`, and none of them were chosen."""
+
+    def __init__(self, table: ProfileTable) -> None:
+        self.table = table
+        width = table.numbers.shape[1]
+        message = f"{width} columns; a profile has two (x, height) or one (height), and columns "
+        message += f"chooses them: by numbers from 0 to {width - 1}"
+        if table.names:
+            message += f", or by names, of {', '.join(map(shown, table.names))}"
+        if table.commas_may_be_decimal():
+            message += f"; {DECIMAL_COMMAS}"
+        super().__init__(table.path, message, int(table.lines[0]))
+
+
+def chosen_columns(table: ProfileTable, columns: Sequence[str | int] | None) -> ProfileTable:
+    """The table with the chosen columns alone; ProfileError where there is none such.
+
+    columns   one or two numbers, counted from 0, or names; None where there are no others
+    """
+    width = table.numbers.shape[1]
+    if columns is None:
+        if width > 2:
+            raise ColumnsError(table)
+        return table
+    picks = [_pick(table, wanted, width) for wanted in columns]
+    names = tuple(table.names[pick] for pick in picks) if table.names else ()
+    return replace(table, numbers=table.numbers[:, picks], names=names)
+
+
+def _pick(table: ProfileTable, wanted: str | int, width: int) -> int:
+    if isinstance(wanted, int):
+        if wanted < width:
+            return wanted
+        allowed = f"numbers from 0 to {width - 1}"
+    else:
+        if table.names.count(wanted) == 1:
+            return table.names.index(wanted)
+        allowed = ", ".join(map(shown, table.names)) or f"numbers from 0 to {width - 1}, no names"
+    what = shown(wanted) if isinstance(wanted, str) else wanted
+    raise ProfileError(table.path, f"has no column {what}; allowed is {allowed}")
+
+
+def read_table(
+    path: Path, max_bytes: int, one_column: bool, columns: Sequence[str | int] | None = None
+) -> ProfileTable:
     """The rows of the file at `path`, which may have `max_bytes` at most.
 
     one_column   what the caller announces; it decides only how rows like `1,5` are read
+    columns      as `chosen_columns` has them; others may hold anything
     Raises ProfileError at the first row that is not a row of numbers and dropouts.
     """
     file_lines = read_lines(path, max_bytes)
     first = _first_row(path, file_lines)
     rows, lines = _rows(file_lines, first)
+    if _is_count(rows):
+        rows, lines, first = rows[1:], lines[1:], first + 1
     filled = [i for i, row in enumerate(rows) if row.strip(NOTHING)]
     some_blank = len(filled) < len(rows)
     text = [rows[i] for i in filled] if some_blank else rows
     separator, decimal = _dialect(path, int(lines[0]), text, one_column)
+    head = tuple(file_lines[:first])
+    table = ProfileTable(path, np.empty((0, 0)), text, lines[filled], separator, decimal, (), head)
     numbers = _fast_numbers(text, separator, decimal)
     if numbers is None:
-        table = ProfileTable(path, np.empty((0, 0)), text, lines[filled], separator, decimal)
-        numbers = _careful_numbers(table)
+        numbers = _careful_numbers(table, columns)
     numbers = np.where(np.isfinite(numbers), numbers, np.nan)
     if some_blank and numbers.shape[1] == 1:
         every = np.full((len(rows), 1), np.nan)
         every[filled] = numbers
-        return ProfileTable(path, every, rows, lines, separator, decimal)
-    return ProfileTable(path, numbers, text, lines[filled], separator, decimal)
+        return replace(table, numbers=every, text=rows, lines=lines)
+    table = replace(table, numbers=numbers, names=_names(table, numbers.shape[1]))
+    return chosen_columns(table, columns)
+
+
+def _names(table: ProfileTable, width: int) -> tuple[str, ...]:
+    """Names of columns by the last line above the rows, () where these are not as many."""
+    for line in reversed(table.head):
+        if bare := line.strip(" \t#%/"):
+            (cells,) = _split([bare], table.separator)
+            names = tuple(cell.strip() for cell in cells)
+            return names if len(names) == width and all(names) else ()
+    return ()
 
 
 def _first_row(path: Path, lines: list[str]) -> int:
@@ -201,7 +195,7 @@ def _first_row(path: Path, lines: list[str]) -> int:
             return index
         header.append(bare.strip())
     what = f"{shown(header[0])} is no row of numbers" if header else "it holds only comments"
-    raise ProfileError(path, f"has no samples: {what}; a row is x and height, or a height")
+    raise NotRowsError(path, f"has no samples: {what}; a row is x and height, or a height")
 
 
 def _rows(lines: list[str], first: int) -> tuple[list[str], np.ndarray]:
@@ -216,6 +210,14 @@ def _rows(lines: list[str], first: int) -> tuple[list[str], np.ndarray]:
     bare = [_without_comment(row) for row in rows]
     kept = [i for i, row in enumerate(rows) if bare[i].strip() or not row.strip()]
     return [bare[i] for i in kept], numbers[kept]
+
+
+def _is_count(rows: list[str]) -> bool:
+    """Whether the first row is no sample but says how many of two columns or more follow."""
+    count = rows[0].strip()
+    if not count.isdecimal() or len(rows) < 2 or len(re.split(r"[;,\s]+", rows[1].strip())) < 2:
+        return False
+    return int(count[:9]) == sum(bool(row.strip(NOTHING)) for row in rows) - 1
 
 
 def _without_comment(line: str) -> str:
@@ -265,28 +267,36 @@ def _fast_numbers(rows: list[str], separator: str, decimal: str) -> np.ndarray |
         numbers = np.loadtxt(rows, delimiter=separator.strip(" ") or None, comments=None, ndmin=2)
     except ValueError:
         return None
-    return numbers if len(numbers) == len(rows) and numbers.shape[1] <= 2 else None
+    return numbers if len(numbers) == len(rows) else None
 
 
-def _careful_numbers(table: ProfileTable) -> np.ndarray:
-    """The numbers row by row, dropouts as NaN; `table` has everything but its numbers."""
+def _careful_numbers(table: ProfileTable, columns: Sequence[str | int] | None) -> np.ndarray:
+    """The numbers row by row, dropouts as NaN; `table` has everything but its numbers.
+
+    What columns hold that are not chosen, or are yet to be, is NaN where it is no number.
+    """
     cells = _split(table.text, table.separator)
     width = Counter(map(len, cells)).most_common(1)[0][0]
     numbers = np.empty((len(cells), width))
+    picks = range(width)
+    if columns is not None:
+        bare = replace(table, numbers=numbers, names=_names(table, width))
+        picks = [_pick(bare, wanted, width) for wanted in columns]
+    elif width > 2:
+        picks = ()
+    fit = sum(len(found) == width for found in cells)
+    kind = ProfileError if fit >= MOST_ROWS * len(cells) else NotRowsError
     for row, found in enumerate(cells):
         values = [_number(cell.strip(), table.decimal) for cell in found]
-        if None in values:
-            raise table.error(
-                row,
-                f"{shown(found[values.index(None)])} is not a number (decimal "
-                f"{NAMES[table.decimal]}, separator {NAMES[table.separator]}); "
-                "comments start with # % ; or //",
-            )
-        if len(found) != width or width > 2:
-            kind = ColumnsError if width > 2 else ProfileError
+        if any(i in picks and value is None for i, value in enumerate(values)):
+            value = next(cell for i, cell in enumerate(found) if i in picks and values[i] is None)
+            message = f"{shown(value)} is not a number (decimal {NAMES[table.decimal]}, separator "
+            message += f"{NAMES[table.separator]}); comments start with # % ; or //"
+            raise kind(table.path, message, int(table.lines[row]))
+        if len(found) != width:
             message = _wrong_columns(table, len(found), width)
             raise kind(table.path, message, int(table.lines[row]))
-        numbers[row] = values
+        numbers[row] = [np.nan if value is None else value for value in values]
     return numbers
 
 
@@ -299,7 +309,7 @@ def _split(rows: list[str], separator: str) -> list[list[str]]:
     cells = [row.split(separator) for row in rows]
     if all(len(row) > 1 and not row[0].strip() for row in cells):
         cells = [row[1:] for row in cells]
-    if all(len(row) > 1 and not row[-1].strip() for row in cells):
+    while all(len(row) > 1 and not row[-1].strip() for row in cells):
         cells = [row[:-1] for row in cells]
     return cells
 
@@ -313,9 +323,6 @@ def _number(cell: str, decimal: str) -> float | None:
 
 
 def _wrong_columns(table: ProfileTable, found: int, width: int) -> str:
-    if found == width:
-        message = f"{found} columns; a profile has two (x, height) or one (height)"
-    else:
-        message = f"{found} column{'s' * (found > 1)} where most lines have {width}"
-        message += "; a profile has two (x, height) or one (height) in every line"
+    message = f"{found} column{'s' * (found > 1)} where most lines have {width}"
+    message += "; a profile has two (x, height) or one (height) in every line"
     return f"{message}; {DECIMAL_COMMAS}" if table.commas_may_be_decimal() else message

@@ -19,18 +19,14 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.source import MAX_BYTES, ProfileError, contents
 
 STENCIL = 4  # samples each way that a height between samples comes from
 ROUNDING = 1e-9  # of a pitch, by which the ends of a line may pass the map's
 
 
 class UnchosenLineError(ProfileError):
-    """The file is a map of `rows` rows, and no line of it was chosen."""
-
-    def __init__(self, path: object, rows: int, message: str) -> None:
-        self.rows = rows
-        super().__init__(path, message)
+    """The file is a map, and no line of it was chosen."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +40,7 @@ class Topography:
     x        (n,) places of an uneven scan, ascending; else None
     unit     [m] what the file counts in, None where it does not say
     format   of the file, in words
+    channels names of the channels of which `channel` is this, () where the file has no names
     """
 
     path: Path
@@ -52,6 +49,8 @@ class Topography:
     x: np.ndarray | None
     unit: float | None
     format: str
+    channels: tuple[str, ...] = ()
+    channel: str | None = None
 
     @property
     def is_map(self) -> bool:
@@ -104,7 +103,6 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
     if chosen is None:
         raise UnchosenLineError(
             topography.path,
-            topography.heights.shape[0],
             f"is a map of {topography.size()}, and a profile is one line of it; allowed is "
             "row, column (counted from 0) or line (from one point to another)",
         )
@@ -197,12 +195,12 @@ def is_sdf(head: bytes) -> bool:
     return head.startswith((MAGIC_TEXT, MAGIC_BINARY))
 
 
-def read_sdf(path: Path) -> Topography:
+def read_sdf(path: Path, max_bytes: int = MAX_BYTES) -> Topography:
     """The heights of a surface data file; one of a single profile is a line scan.
 
     Raises ProfileError, one line, for a file that is cut short, compressed or damaged.
     """
-    content = path.read_bytes()
+    content = contents(path, max_bytes)
     read = _read_text if content.startswith(MAGIC_TEXT) else _read_binary
     scales, heights, kind = read(path, content)
     heights[~np.isfinite(heights) | (heights == LOST.get(kind, np.nan))] = np.nan

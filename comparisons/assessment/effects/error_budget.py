@@ -2,12 +2,22 @@
 
 What the sampling leaves unknown is estimated by solving again from every other sample, the even or
 the odd ones: the larger change counts. The half-plane is enough, for both models press one curve.
+
+What cannot change a verdict is left out, unless budget.effects is "all":
+
+1. The effects beside the scene's own finite elements, where every judged figure agrees or differs
+   by the first comparison already, even if these change it by the sum of all their estimates.
+2. The whole's third level, where every judged figure holds, fails, or remains inconclusive by what
+   is not modelled, wherever in its uncertainty on the second level the error comes to lie.
+
+The model error and its uncertainty are stated for every figure in any case.
 """
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from operator import attrgetter
+from typing import Literal
 
 from analytic.grid import roller_gap
 from analytic.profile import Profile, surface
@@ -21,14 +31,15 @@ from comparisons.assessment.effects.contributions import (
 from comparisons.assessment.effects.model_error import ModelError, model_errors
 from comparisons.assessment.effects.quantities_of_interest import quantities_of, relative_sizes
 from comparisons.assessment.effects.selection import EffectSelection, select_effects
-from comparisons.assessment.effects.solutions import SolvedVariants, processes_beside
+from comparisons.assessment.effects.solutions import SolvedVariants
 from comparisons.assessment.effects.variants import ModelVariant
 from comparisons.assessment.normal_tangential_coupling import Coupling
-from comparisons.assessment.verdict import Comparison, ToleranceCheck
+from comparisons.assessment.verdict import Comparison, ToleranceCheck, is_decided
 from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
-from comparisons.common.progress import ProgressCallback, Stages
-from comparisons.models.half_plane import half_plane_level
+from comparisons.common.progress import Stages
+from comparisons.common.tasks import LATER, PERHAPS, Here, Tasks
+from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
@@ -37,6 +48,7 @@ from comparisons.models.window import Window
 SAMPLED = 3  # level on which the sampling counts: as fine as the scene's resolution asks
 LEAST_LEVELS, MOST_LEVELS = 2, 3  # of the effects
 SHARE_OF_TOLERANCE = 1.0 / 3.0  # that the effects may add to the uncertainty of a figure
+ASKED = 'budget.effects = "all" computes it'
 GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 
 
@@ -52,6 +64,7 @@ class ErrorBudget:
     seconds       that the effects took
     wholes        by friction, the finite elements with every effect that matters, on the finest
                   level of the effects, with their fields
+    left_out      which further level of the whole cannot change a verdict, else None
     """
 
     selection: EffectSelection
@@ -61,6 +74,7 @@ class ErrorBudget:
     sampling: dict[float, dict[str, float]]
     seconds: float
     wholes: dict[float, Level] = field(default_factory=dict)
+    left_out: str | None = None
 
     def of(self, quantity: str, friction: float) -> ModelError:
         wanted = quantity, friction
@@ -74,13 +88,7 @@ class ErrorBudget:
 
     def tolerance_checks(self, tolerance: Mapping[str, float]) -> list[ToleranceCheck]:
         """Of every model error that has a tolerance."""
-        found = []
-        for error in self.model_errors:
-            name, value, uncertainty = error.quantity, error.value, error.uncertainty
-            if name in tolerance:
-                left = self.selection.not_modelled(name), tolerance[name]
-                found.append(ToleranceCheck(name, error.friction, value, uncertainty, *left))
-        return found
+        return _tolerance_checks(self.model_errors, self.selection, tolerance)
 
 
 def error_budget(
@@ -91,40 +99,81 @@ def error_budget(
     rows: tuple[Comparison, ...],
     couplings: tuple[Coupling, ...],
     cache: Cache,
-    callback: ProgressCallback,
+    tasks: Tasks,
 ) -> ErrorBudget:
     """Select the effects that may matter, solve them, and split the difference of the models.
 
     An effect that cannot be solved is not modelled: its estimate and the reason are kept.
     """
-    pressure = runs["half_plane"].finest.solution.pressure
-    mean = float(pressure @ pressure / pressure.sum())
-    selection = select_effects(problem, float(pressure.max()), couplings, mean)
-    if not plan.effects:
-        asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
-        selection = selection.without(asked, "not asked for (budget.effects)")
-    unsplit = None
-    with processes_beside() as beside:
-        solved = SolvedVariants(problem, window, runs["finite_element"], cache, callback, beside)
-        while True:
-            splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
-            solved.keep(split.whole for split in splits.values())
-            try:
-                levels, own, unsplit = _refined(problem, window, runs, rows, splits, solved)
-                wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
+    half_plane = runs["half_plane"]
+    selection = _selected(problem, plan, half_plane, couplings)
+    is_frugal = problem.scene.budget.effects != "all"
+    if is_frugal and selection.added and _is_decided(rows, selection):
+        selection = selection.without(selection.added, f"cannot change a verdict ({ASKED})")
+    patches, unsplit = half_plane.levels[0].patches, None
+    solved = SolvedVariants(problem, window, runs["finite_element"], cache, tasks, patches)
+    while True:
+        splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
+        solved.keep(split.whole for split in splits.values())
+        try:
+            given = problem, window, runs, rows, splits, solved, is_frugal and selection
+            levels, own, unsplit, left_out = _refined(*given)
+            wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
+            break
+        except NotComputedError as error:
+            dropped = _given_up(selection, splits, solved)
+            if not dropped:  # what the scene itself has cannot be taken apart
+                levels, own, unsplit, left_out = 0, _unsplit(rows), str(error), None
+                wholes = dict.fromkeys(splits, runs["finite_element"].finest)
                 break
-            except NotComputedError as error:
-                dropped = _given_up(selection, splits, solved)
-                if not dropped:  # what the scene itself has cannot be taken apart
-                    levels, own, unsplit = 0, _unsplit(rows), str(error)
-                    wholes = dict.fromkeys(splits, runs["finite_element"].finest)
-                    break
-                selection = selection.without(dropped, str(error))
+            selection = selection.without(dropped, str(error))
     sampling = {}
     if problem.scene.profile is not None:
-        callback("error budget: sampling of the trace")
-        sampling = from_first(lambda: sampling_changes(problem, window, runs["half_plane"].levels))
-    return ErrorBudget(selection, levels, unsplit, tuple(own), sampling, solved.seconds, wholes)
+        sampling = sampling_changes(problem, window, half_plane.levels, tasks)
+    own, seconds = tuple(own), solved.seconds
+    return ErrorBudget(selection, levels, unsplit, own, sampling, seconds, wholes, left_out)
+
+
+def announce_effects(
+    problem: Problem,
+    plan: Plan,
+    window: Window | None,
+    half_plane: ModelRun,
+    couplings: tuple[Coupling, ...],
+    cache: Cache,
+    tasks: Tasks,
+) -> None:
+    """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
+    the levels that the scene asks for, can tell: they may begin before the finite elements are
+    done. Should the half-plane's finest level select other effects, these are solved then."""
+    selection = _selected(problem, plan, half_plane, couplings)
+    patches = half_plane.levels[0].patches
+    solved = SolvedVariants(problem, window, None, cache, tasks, patches)
+    splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
+    solved.keep(split.whole for split in splits)
+    most = min(_most_levels(problem), len(half_plane.levels))
+    for number in range(1, most + 1):
+        if number <= LEAST_LEVELS:
+            solved.announce((each for split in splits for each in split.all), number)
+        else:  # if the levels before it leave too much unknown
+            solved.announce((each for split in splits for each in split.wholes), number, PERHAPS)
+    _announce_sampling(problem, window, half_plane.levels, tasks)
+
+
+def _selected(
+    problem: Problem, plan: Plan, half_plane: ModelRun, couplings: tuple[Coupling, ...]
+) -> EffectSelection:
+    pressure = half_plane.finest.solution.pressure
+    mean = float(pressure @ pressure / pressure.sum())
+    selection = select_effects(problem, float(pressure.max()), couplings, mean)
+    if plan.effects:
+        return selection
+    asked = selection.added | set(selection.impossible) - {"law_of_elasticity"}
+    return selection.without(asked, "not asked for (budget.effects)")
+
+
+def _most_levels(problem: Problem) -> int:
+    return min(MOST_LEVELS, problem.scene.budget.levels or MOST_LEVELS)
 
 
 def _refined(
@@ -134,16 +183,20 @@ def _refined(
     rows: tuple[Comparison, ...],
     splits: dict[float, SplitVariants],
     solved: SolvedVariants,
-) -> tuple[int, list[ModelError], str | None]:
-    """The level that the whole was taken to, the model errors, and why these are not split.
+    frugal: EffectSelection | Literal[False],
+) -> tuple[int, list[ModelError], str | None, str | None]:
+    """The level that the whole was taken to, the model errors, why these are not split, and which
+    level cannot change a verdict.
+
+    frugal  what was selected, where such a level is left out; else False
 
     The split stays on the least levels, unless the whole and the scene's own finite elements are
     all that it takes. Raises NotComputedError where a whole has no solution on the least levels.
     """
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
-    wanted = problem.scene.budget.levels or MOST_LEVELS
-    most = min(MOST_LEVELS, wanted, len(runs["finite_element"].levels))
+    left_out, tolerance = None, problem.scene.tolerance
+    most = min(_most_levels(problem), len(runs["finite_element"].levels))
     for number in range(1, most + 1):
         every, wholes = (
             dict.fromkeys(each for split in splits.values() for each in variants(split))
@@ -168,9 +221,44 @@ def _refined(
             own += model_errors(problem, window, runs, there, parts)
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
+        if LEAST_LEVELS <= number < most and frugal:
+            checks = _tolerance_checks(own, frugal, tolerance)
+            if all(check.is_fixed for check in checks):
+                left_out = f"level {number + 1} of the whole model: cannot change a verdict"
+                left_out += f" ({ASKED})"
+                break
     found = [parts.unsplit for of_friction in history.values() for parts in of_friction]
     unsplit = next(filter(None, found), None)
-    return len(next(iter(history.values()))), own, unsplit
+    return len(next(iter(history.values()))), own, unsplit, left_out
+
+
+def _is_decided(rows: tuple[Comparison, ...], selection: EffectSelection) -> bool:
+    """Whether every judged row agrees or differs whatever the effects do that its finite elements
+    do not have."""
+    missing = [sizes for n, sizes in selection.estimates.items() if n not in selection.contained]
+    return all(
+        row.uncertainty is not None
+        and is_decided(
+            row.difference,
+            row.uncertainty,
+            sum(sizes.get(row.quantity, 0.0) for sizes in missing),
+            row.tolerance,
+        )
+        for row in rows
+        if row.tolerance is not None
+    )
+
+
+def _tolerance_checks(
+    errors: Iterable[ModelError], selection: EffectSelection, tolerance: Mapping[str, float]
+) -> list[ToleranceCheck]:
+    found = []
+    for error in errors:
+        name, value, uncertainty = error.quantity, error.value, error.uncertainty
+        if name in tolerance:
+            left = selection.not_modelled(name), tolerance[name]
+            found.append(ToleranceCheck(name, error.friction, value, uncertainty, *left))
+    return found
 
 
 def _is_beyond(
@@ -227,23 +315,45 @@ def _given_up(
 
 
 def sampling_changes(
-    problem: Problem, window: Window | None, levels: Sequence[Level]
+    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
 ) -> dict[float, dict[str, float]]:
     """By friction coefficient and quantity, the relative change from half the samples.
 
     levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
     """
-    frictions, level = problem.scene.friction, levels[:SAMPLED][-1]
-    found: dict[float, dict[str, float]] = {friction: {} for friction in frictions}
-    for first in (0, 1):
-        thinned = _thinned(problem, first)
-        other = half_plane_level(thinned, level.grid.pitch, window, Stages())
-        for friction in frictions:
+    level, found = levels[:SAMPLED][-1], {}
+    for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
+        thinned, other = _thinned(problem, first), tasks.result(key)
+        for friction in problem.scene.friction:
+            sizes = found.setdefault(friction, {})
             whole = quantities_of(level, problem, friction).largest()
             change = quantities_of(other, thinned, friction).largest() - whole
             for name, size in relative_sizes(change, whole, problem, window).items():
-                found[friction][name] = max(found[friction].get(name, 0.0), abs(size))
+                sizes[name] = max(sizes.get(name, 0.0), abs(size))
     return found
+
+
+def _announce_sampling(
+    problem: Problem, window: Window | None, levels: Sequence[Level], tasks: Tasks
+) -> list[str]:
+    """The keys of the tasks that solve from the even and from the odd samples."""
+    if problem.scene.profile is None:
+        return []
+    number = min(SAMPLED, len(levels))
+    keys, grid = [f"sampling-{first}-{number}" for first in (0, 1)], levels[number - 1].grid
+    cost = expected_of(grid.count)
+    for first, key in enumerate(keys):
+        given = problem, first, grid.pitch, window
+        tasks.add(key, _sampled, *given, seconds=cost.seconds, memory=cost.memory, urgency=LATER)
+    return keys
+
+
+def _sampled(
+    here: Here, problem: Problem, first: int, pitch: float, window: Window | None
+) -> Level:
+    here.callback("error budget: sampling of the trace")
+    thinned = _thinned(problem, first)
+    return from_first(lambda: half_plane_level(thinned, pitch, window, Stages()))
 
 
 def _thinned(problem: Problem, first: int) -> Problem:

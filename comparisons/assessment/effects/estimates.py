@@ -163,7 +163,7 @@ def _finite_roller(problem: Problem) -> Sizes:
 
 
 # 0.4 % in the peak pressure of a sinusoid under a rigid flat at p/E = 0.015, 1 % on rough surfaces
-# at 0.035 (`comparisons.benchmarks.finite_deformation`); 2 % in tau1 at 0.038. From a linear body
+# at 0.035; 2 % in tau1 at 0.038. From a linear body
 # that has the deformed gap or the rough boundary without strain it takes back what these overdo.
 STRAIN, STRAIN_OF_STRESS = 0.3, 0.75
 
@@ -209,9 +209,10 @@ def _law_of_elasticity(problem: Problem, peak: float, mean: float) -> Sizes:
 
 # Coupling where it is not measured on the half-plane: 1.4 % in contact
 # length at mu beta = 0.28, of second order; the pressure shifts by 0.64 mu beta half-widths, which
-# norms see, and stresses next to the surface at high friction.
+# norms see, and stresses next to the surface at high friction. At mu beta of 0.06 to 0.1 the
+# largest shear stands 16 % higher, or on the surface, where it was 0.3 half-widths below.
 COUPLING_SQUARE, COUPLING_SHIFT = 0.25, 1.6
-COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 0.8, "txz_max_abs": 0.3}
+COUPLING_OF_STRESS = {"tau1_max": 0.8, "tau1_max_depth": 3.0, "txz_max_abs": 0.3}
 # A layer and a coating couple even where both bodies have equal constants: pressures of steel on
 # steel change by 10 %, 7 % and 3 % at a/t = 3, 1 and 1/4 and friction 0.3.
 FAR_SIDE, COAT_SIDE = 2.0, 3.0

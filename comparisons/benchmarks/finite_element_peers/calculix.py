@@ -16,10 +16,11 @@ import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
+from time import perf_counter
 
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers import cases
+from comparisons.benchmarks.finite_element_peers import task as given
 from comparisons.benchmarks.harness import AbsentError, timed
 
 COMMAND = "ccx"
@@ -43,15 +44,15 @@ U
 NO_STEP = "*STEP\n*NO ANALYSIS\n*STATIC\n*END STEP\n"
 
 
-def calculix() -> list[cases.BlockCode]:
+def calculix() -> list[given.BlockCode]:
     """Raises AbsentError."""
     if shutil.which(COMMAND) is None:
         get = "apt-get install --no-install-recommends calculix-ccx"
         raise AbsentError(f"CalculiX is not installed: {get}")
-    return [cases.BlockCode("CalculiX", "CPE6, face-to-face penalty", solve)]
+    return [given.BlockCode("CalculiX", "CPE6, face-to-face penalty", solve)]
 
 
-def solve(task: cases.BlockTask) -> cases.BlockAnswer:
+def solve(task: given.BlockTask) -> given.BlockAnswer:
     """Raises FailedError."""
     model = deck(task)
     with tempfile.TemporaryDirectory() as name:
@@ -59,16 +60,19 @@ def solve(task: cases.BlockTask) -> cases.BlockAnswer:
         (folder / "contact.inp").write_text(model + STEP.format(lower=-task.approach))
         (folder / "read.inp").write_text(model + NO_STEP)
         reading = seconds_of([COMMAND, "read"], folder, MOST_SECONDS)
+        began = perf_counter()
         total = seconds_of([COMMAND, "contact"], folder, MOST_SECONDS)
+        elapsed = perf_counter() - began
         nodes, pressure = last_contact((folder / "contact.frd").read_text())
         steps = iterations((folder / "contact.cvg").read_text())
     x, z = task.mesh.points.T
     value = np.zeros(len(x))
     known = nodes <= len(x)  # the others are the punch's
-    value[nodes[known] - 1] = pressure[known] * cases.MATERIAL.youngs_modulus / MODULUS
+    value[nodes[known] - 1] = pressure[known] * given.MATERIAL.youngs_modulus / MODULUS
     top = np.flatnonzero(task.touchable(x, z))
     top = top[np.argsort(x[top])]
-    return cases.BlockAnswer(x[top], value[top], 2 * len(x), steps, total - reading)
+    solution, whole = total - reading, (elapsed, total)
+    return given.BlockAnswer(x[top], value[top], 2 * len(x), steps, solution, whole)
 
 
 def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
@@ -80,13 +84,13 @@ def seconds_of(command: Sequence[str], folder: Path, limit: float) -> float:
     try:
         return timed(lambda: subprocess.run(command, **options), 1)[0]
     except subprocess.TimeoutExpired as late:
-        raise cases.FailedError(f"not done after {limit:g} s") from late
+        raise given.FailedError(f"not done after {limit:g} s") from late
     except subprocess.CalledProcessError as failure:
         said = (failure.stdout + failure.stderr).decode(errors="replace")
-        raise cases.FailedError(" ".join(said.split())[-200:]) from failure
+        raise given.FailedError(" ".join(said.split())[-200:]) from failure
 
 
-def deck(task: cases.BlockTask) -> str:
+def deck(task: given.BlockTask) -> str:
     """The model of one task, without its step; y points out of the body."""
     x, z = task.mesh.points.T
     y = np.where(task.touchable(x, z), -z - task.gap(x), -z)
@@ -109,7 +113,7 @@ def deck(task: cases.BlockTask) -> str:
         elements = np.flatnonzero(top[triangles[:, ends]].all(axis=1))
         lines += [f"{e + 1},S{face}" for e in elements]
     lines += ["*SURFACE,NAME=FLAT", f"{last},S1", "*MATERIAL,NAME=ELASTIC", "*ELASTIC"]
-    lines += [f"{MODULUS:g},{cases.MATERIAL.poissons_ratio:.14g}"]
+    lines += [f"{MODULUS:g},{given.MATERIAL.poissons_ratio:.14g}"]
     for part in ("BLOCK", "PUNCH"):
         lines += [f"*SOLID SECTION,ELSET={part},MATERIAL=ELASTIC", "1."]
     lines += ["*SURFACE INTERACTION,NAME=PENALTY"]
@@ -127,7 +131,7 @@ def last_contact(text: str) -> tuple[np.ndarray, np.ndarray]:
     _, head, rest = text.rpartition("\n -4  CONTACT")
     rows = [row for row in rest.partition("\n -3")[0].splitlines() if row.startswith(" -1")]
     if not (head and rows):
-        raise cases.FailedError("ccx wrote no contact pressures")
+        raise given.FailedError("ccx wrote no contact pressures")
     # fields of 12 after the node's 10: three displacements, then the pressure
     return np.array([int(row[3:13]) for row in rows]), np.array([float(row[49:61]) for row in rows])
 

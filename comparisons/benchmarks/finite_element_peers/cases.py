@@ -15,7 +15,6 @@ project's shows that the reference is valid for them, too.
     a   half-width, 1 m     R   radius [m]     E, nu   1 Pa and 0.3
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -26,93 +25,30 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
 from analytic.grid import HatGrid
-from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
+from comparisons.benchmarks.finite_element_peers.task import (
+    BLOCK,
+    MATERIAL,
+    RADIUS,
+    SLOPE,
+    BlockAnswer,
+    BlockCode,
+    BlockTask,
+    FailedError,
+    gap,
+)
 from fem.body.elasticity import elastic_body
 from fem.body.support import Support
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockMesh, BlockSpec
 from meshes.build import build_block
 
-MATERIAL = Material(1.0, 0.3)
-SLOPE = 1e-5  # a / R
-RADIUS = 1.0 / SLOPE
-BLOCK = 40.0  # half-width and depth, in a
 GROWTH = 0.4  # of the elements; with 0.2 all codes need more time for the same error
 MARGIN = 1.25  # of the predicted contact: where contact is possible
 LARGEST = 3.0  # half-width of the region in which the half-plane predicts contact, in a
-SLACK = 1e-9  # of the block: points closer to a side than this are on it
 # The reference: edges to a, growth of the elements, degree, hats to an edge.
 FINEST, FINEST_GROWTH, FINEST_DEGREE, FINEST_HATS = 640, 0.15, 3, 2
 SAMPLES = 40_001  # places at which pressures are compared
-
-
-class FailedError(Exception):
-    """A code found no pressures; the message is its own."""
-
-
-@dataclass(frozen=True)
-class BlockTask:
-    """One problem on one mesh.
-
-    waves     (k, 3) rows of A_k [m], lambda_k [m], phi_k [rad]
-    approach  d [m]
-    """
-
-    mesh: BlockMesh
-    waves: np.ndarray
-    approach: float
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """x [m] between which contact is possible; the mesh has equal edges there."""
-        start, stop = self.mesh.spec.intervals[0]
-        return float(start), float(stop)
-
-    def gap(self, x: np.ndarray) -> np.ndarray:
-        """g0 [m] at x [m], of any shape."""
-        return gap(x, self.waves)
-
-    def fixed(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """Whether points are on the bottom or on one of the sides."""
-        side = BLOCK * (1.0 - SLACK)
-        return (np.abs(x) >= side) | (z >= side)
-
-    def touchable(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """Whether points are on the top where contact is possible."""
-        slack = SLACK * BLOCK
-        start, stop = self.ends
-        return (z <= slack) & (x >= start - slack) & (x <= stop + slack)
-
-
-@dataclass(frozen=True)
-class BlockAnswer:
-    """Contact pressures of one solution.
-
-    x, pressure  (k,) ascending [m], and [Pa] there, linear between; zero elsewhere
-    unknowns     displacement components
-    steps        of the contact iteration
-    seconds      processor time, where the caller cannot measure it
-    """
-
-    x: np.ndarray
-    pressure: np.ndarray
-    unknowns: int
-    steps: int
-    seconds: float | None = None
-
-    def at(self, x: np.ndarray) -> np.ndarray:
-        """Pressure [Pa] at x [m]."""
-        return np.interp(x, self.x, self.pressure, left=0.0, right=0.0)
-
-
-@dataclass(frozen=True)
-class BlockCode:
-    """One configuration of one code; `solve` raises FailedError."""
-
-    name: str
-    configuration: str
-    solve: Callable[[BlockTask], BlockAnswer]
 
 
 @dataclass(frozen=True)
@@ -144,13 +80,6 @@ class BlockCase:
             "peak": abs(answer.pressure.max() / self.reference.pressure.max() - 1.0),
             "pressure": float(np.linalg.norm(found - wanted) / np.linalg.norm(wanted)),
         }
-
-
-def gap(x: np.ndarray, waves: np.ndarray) -> np.ndarray:
-    """g0 [m] at x [m], of any shape, with (k, 3) rows A_k [m], lambda_k [m], phi_k of waves."""
-    x = np.asarray(x, dtype=float)
-    angle = 2.0 * np.pi * x[..., None] / waves[:, 1] + waves[:, 2]
-    return x**2 / (2.0 * RADIUS) + (1.0 - np.cos(angle)) @ waves[:, 0]
 
 
 def hertz() -> HertzContact:
@@ -209,13 +138,13 @@ def _mesh(reach: float, edges: int, growth: float) -> BlockMesh:
 def crosscheck() -> list[BlockCode]:
     """This project's finite elements, with the half-plane as the model of the outer iteration."""
     return [
-        BlockCode("crosscheck", "P2, a hat an edge", partial(_solved, 2, 1)),
-        BlockCode("crosscheck", "P2, two hats an edge", partial(_solved, 2, 2)),
-        BlockCode("crosscheck", "P3, two hats an edge", partial(_solved, 3, 2)),
+        BlockCode("crosscheck", "P2, a hat an edge", partial(solved, 2, 1)),
+        BlockCode("crosscheck", "P2, two hats an edge", partial(solved, 2, 2)),
+        BlockCode("crosscheck", "P3, two hats an edge", partial(solved, 3, 2)),
     ]
 
 
-def _solved(degree: int, hats: int, task: BlockTask) -> BlockAnswer:
+def solved(degree: int, hats: int, task: BlockTask) -> BlockAnswer:
     return _contact(task, degree, hats, Constraints(approach=task.approach))[0]
 
 

@@ -9,24 +9,26 @@ scikit-fem takes by itself, `scipy.sparse.linalg.spsolve`, orders for unsymmetri
 slower. Pressures are nodal forces over the nodes' shares of the surface.
 """
 
+from importlib import import_module
+
 import numpy as np
 
-from comparisons.benchmarks.finite_element_peers import cases
+from comparisons.benchmarks.finite_element_peers import task as given
 from comparisons.benchmarks.harness import AbsentError
 
 MOST_STEPS = 100
 
 
-def scikit_fem() -> list[cases.BlockCode]:
+def scikit_fem() -> list[given.BlockCode]:
     """Raises AbsentError."""
     try:
-        import skfem  # noqa: F401
+        import_module("skfem")
     except ImportError as missing:
         raise AbsentError("scikit-fem is not installed: pip install scikit-fem") from missing
-    return [cases.BlockCode("scikit-fem", "P2, active set", solve)]
+    return [given.BlockCode("scikit-fem", "P2, active set", solve)]
 
 
-def solve(task: cases.BlockTask) -> cases.BlockAnswer:
+def solve(task: given.BlockTask) -> given.BlockAnswer:
     """Raises FailedError if the active set does not settle."""
     from scipy.sparse.linalg import splu
     from skfem import Basis, ElementTriP2, ElementVector, FacetBasis, LinearForm, MeshTri
@@ -37,7 +39,7 @@ def solve(task: cases.BlockTask) -> cases.BlockAnswer:
     vertices = task.mesh.points[: 1 + corners.max()]
     mesh = MeshTri(np.ascontiguousarray(vertices.T), corners.T.copy())
     basis = Basis(mesh, element, intorder=2)
-    lame = lame_parameters(cases.MATERIAL.youngs_modulus, cases.MATERIAL.poissons_ratio)
+    lame = lame_parameters(given.MATERIAL.youngs_modulus, given.MATERIAL.poissons_ratio)
     stiffness = linear_elasticity(*lame).assemble(basis)
     place = basis.doflocs
     vertical = np.zeros(basis.N, dtype=bool)
@@ -65,10 +67,10 @@ def solve(task: cases.BlockTask) -> cases.BlockAnswer:
         )
         u[inner] = factor.solve(-(rows @ u))
         force = np.where(active, stiffness[contact] @ u, 0.0)
-        touching = force + cases.MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
+        touching = force + given.MATERIAL.youngs_modulus * (least - u[contact]) > 0.0
         if np.array_equal(touching, active):
             order = np.argsort(place[0, contact])
             pressure = (force / share)[order]
-            return cases.BlockAnswer(place[0, contact][order], pressure, basis.N, step)
+            return given.BlockAnswer(place[0, contact][order], pressure, basis.N, step)
         active = touching
-    raise cases.FailedError(f"the active set has not settled after {MOST_STEPS} steps")
+    raise given.FailedError(f"the active set has not settled after {MOST_STEPS} steps")

@@ -51,7 +51,7 @@ class BodyPair:
     @property
     def factor_memory(self) -> int:
         """Bytes that their factors hold."""
-        return sum(body.factor.bytes for body in self.all)
+        return sum(body.factor.bytes for body in set(self.all))
 
 
 class BodyCache:
@@ -131,8 +131,8 @@ def bodies_of(
         flat = body_cache.mesh(wanted)
         mesh = roller_mesh(problem, flat)
     shape = (_key(wanted), settings.roller_body, scene.roller_radius)
-    if settings.roller_body == "half-plane" and mesh is not flat:
-        shape = None
+    if settings.roller_body == "half-plane":  # that of a flat rough body, if they are alike
+        shape = _key(wanted) if mesh is flat else None
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":

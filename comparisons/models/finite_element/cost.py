@@ -12,16 +12,16 @@ from comparisons.models.problem import Problem
 from fem.nonlinear.press_plastic import INCREMENTS
 from fem.solver.mumps import factorisation_seconds
 
-# Peak of the whole process, measured at 2.8 to 3.2 kB from 95 000 to 655 000 unknowns.
-BYTES_PER_UNKNOWN = 3200.0
+# Peak of the process: without unknowns, and of each (1.9 to 3 kB from 38 000 to 170 000 unknowns).
+START_BYTES, BYTES_PER_UNKNOWN = 1.7e8, 2600.0
 # Seconds an unknown of gmsh, assembly, back-substitutions and stresses, on one core.
 MESH_SECONDS, ASSEMBLY_SECONDS, REST_SECONDS = 5e-6, 1.6e-6, 3e-6
 START_SECONDS = 0.3  # of gmsh's own process
 # Of one process at the peak, and seconds an unknown: finite deformation of two rough bodies under
-# friction (21 to 41 us from 72 000 to 231 000 unknowns); one increment of plastic flow, pressed and
-# let go (from 10 000 to 95 000).
-NONLINEAR_BYTES = 7000.0
-FINITE_SECONDS, FLOW_SECONDS = 4.0e-5, 1.2e-4
+# friction, stresses included (2600 bytes; 15 to 17 us from 88 000 to 613 000 unknowns); one step
+# of plastic flow, pressed and let go (2300 bytes; 5 to 12 us from 9 000 to 79 000).
+NONLINEAR_BYTES = 3500.0
+FINITE_SECONDS, FLOW_SECONDS = 1.7e-5, 7e-6
 FEWEST_INCREMENTS = 4  # of plastic flow, on the coarsest levels
 
 
@@ -39,7 +39,7 @@ def expected(
     if settings.plastic:
         steps = flow_increments(problem, refinement.pitch)
         seconds, memory = seconds + FLOW_SECONDS * steps * unknowns, NONLINEAR_BYTES
-    return ExpectedCost(unknowns, memory * unknowns, seconds)
+    return ExpectedCost(unknowns, START_BYTES + memory * unknowns, seconds)
 
 
 def flow_increments(problem: Problem, pitch: float) -> int:

@@ -42,6 +42,7 @@ def finite_element_level(
     approach: float | None = None,
     body_cache: BodyCache | None = None,
     check: bool = False,
+    fields: bool = True,
 ) -> Level:
     """Solve one level: mesh, factorise, press, and where asked for compute the stresses.
 
@@ -50,6 +51,7 @@ def finite_element_level(
     approach   [m] from first touch, prescribed in place of the load
     body_cache shared by levels whose meshes and factors may be the same
     check      compare the bodies' compliance with the analytic one first
+    fields     give the stresses at all points of the mesh, too
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
@@ -116,7 +118,7 @@ def finite_element_level(
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = scene.friction, problem.asperities
-        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities)
+        stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
     return replace(level, peak_memory=peak_memory(), stresses=stresses, mesh_field=mesh_field)
 
 

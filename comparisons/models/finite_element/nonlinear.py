@@ -27,7 +27,7 @@ from fem.stress.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
-BY_MODEL = 2e-9  # residuals of a contact by the linear model, over the displacements
+BY_MODEL = 1e-8  # residuals of a contact by the linear model, over the displacements
 ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
 
 
@@ -75,7 +75,12 @@ def pressed_finitely(
     nodal, across = found.stress, found.stress_across
     others = {"sy": across, "von_mises": von_mises(nodal.stress, across)}
     loaded = LoadedBody(
-        rough.body, solution, depth * weights, lambda friction: nodal, patches, others
+        rough.body,
+        solution,
+        depth * weights,
+        lambda frictions: (nodal,) * len(frictions),
+        patches,
+        others,
     )
     return on_undeformed_grid(problem, grid, found.place, depth, loaded)
 
@@ -98,7 +103,7 @@ def finite_contact(
     given = bodies, model, contact.gap, contact.weights, constraints, start
     try:
         solver = solve_coupled if operator.coupled else solve_contact
-        solution = solve_with_model(*given, BY_MODEL, solver)
+        solution = solve_with_model(*given, BY_MODEL, solver, nearer=True)
         if solution.converged:
             return contact.deformed(bodies.solution(solution.pressure, solution.approach))
     except FemError:
@@ -146,4 +151,6 @@ def pressed_plastically(
     }
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
-    return LoadedBody(rough.body, solution, own, lambda friction: stress, patches, others)
+    return LoadedBody(
+        rough.body, solution, own, lambda frictions: (stress,) * len(frictions), patches, others
+    )

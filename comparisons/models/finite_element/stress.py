@@ -11,14 +11,15 @@ from analytic.grid import HatGrid
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
-from comparisons.models.level import MeshField, StressResult, highest
+from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
 from comparisons.models.problem import Problem, ends_of, mean_height
 from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.hyperelastic import along_surface
 from fem.stress.maximum import maxima, maximum
-from fem.stress.stress import NodalStress, evaluate, nodal_stress
+from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
+from fem.stress.surface_load import SurfaceLoad
 
 
 @dataclass(frozen=True)
@@ -26,9 +27,11 @@ class LoadedBody:
     """The rough body in contact.
 
     displacement  (count,) [m^2] of its surface into the body, weighted by each hat
-    stress        by friction coefficient
+    stresses      one for each of some friction coefficients
     patches       (k, 2) [m] contact patches
     others        further fields at the mesh's points (n,), by name
+    on_mesh       what stresses at all points of the mesh are recovered from, by displacements and
+                  friction coefficients; None: these stresses are known already
     material      (count,) [m] where what now stands at the grid's nodes stood without load; None:
                   there
     """
@@ -36,10 +39,11 @@ class LoadedBody:
     body: ElasticBody
     solution: ContactSolution
     displacement: np.ndarray
-    stress: Callable[[float], NodalStress]
+    stresses: Callable[[tuple[float, ...]], tuple[NodalStress, ...]]
     patches: np.ndarray
     others: dict[str, np.ndarray] = field(default_factory=dict)
     material: np.ndarray | None = None
+    on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
 
 
 def pressed_linearly(
@@ -60,13 +64,15 @@ def pressed_linearly(
     pressure, x = solution.pressure, grid.x
     ends = ends_of(problem, grid, solution)
 
-    def stress(friction: float) -> NodalStress:
-        moved = rough.displacement(pressure, friction)
-        return from_first(
-            lambda: nodal_stress(
-                rough.body, moved, rough.hats, pressure, friction, direction, ends.at(friction)
-            )
-        )
+    def stresses(frictions: tuple[float, ...]) -> tuple[NodalStress, ...]:
+        moved = np.stack([rough.displacement(pressure, each) for each in frictions], axis=1)
+        load = SurfaceLoad(rough.body, rough.hats, pressure, np.array(frictions), direction)
+        return nodal_stresses(moved, load, [ends.at(each) for each in frictions])
+
+    def on_mesh(moved: np.ndarray, frictions: tuple[float, ...]) -> RecoverableField:
+        body = rough.body
+        given = body.mesh, body.material, body.coating, body.degree, moved
+        return RecoverableField(*given, rough.hats, pressure, frictions, ends)
 
     dragged = problem.scene.friction[0] if settings.coupled else 0.0
     patches = contact_patches(x, pressure, solution.gap)
@@ -76,14 +82,14 @@ def pressed_linearly(
             own = both / operator.parts[0].factor
         else:
             own = rough.apply(pressure, dragged)
-        return LoadedBody(rough.body, solution, own, stress, patches)
+        return LoadedBody(rough.body, solution, own, stresses, patches, on_mesh=on_mesh)
     moved = rough.displacement(pressure, dragged)
     top = rough.body.top
     along, down = rough.body.at_points(moved)[top.point].T
     place, depth = x + np.interp(x, top.x, along), np.interp(x, top.x, down)
     stretch = np.interp(x, top.x, 1.0 + along_surface(top.x, along[:, None])[:, 0])
     solution = replace(solution, pressure=pressure / stretch)
-    loaded = LoadedBody(rough.body, solution, depth * grid.weights, stress, patches)
+    loaded = LoadedBody(rough.body, solution, depth * grid.weights, stresses, patches)
     return on_undeformed_grid(problem, grid, place, depth, loaded)
 
 
@@ -114,31 +120,48 @@ def stresses_of(
     frictions: tuple[float, ...],
     window: Window,
     asperities: tuple[float, ...] = (),
-) -> tuple[tuple[StressResult, ...], MeshField]:
+    on_mesh: bool = True,
+) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
     """Extremes and fields on the window, one set a friction coefficient, and all on the mesh.
 
     asperities  (k,) [m] where one ends and the next begins: each has its own largest stresses
+    on_mesh     whether stresses at all of the mesh's points are wanted; else they are computed
+                only where the window needs them, or where they may be the largest
     """
-    body, results, on_mesh = pressed.body, [], {}
+    nodal = pressed.stresses(frictions)
+    return from_first(lambda: _stresses_of(pressed, nodal, frictions, window, asperities, on_mesh))
+
+
+def _stresses_of(
+    pressed: LoadedBody,
+    nodal: tuple[NodalStress, ...],
+    frictions: tuple[float, ...],
+    window: Window,
+    asperities: tuple[float, ...],
+    on_mesh: bool,
+) -> tuple[tuple[StressResult, ...], MeshField | RecoverableField | None]:
+    body, results = pressed.body, []
     bounds = (-window.extent, window.extent, window.z[-1])
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
-    for friction in frictions:
-        nodal = pressed.stress(friction)
-        found = {n: maxima(body, nodal, of, bounds, asperities) for n, of in shears.items()}
-        extremes = {name: highest(each) for name, each in found.items()}
-        extremes["von_mises"] = maximum(
-            body, nodal, lambda stress: stress.von_mises(stress.poissons_ratio), bounds
-        )
+    shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
+    for friction, each, on_window in zip(frictions, nodal, shown, strict=True):
+        found = {n: maxima(body, each, of, bounds, asperities) for n, of in shears.items()}
+        extremes = {name: highest(most) for name, most in found.items()}
         if "von_mises" in pressed.others:  # it does not follow from the stresses
             von_mises, (x, z) = pressed.others["von_mises"], body.points.T
             inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
             top = np.argmax(np.where(inside, von_mises, -np.inf))
             extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
-        x, z = np.meshgrid(window.x, window.z)
-        results.append(StressResult(friction, extremes, evaluate(body, nodal, x, z), found))
-        stress, nodes = nodal.stress, nodal.nodes
-        on_mesh[friction] = StressState(stress.sx, stress.sz, stress.txz)
-    mesh_field = MeshField(
-        body.points[nodes.point], nodes.triangles, on_mesh, stress.poissons_ratio, pressed.others
-    )
-    return tuple(results), mesh_field
+        else:
+            extremes["von_mises"] = maximum(
+                body, each, lambda stress: stress.von_mises(stress.poissons_ratio), bounds
+            )
+        results.append(StressResult(friction, extremes, on_window, found))
+    if not on_mesh:
+        return tuple(results), None
+    if pressed.on_mesh is not None:
+        return tuple(results), pressed.on_mesh(nodal[0].together[0].displacement, frictions)
+    stresses = {mu: StressState(*each.values.T) for mu, each in zip(frictions, nodal, strict=True)}
+    nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
+    points = body.points[nodes.point]
+    return tuple(results), MeshField(points, nodes.triangles, stresses, nu, pressed.others)

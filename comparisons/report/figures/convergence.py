@@ -13,10 +13,11 @@ from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 COLUMNS = 4
 HEAD, TITLE, TALL, FOOT = 0.34, 0.36, 1.7, 0.5  # inches: legend, a panel's title, panel, its axis
-LEFT, BETWEEN = 0.62, 0.5  # inches
+LEFT, BETWEEN, LINE = 0.62, 0.5, 0.17  # inches
 LEAST = 1e-9  # relative: what is nearer to the extrapolated value is rounding
 LOOKS = style.LINES | {DIFFERENCE: style.DIFFERENCE}
 NAMES = LABELS | {DIFFERENCE: "difference of both models"}
@@ -28,35 +29,15 @@ def convergence_picture(outcome: Outcome) -> style.Picture | None:
     panels = grouped(known, lambda each: each.figure)
     if not panels:
         return None
-    rows = -(-len(panels) // COLUMNS)
-    heights = [(TITLE + (FOOT if row else HEAD), TALL) for row in range(rows)]
-    drawn = style.figure(style.WIDE, sum(map(sum, heights)) + FOOT)
-    share = (style.WIDE - LEFT) / COLUMNS
-    columns = []
-    for side in range(COLUMNS):
-        left = LEFT + side * share
-        here = heights[: -(-(len(panels) - side) // COLUMNS)]
-        right = style.WIDE - left - share + BETWEEN
-        columns.append(style.stacked(drawn, here, left, right))
-    for number, panel in enumerate(panels):
-        axes = columns[number % COLUMNS][number // COLUMNS]
-        _draw(axes, panel)
-        if number % COLUMNS == 0:
-            axes.set_ylabel("error, %")
-        if number + COLUMNS >= len(panels):
-            axes.set_xlabel("pressure elements, µm")
-    entries = {}
-    for axes in drawn.axes:
-        handles, labels = axes.get_legend_handles_labels()
-        entries = dict(zip(labels, handles, strict=True)) | entries
-    room = {"ncols": len(entries), "columnspacing": 1.6, "borderaxespad": 0.2}
-    drawn.legend(entries.values(), entries, loc="upper left", **room)
     said = "; ".join(
         f"{each.figure}, {NAMES[each.source]}: {each.uncertainty.convergence.behaviour}"
         for each in known
     )
+    drawn = _drawn(panels, style.WIDE)
     return style.Picture(
         source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
+        narrow=style.data_uri(_drawn(panels, style.COLUMN)),
         alternative=f"Error over element size of each judged figure. {said}.",
         caption="Distance from the extrapolated value over the size of the pressure elements, both "
         "logarithmic; dotted, the slope of the formal order. A bar: the stated uncertainty of "
@@ -64,6 +45,36 @@ def convergence_picture(outcome: Outcome) -> style.Picture | None:
         "lie on its line by construction.",
         wide=True,
     )
+
+
+def _drawn(panels: list[list[JudgedSequence]], width: float) -> "Figure":
+    columns = max(1, round(COLUMNS * width / style.WIDE))
+    rows = -(-len(panels) // columns)
+    head = HEAD if columns == COLUMNS else HEAD + 2.0 * LINE  # where names take three lines
+    heights = [(TITLE + (FOOT if row else head), TALL) for row in range(rows)]
+    drawn = style.figure(width, sum(map(sum, heights)) + FOOT)
+    share = (width - LEFT) / columns
+    sides = []
+    for side in range(columns):
+        left = LEFT + side * share
+        here = heights[: -(-(len(panels) - side) // columns)]
+        right = width - left - share + BETWEEN
+        sides.append(style.stacked(drawn, here, left, right))
+    for number, panel in enumerate(panels):
+        axes = sides[number % columns][number // columns]
+        _draw(axes, panel)
+        if number % columns == 0:
+            axes.set_ylabel("error, %")
+        if number + columns >= len(panels):
+            axes.set_xlabel("pressure elements, µm")
+    entries = {}
+    for axes in drawn.axes:
+        handles, labels = axes.get_legend_handles_labels()
+        entries = dict(zip(labels, handles, strict=True)) | entries
+    beside = len(entries) if columns == COLUMNS else columns
+    room = {"ncols": beside, "columnspacing": 1.6, "borderaxespad": 0.2}
+    drawn.legend(entries.values(), entries, loc="upper left", **room)
+    return drawn
 
 
 def _draw(axes: "Axes", panel: list[JudgedSequence]) -> None:

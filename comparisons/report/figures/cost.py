@@ -7,7 +7,6 @@ from comparisons.common.quantities import LABELS
 from comparisons.report.figures import style
 from comparisons.results.outcome import Outcome
 
-HATCHES = {"half_plane": "", "finite_element": "////"}
 SHORTEST = 1e-4  # seconds: shorter stages are drawn as if they took so long
 
 
@@ -21,14 +20,17 @@ def cost_picture(outcome: Outcome) -> style.Picture:
     [axes] = style.stacked(drawn, [(0.12, 0.24 * len(rows) + 0.08)], 1.62, 0.67)
     place = -np.arange(len(rows), dtype=float)
     shown = np.maximum([seconds for _, _, seconds in rows], SHORTEST)
+    hatched: list = []
     first = 10.0 ** np.floor(np.log10(shown.min()) - 0.3)
     for y, width, (name, label, seconds) in zip(place, shown, rows, strict=True):
         total = label.endswith("in all")
         colour = style.LINES[name]["color"]
         look = {"facecolor": colour if total else "white", "edgecolor": colour, "linewidth": 0.9}
-        axes.barh(y, width - first, left=first, height=0.72, hatch=HATCHES[name], **look)
+        [bar] = axes.barh(y, width - first, left=first, height=0.72, **look)
+        hatched += [bar] * (name == "finite_element")
         beside = {"xytext": (4, 0), "textcoords": "offset points", "va": "center"}
         axes.annotate(with_unit(seconds, "s", 3), (width, y), **beside)
+    style.hatch(axes, hatched, style.LINES["finite_element"]["color"])
     axes.set_xscale("log")
     last = 10.0 ** np.ceil(np.log10(shown.max()))
     axes.set_xlim(first, last)

@@ -4,6 +4,7 @@ is no other, on one colour scale; and their difference on its own."""
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from operator import sub
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ import numpy as np
 from analytic.stress_state import Extremum, StressState
 from comparisons.common.numbers import decimal, plain, significant
 from comparisons.common.quantities import LABELS, WHOLE
-from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, stacked
+from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, hatch, stacked
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -85,22 +86,31 @@ def fill(
 ) -> "ScalarMappable":
     """Bands of colour, drawn as pixels: as curves they would take megabytes.
 
+    bands   in equal steps
     What is negative is striped, so that a grey printer leaves the sign.
     """
     import matplotlib
+    from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm
 
     colour_map = matplotlib.colormaps[colours]
     norm = BoundaryNorm(bands, colour_map.N, extend="both" if signed else "max")
-    pixels = _pixels(axes, x, z, values)
-    extent = (x[0], x[-1], z[-1], z[0])
-    placed = {"interpolation": "none", "aspect": "auto", "extent": extent}
-    shown = axes.imshow(pixels, cmap=colour_map, norm=norm, **placed)
+    scale, step = ScalarMappable(norm, colour_map), bands[1] - bands[0]
+    # a colour for each band, below and beyond them, and none where there is no value
+    middles = bands[0] + step * (np.arange(-1, len(bands)) + 0.5)
+    table = np.vstack([scale.to_rgba(middles, bytes=True), np.zeros(4, dtype=np.uint8)])
+    pixels = (_pixels(axes, x, z, values) - bands[0]) / step
+    band = np.clip(np.floor(pixels), -1.0, len(bands) - 1.0) + 1.0
+    band = np.where(np.isnan(band), len(middles), band).astype(np.uint8)
     if signed:
-        axes.imshow(_stripes(pixels < bands[bands < 0.0][-1]), **placed)
+        table = np.vstack([table, table])
+        table[len(middles) + 1 :, :3] = (1.0 - SHADE) * table[: len(middles) + 1, :3]
+        negative = np.count_nonzero(bands < 0.0)
+        band[_stripes(band.shape) & (band < negative)] += len(middles) + 1
+    axes.imshow(table[band], interpolation="none", aspect="auto", extent=(x[0], x[-1], z[-1], z[0]))
     axes.set(xlim=(x[0], x[-1]), ylim=(z[-1], z[0]), ylabel="z/a")
     axes.grid(False)
-    return shown
+    return scale
 
 
 def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -115,14 +125,12 @@ def _pixels(axes: "Axes", x: np.ndarray, z: np.ndarray, values: np.ndarray) -> n
     return map_coordinates(values, np.meshgrid(*at, indexing="ij"), order=1)
 
 
-def _stripes(where: np.ndarray) -> np.ndarray:
-    """Of transparent black (m, n, 4), where they are wanted."""
+@cache
+def _stripes(shape: tuple[int, int]) -> np.ndarray:
+    """Which pixels are struck."""
     apart, share = STRIPES
-    down, across = np.indices(where.shape)
-    struck = ((down + across) / (apart * PIXELS)) % 1.0 < share
-    shade = np.zeros((*where.shape, 4))
-    shade[..., 3] = SHADE * (where & struck)
-    return shade
+    down, across = np.arange(shape[0])[:, None], np.arange(shape[1])
+    return ((down + across) / (apart * PIXELS)) % 1.0 < share
 
 
 def colour_bar(
@@ -143,8 +151,9 @@ def colour_bar(
     bar.set_ticks(ticks, labels=[text.replace("-", "−") for text in labels])
     bar.minorticks_off()
     if bands[0] < 0.0:
-        look = {"facecolor": "none", "edgecolor": (0.0, 0.0, 0.0, SHADE), "hatch": "//////"}
-        axes.axvspan(bands[0], -0.5 * step, linewidth=0.0, **look)
+        ends = [bands[0], -0.5 * step]
+        negative = axes.fill([*ends, *reversed(ends)], [0.0, 0.0, 1.0, 1.0], facecolor="none")
+        hatch(axes, negative, (0.0, 0.0, 0.0, SHADE))
     axes.tick_params(length=2.0, pad=1.5)
     beside = {"xytext": (-18, 0), "xycoords": "axes fraction", "textcoords": "offset points"}
     axes.annotate(label, (0.0, 0.5), **beside, ha="right", va="center")

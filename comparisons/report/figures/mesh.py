@@ -11,7 +11,7 @@ from comparisons.common.numbers import integer, scale_of, with_unit
 from comparisons.report.figures.pressures import peak_position
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure, stacked
 from comparisons.results.outcome import Outcome
-from meshes.block import real_points
+from meshes.block import real_points, unique_edges
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,6 +31,7 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
     level, hertz = run.finest, outcome.problem.hertz
     mesh = level.mesh
     points, corners = real_points(mesh), mesh.triangles[:, :3]
+    pairs, _ = unique_edges(corners)
     half, depth, edge = mesh.spec.half_width, mesh.spec.depth, mesh.spec.surface_size
     peak = peak_position(level)
     reach = min(CONTACT * hertz.half_width, half)
@@ -48,7 +49,7 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
     )
     return [
         Picture(
-            source=data_uri(_drawn(points, corners, view)),
+            source=data_uri(_drawn(points, pairs, view)),
             alternative=f"Finite-element mesh of {words}: {count}.",
             caption=caption,
         )
@@ -56,7 +57,7 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
     ]
 
 
-def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, float]) -> "Figure":
+def _drawn(points: np.ndarray, pairs: np.ndarray, view: tuple[float, float, float]) -> "Figure":
     low, high, depth = view
     unit = scale_of([low, high, depth], "m")
     width = COLUMN - 0.8
@@ -66,7 +67,7 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
     points, bounds = points / unit.factor, tuple(end / unit.factor for end in view)
     top = points[:, 1].min()
     cell = CELL * (bounds[1] - bounds[0]) / width
-    _edges(axes, points, corners, bounds, cell)
+    _edges(axes, points, pairs, bounds, cell)
     near_top = min(0.0, max(top, -0.2 * bounds[2]))
     axes.set(
         xlim=bounds[:2],
@@ -81,23 +82,22 @@ def _drawn(points: np.ndarray, corners: np.ndarray, view: tuple[float, float, fl
 def _edges(
     axes: "Axes",
     points: np.ndarray,
-    corners: np.ndarray,
+    pairs: np.ndarray,
     bounds: tuple[float, float, float],
     cell: float,
 ) -> None:
-    """Edges of the triangles in the view, each once; those shorter than `cell` as dark cells."""
+    """Edges (n, 2) that reach into the view; those shorter than `cell` as dark cells."""
     low, high, depth = bounds
-    x, z = points[corners, 0], points[corners, 1]
-    inside = (x.max(axis=1) >= low) & (x.min(axis=1) <= high) & (z.min(axis=1) <= depth)
-    pairs = np.sort(np.stack([corners[inside], np.roll(corners[inside], -1, axis=1)], axis=-1))
-    edges = np.unique(pairs[..., 0] * len(points) + pairs[..., 1])
-    pairs = np.column_stack(np.divmod(edges, len(points)))
+    (x, other_x), (z, other_z) = points[pairs.T, 0], points[pairs.T, 1]
+    inside = (np.maximum(x, other_x) >= low) & (np.minimum(x, other_x) <= high)
+    pairs = pairs[inside & (np.minimum(z, other_z) <= depth)]
     ends = points[pairs]
     visible = np.hypot(*(ends[:, 1] - ends[:, 0]).T) >= cell
     # one curve with breaks: a twentieth of the size of as many curves as edges
     broken = np.vstack([points, (np.nan, np.nan)])[_strokes(pairs[visible], len(points))]
     axes.plot(*broken.T, color=COLOUR, linewidth=0.4)
-    _dark_cells(axes, ends[~visible].mean(axis=1), bounds, cell)
+    short = ends[~visible]
+    _dark_cells(axes, 0.5 * (short[:, 0] + short[:, 1]), bounds, cell)
 
 
 def _strokes(edges: np.ndarray, pause: int) -> list[int]:

@@ -33,7 +33,7 @@ INTERACTION, NUMERICAL, JUMP = "interaction", "without any effect", "another asp
 OTHERS, ERROR = "smaller steps", "model error"
 LOOKS = {
     True: {"facecolor": "#E69F00", "edgecolor": "#333333"},
-    False: {"facecolor": "#56B4E9", "edgecolor": "#333333", "hatch": "////"},
+    False: {"facecolor": "#56B4E9", "edgecolor": "#333333"},  # and hatched
     None: {"facecolor": "#cccccc", "edgecolor": "#333333"},  # without a sign
 }
 
@@ -156,12 +156,15 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
     if OTHERS in shown:
         shown[OTHERS] = max(left_out, default=0.0) if panel.is_norm else sum(left_out)
     place, start, ends = -np.arange(len(rows), dtype=float), 0.0, [0.0]
+    hatched: list = []
     for y, size in zip(place, shown.values(), strict=False):
         begin = 0.0 if panel.is_norm else start
         start = begin + 100.0 * size
         if abs(size) > NOTHING:
             sign = None if panel.is_norm else size > 0.0
-            axes.barh(y, start - begin, left=begin, height=BAR, linewidth=0.5, **LOOKS[sign])
+            look = {"height": BAR, "linewidth": 0.5, **LOOKS[sign]}
+            [bar] = axes.barh(y, start - begin, left=begin, **look)
+            hatched += [bar] * (sign is False)
             text = error_text(panel.quantity, size, panel.uncertainty)
             _beside(axes, max(begin, start), y, text)
         if not panel.is_norm:
@@ -170,6 +173,7 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
             )  # past a step that does not apply
             axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
+    style.hatch(axes, hatched, LOOKS[False]["edgecolor"])
     value, y = 100.0 * panel.error, place[-1]
     axes.barh(y, value, height=BAR, facecolor="#bbbbbb", edgecolor="#000000", linewidth=0.8)
     certain = 100.0 * panel.uncertainty if math.isfinite(panel.uncertainty) else 0.0

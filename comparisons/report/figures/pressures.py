@@ -59,8 +59,10 @@ def pressure_picture(outcome: Outcome) -> style.Picture:
         f"{with_unit(peak_position(level), 'm')}"
         for name, level in shown_levels(outcome).items()
     )
+    drawn = _drawn(outcome, across, style.WIDE, 5.2)
     return style.Picture(
-        source=style.data_uri(_drawn(outcome, across, style.WIDE, 5.2)),
+        source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
         narrow=style.data_uri(_drawn(outcome, across, style.COLUMN, 5.2)),
         wide=True,
         alternative=f"Contact pressure over x above the deformed surfaces. Largest: {peaks}.",
@@ -87,8 +89,10 @@ def close_up_picture(outcome: Outcome) -> style.Picture:
         reach += min(abs(peak_position(first) - centre), most)  # the same peak, beside it
     at = f"x = {with_unit(float(centre), 'm')}"
     across = (centre - reach, centre + reach)
+    drawn = _drawn(outcome, across, style.COLUMN, 5.6, nodes=True)
     return style.Picture(
-        source=style.data_uri(_drawn(outcome, across, style.COLUMN, 5.6, nodes=True)),
+        source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
         alternative=f"Pressures of the models around {place}, {at}.",
         caption=(
             f"Around {place}, {at}: the pressures are piecewise linear between the marked nodes, "
@@ -137,7 +141,6 @@ def _drawn(
         draw_difference(panels[1], outcome, across, unit)
     draw_surfaces(panels[-1], outcome, across, unit)
     for panel in panels:
-        panel.yaxis.set_label_coords(-0.8 * LEFT / (width - LEFT - RIGHT), 0.5)
         panel.set_xlim(across[0] / unit.factor, across[1] / unit.factor)
         panel.tick_params(labelbottom=panel is panels[-1])
     panels[-1].set_xlabel(f"x [{unit.name}]")

@@ -113,8 +113,9 @@ def _base(axes: "Axes", half: float, below: float, frictionless: bool) -> None:
         places = np.linspace(-half, half, 25)[1:-1]
         look = {"linestyle": "", "marker": "o", "markersize": 2.2, "color": style.OUTLINE["color"]}
         axes.plot(places, np.full(len(places), -below - 0.5 * gap), **look)
-    hatched = {"facecolor": "none", "hatch": "/////", **EDGE}
-    axes.fill_between([-half, half], -below - gap - thick, -below - gap, **hatched)
+    top = -below - gap
+    corners = [-half, half, half, -half], [top - thick, top - thick, top, top]
+    style.hatch(axes, axes.fill(*corners, facecolor="none", **EDGE), EDGE["edgecolor"])
 
 
 def _close_up(axes: "Axes", outcome: Outcome) -> float:

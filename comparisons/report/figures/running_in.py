@@ -24,8 +24,10 @@ def running_in_picture(outcome: Outcome) -> style.Picture | None:
     if scene.run_in is None:
         return None
     said = running_in_in_words(scene)
+    drawn = _drawn(outcome, style.WIDE)
     return style.Picture(
-        source=style.data_uri(_drawn(outcome, style.WIDE)),
+        source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
         narrow=style.data_uri(_drawn(outcome, style.COLUMN)),
         wide=True,
         alternative=f"The surface before and after running-in. {said}",

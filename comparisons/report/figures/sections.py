@@ -77,6 +77,7 @@ def _picture(outcome: Outcome, column: int, words: str) -> style.Picture:
     near = f" The right half enlarges the first {NEAR} a." if len(depths) > 1 else ""
     return style.Picture(
         source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
         alternative=f"Principal shear over depth through {words}. Largest: {largest}.",
         caption=(
             f"Principal shear stress τ₁ over depth through {words} (x = {at} a), with the exact "

@@ -5,12 +5,14 @@ line style, for grey printers.
 """
 
 import base64
+import csv
 import io
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,8 +20,12 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
 
+EDGE, LABEL = 0.17, 0.27  # inches: from the picture's left to a label, from an axis down to its own
 COLUMN = 5.6  # inches: two such pictures stand side by side on a wide screen
+HATCH = 0.055  # inches between hatches
+ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
 WIDE = 11.4  # inches: a picture across the page
 
 LINES = {
@@ -47,6 +53,7 @@ _SETTINGS = {
     "axes.spines.top": False,
     "axes.titlelocation": "left",
     "axes.titlesize": 9.0,
+    "axes.titley": 1.0,  # nothing stands above that matplotlib would have to measure first
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
     "grid.color": "#e2e2e2",
@@ -73,6 +80,7 @@ class Picture:
     narrow       data URI of a version for narrow screens
     wide         across the page
     field        JSON: which field is drawn where, for values under the pointer
+    data         words of a link to its curves as CSV, and their data URI
     """
 
     source: str
@@ -81,6 +89,7 @@ class Picture:
     narrow: str | None = None
     wide: bool = False
     field: str | None = None
+    data: tuple[str, str] | None = None
 
 
 _COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", default=None)
@@ -91,15 +100,19 @@ def drawing() -> Iterator[None]:
     """Settings of matplotlib for what is drawn inside; the caller's settings come back."""
     import matplotlib
 
+    shows_itself = matplotlib.rcParams["interactive"]  # as figures of a notebook do
     with matplotlib.rc_context():
         matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
+        matplotlib.rcParams.update(_SETTINGS | {"interactive": shows_itself})
         yield
 
 
 @contextmanager
 def collected_figures() -> "Iterator[list[Figure]]":
     """Collect the figures that are drawn inside, as figures of pyplot and not as images."""
+    from matplotlib import pyplot
+
+    pyplot.draw_if_interactive()  # a notebook's backend, once loaded, says that figures show
     drawn: list[Figure] = []
     token = _COLLECTED.set(drawn)
     try:
@@ -129,13 +142,17 @@ def stacked(
 
     panels  space above each and its height
     left, right  space beside them
+    Labels have fixed places, so that those of one picture are aligned.
     """
     width, height = drawn.get_size_inches()
     across = (width - left - right) / width
     edge, made = height, []
     for above, tall in panels:
         edge -= above + tall
-        made.append(drawn.add_axes((left / width, edge / height, across, tall / height)))
+        axes = drawn.add_axes((left / width, edge / height, across, tall / height))
+        axes.yaxis.set_label_coords((EDGE - left) / (across * width), 0.5)
+        axes.xaxis.set_label_coords(0.5, -LABEL / tall)
+        made.append(axes)
     return made
 
 
@@ -160,6 +177,24 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
     axes.set_yticks(places, names)
     axes.tick_params(axis="y", length=0.0)
     axes.grid(False, axis="y")
+
+
+def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float = 0.8) -> None:
+    """Diagonals on patches of the axes, as lines: browsers print patterns as coarse pixels."""
+    from matplotlib.lines import Line2D
+    from matplotlib.path import Path
+
+    if not patches:
+        return
+    (left, low), (right, high) = axes.get_position().get_points() * axes.figure.get_size_inches()
+    start = np.arange(left - (high - low), right, HATCH)
+    x = np.column_stack([start, start + high - low, np.full(len(start), np.nan)]).ravel()
+    y = np.tile([low, high, np.nan], len(start))
+    look = {"color": colour, "linewidth": width, "gid": "hatch"}
+    lines = Line2D(x, y, transform=axes.figure.dpi_scale_trans, **look)
+    outlines = [p.get_patch_transform().transform_path(p.get_path()) for p in patches]
+    lines.set_clip_path(Path.make_compound_path(*outlines), axes.transData)
+    axes.add_artist(lines)
 
 
 def symmetric(axes: "Axes", values: np.ndarray) -> None:
@@ -189,3 +224,32 @@ def data_uri(drawn: "Figure") -> str:
         return ""
     text = base64.b64encode(svg(drawn).encode()).decode("ascii")
     return "data:image/svg+xml;base64," + text
+
+
+def csv_link(drawn: "Figure") -> tuple[str, str] | None:
+    """The figure's curves as CSV, columns side by side: x where it is another one, then y, of long
+    curves not every point; None inside `collected_figures`."""
+    if _COLLECTED.get() is not None:
+        return None
+    longest = max(len(line.get_xdata()) for axes in drawn.axes for line in axes.lines)
+    step = -(-longest // ROWS)
+    columns: list[tuple[str, np.ndarray]] = []
+    across = next(filter(None, (axes.get_xlabel() for axes in reversed(drawn.axes))), "x")
+    for axes in drawn.axes:
+        panel = " ".join(filter(None, (axes.get_title(loc="left"), axes.get_ylabel())))
+        last = np.empty(0)
+        for line in axes.lines:
+            x, y = (values[::step] for values in line.get_data())
+            if line.get_transform() != axes.transData or len(x) < 3:
+                continue
+            label = str(line.get_label())
+            name = ", ".join(filter(None, (panel, "" if label.startswith("_") else label)))
+            columns += [] if np.array_equal(x, last) else [(axes.get_xlabel() or across, x)]
+            columns.append((" ".join(name.split()), y))
+            last = x
+    text = io.StringIO()
+    rows = zip_longest(*([f"{v:.6g}" for v in values] for _, values in columns), fillvalue="")
+    csv.writer(text, lineterminator="\n").writerows([[name for name, _ in columns], *rows])
+    content = base64.b64encode(text.getvalue().encode()).decode("ascii")
+    words = "CSV" if step == 1 else f"CSV, 1 point in {step}"
+    return words, f"data:text/csv;charset=utf-8;base64,{content}"

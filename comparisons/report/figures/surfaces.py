@@ -85,6 +85,7 @@ def surface_picture(outcome: Outcome) -> style.Picture:
     approach = with_unit(float(np.max(found.body_before - found.body)), "m", 3)
     return style.Picture(
         source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
         alternative=(
             "Surfaces of roller and body before and under load, and the gap between them; the "
             f"body's surface gives way by {approach}."

@@ -10,12 +10,18 @@ from comparisons.common.numbers import Scale, given_percent, percent, plain, sca
 from comparisons.common.quantities import HYPHENATED, QUANTITIES, label
 from comparisons.models.problem import Problem
 from comparisons.report.tables.model_error import left_out
-from comparisons.report.tables.text import TextTable, error_text, grouped, listed
+from comparisons.report.tables.text import (
+    REPEATED,
+    TextTable,
+    error_text,
+    grouped,
+    is_shown,
+    listed,
+)
 from comparisons.results.outcome import Outcome
 
 SAME_PROBLEM = "the same problem"
 SHIFT_LABEL = "shift of the pressure's centroid"
-UNCHANGED = "contact_ratio"  # it changes as the contact length does
 AT_HARDNESS = 1e-9  # relative: a pressure so close to the hardness is held there
 
 
@@ -76,7 +82,8 @@ def figure_rows(outcome: Outcome) -> list[tuple[str, ...]]:
     for friction in problem.scene.friction:
         known = uncertainties(run, problem, friction)
         for name, value in figures(run.finest, problem, friction).items():
-            found.append((friction, name, value, known[name].total))
+            if is_shown(outcome, name):
+                found.append((friction, name, value, known[name].total))
     found.sort(key=lambda entry: list(QUANTITIES).index(entry[1]))
     rows = []
     for same in grouped(found, lambda entry: entry[1:]):
@@ -139,7 +146,7 @@ def coupling_table(outcome: Outcome) -> TextTable | None:
     shown = [coupling for coupling in outcome.couplings if coupling.changes]
     if not shown:
         return None
-    names = {SHIFT: SHIFT_LABEL} | {name: label(name) for name in QUANTITIES if name != UNCHANGED}
+    names = {SHIFT: SHIFT_LABEL} | {name: label(name) for name in QUANTITIES if name != REPEATED}
     rows = []
     for name, words in names.items():
         changes = [coupling.changes[name] for coupling in shown if name in coupling.changes]

@@ -124,6 +124,8 @@ def not_modelled_line(outcome: Outcome) -> str:
             for name, size in zip(same, sizes, strict=True)
         )
         parts.append(": ".join(filter(None, (named, selection.impossible.get(same[0])))))
+    if outcome.budget.left_out is not None:
+        parts.append(f"left out is {outcome.budget.left_out}")
     return "; ".join(parts) or "nothing"
 
 

@@ -1,6 +1,7 @@
 """The problem in figures: what a reader needs to set it up again by hand."""
 
 from analytic.material import Material
+from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, plain, significant, with_unit
 from comparisons.models.problem import Problem
 from comparisons.report.tables.text import listed
@@ -68,6 +69,8 @@ def _profile(info: ProfileInfo) -> Rows:
         rows.insert(1, ("line of the map", info.place))
     if info.bridged or info.trimmed:
         lost = f"{info.bridged} bridged, {info.trimmed} cut off at the ends"
+        if info.stretch is not None:
+            lost += f", the longest from {' to '.join(with_unit(v, 'm') for v in info.stretch)}"
         rows.append(("lost samples", lost))
     return rows
 
@@ -93,12 +96,31 @@ def _standard(info: ProfileInfo) -> Rows:
     width = "no whole element" if found.rsm is None else with_unit(found.rsm, "m")
     return [
         ("cut-offs λc, λs", f"{in_mm(found.cutoff)}, {short}"),
-        ("section lengths", str(found.sections)),
+        ("section lengths", sections_text(found)),
         ("Ra, Rq", _pair_in_m(found.ra, found.rq)),
         ("Rz, Rt", _pair_in_m(found.rz, found.rt)),
         ("Rsk, Rku", f"{decimal(found.rsk, 2)}, {decimal(found.rku, 2)}"),
         ("Rdq, RSm", f"{significant(found.rdq, 3)}, {width}"),
+        ("unlike as pressed", standard_text(info)),
     ]
+
+
+def sections_text(found: StandardRoughness) -> str:
+    """How many section lengths there are, and where they are fewer than the standard's."""
+    if found.sections == SECTIONS:
+        return str(SECTIONS)
+    few = f"{found.sections} where the standard asks for {SECTIONS}"
+    return f"{few}, so that Rz is Rt" if found.sections == 1 else few
+
+
+def standard_text(info: ProfileInfo) -> str:
+    """Why the standard's parameters are not those of the surface as pressed, in one phrase."""
+    found = info.standard
+    ends = f"waves longer than {in_mm(found.cutoff)}"
+    if found.short_cutoff is not None:
+        ends += f" and shorter than {given(found.short_cutoff, 'm')}"
+    span = with_unit(found.sections * found.cutoff, "m")
+    return f"{ends} are filtered off, and the middle {span} of {with_unit(info.length, 'm')} count"
 
 
 def _pair_in_m(first: float, second: float) -> str:

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from comparisons.common.numbers import percent, plain
 from comparisons.common.quantities import QUANTITIES
+from comparisons.results.outcome import Outcome
+
+REPEATED = "contact_ratio"
 
 
 @dataclass(frozen=True)
@@ -14,6 +17,12 @@ class TextTable:
     title: str
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+
+
+def is_shown(outcome: Outcome, quantity: str) -> bool:
+    """Whether a figure has a row beside the contact length, which stands over Hertz's: the contact
+    ratio, that over a constant, has one only where it is judged."""
+    return quantity != REPEATED or quantity in outcome.problem.scene.tolerance
 
 
 def grouped(items: Iterable, key: Callable[[object], object]) -> list[list]:

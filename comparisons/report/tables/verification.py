@@ -6,12 +6,13 @@ import shlex
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.assessment.comparison import figures, uncertainties
 from comparisons.assessment.uncertainty import Uncertainty
+from comparisons.common.errors import one_line
 from comparisons.common.numbers import integer, percent, plain, scale_of, significant, with_unit
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.report.tables.convergence import row_name
-from comparisons.report.tables.text import TextTable
+from comparisons.report.tables.text import TextTable, is_shown
 from comparisons.results.outcome import Outcome
 
 ALL_LEVELS = "all levels together: time"
@@ -79,7 +80,7 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
         values = [figures(level, problem, friction) for level in levels]
         for name in values[0]:
             words = row_name(outcome, name, friction)
-            if words and name != "contact_ratio":  # the ratio is the length over a constant
+            if words and is_shown(outcome, name):
                 scale = scale_of([v[name] for v in values], QUANTITIES[name].unit)
                 numbers = (scale.text(v[name], 5) for v in values)
                 rows.append((words, *numbers, *_parts(found[name], check is not None)))
@@ -92,7 +93,7 @@ def _of_pair(outcome: Outcome) -> TextTable:
     for pair in outcome.pairs:
         for name in pair.differences[0]:
             words = row_name(outcome, name, pair.friction)
-            if words:
+            if words and is_shown(outcome, name):
                 shown = {"digits": 3, "signed": not QUANTITIES[name].of_pair}
                 numbers = (percent(values[name], **shown) for values in pair.differences)
                 rows.append((words, *numbers, *_parts(pair.uncertainties[name], checked)))
@@ -156,9 +157,9 @@ def _cost(outcome: Outcome, run: ModelRun) -> dict[str, str]:
 
 
 def record_rows(outcome: Outcome) -> list[tuple[str, str]]:
-    """Versions, machine and hashes of the run."""
+    """Date, host and revision, versions, machine and hashes of the run."""
     record = outcome.record
-    rows = []
+    rows = [(name, value) for name, value in record.get("made", {}).items() if value]
     for part in ("versions", "machine"):
         rows.append((part, ", ".join(f"{n} {value}" for n, value in record[part].items() if value)))
     if record.get("seed") is not None:
@@ -191,7 +192,7 @@ def commands(outcome: Outcome) -> list[tuple[str, str]]:
     return [
         ("repeats this run, in the folder of this page", "crosscheck rerun ."),
         ("draws this page again, in the same folder", "crosscheck report ."),
-        ("runs the scene again", f"crosscheck run {shlex.quote(scene.source)}{models}"),
+        ("runs the scene again", f"crosscheck run {shlex.quote(one_line(scene.source))}{models}"),
     ]
 
 

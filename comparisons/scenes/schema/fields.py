@@ -27,6 +27,8 @@ from comparisons.scenes.scene import Extent
 
 # Of a number in SI, but for 0. Products of some of them still fit a double.
 SMALLEST, LARGEST = 1e-30, 1e30
+MOST_VALUES = 1000  # of a list
+LONGEST_TEXT = 1000  # characters
 
 
 class FieldType(ABC):
@@ -118,6 +120,8 @@ class Text(FieldType):
             raise self.wrong("is blank")
         if not given.isprintable():
             raise self.wrong("holds a control character")
+        if len(given) > LONGEST_TEXT:
+            raise self.wrong(f"has {len(given)} characters, more than {LONGEST_TEXT}")
         return given
 
     def allowed(self) -> str:
@@ -143,15 +147,18 @@ class OneOf(FieldType):
 
 @dataclass(frozen=True)
 class Truth(FieldType):
-    """true or false."""
+    """true or false, or one of a few words beside them."""
 
-    def read(self, given: object) -> bool:
-        if not isinstance(given, bool):
+    words: tuple[str, ...] = ()
+
+    def read(self, given: object) -> bool | str:
+        if not isinstance(given, bool) and given not in self.words:
             raise self.wrong(f"is {describe(given)}")
         return given
 
     def allowed(self) -> str:
-        return "true or false"
+        words = [f'"{word}"' for word in self.words]
+        return f"{', '.join(['true', 'false', *words][:-1])} or {['false', *words][-1]}"
 
 
 @dataclass(frozen=True)
@@ -195,6 +202,8 @@ class Several(FieldType):
         values = given if isinstance(given, list | tuple) else [given]
         if not values:
             raise self.wrong("is an empty list")
+        if len(values) > MOST_VALUES:
+            raise self.wrong(f"is a list of {len(values)} values, more than {MOST_VALUES}")
         read = tuple(self.each.read(value) for value in values)
         for value in read:
             if read.count(value) > 1:
@@ -227,9 +236,11 @@ class Named(FieldType):
 
 @dataclass(frozen=True)
 class Grid(FieldType):
-    """[columns, rows] of a field of points, at least 3 each and at most `most` in all."""
+    """[columns, rows] of a field of points: at least 3 and at most `each` of both, at most `most`
+    points in all."""
 
     most: int
+    each: int
 
     def read(self, given: object) -> tuple[int, int]:
         if not isinstance(given, list | tuple):
@@ -237,7 +248,7 @@ class Grid(FieldType):
         if len(given) != 2:
             raise self.wrong(f"is a list of {len(given)}")
         for number in given:
-            if type(number) is not int or number < 3:
+            if type(number) is not int or not 3 <= number <= self.each:
                 raise self.wrong(f"holds {describe(number)}")
         columns, rows = given
         if columns * rows > self.most:
@@ -245,8 +256,8 @@ class Grid(FieldType):
         return columns, rows
 
     def allowed(self) -> str:
-        least = "a list of two whole numbers [along x, along z], at least 3 each"
-        return f"{least} and at most {self.most} points in all"
+        both = f"a list of two whole numbers [along x, along z], from 3 to {self.each} each"
+        return f"{both}, at most {self.most} points in all"
 
 
 Length = Annotated[float, Number(LENGTH, above=0.0)]

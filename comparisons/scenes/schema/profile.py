@@ -68,6 +68,24 @@ class Segment(FieldType):
         return 'two points, such as [["0 um", "10 um"], ["500 um", "10 um"]], none below 0'
 
 
+@dataclass(frozen=True)
+class Columns(FieldType):
+    """Of a table: those of x and height, or that of heights alone, by names or numbers from 0."""
+
+    def read(self, given: object) -> tuple[str | int, ...]:
+        values = given if isinstance(given, list | tuple) else [given]
+        if len(values) not in (1, 2) or values.count(values[0]) > 1:
+            raise self.wrong(f"is {describe(given)} of {len(values)}")
+        for value in values:
+            named = isinstance(value, str) and value.strip()
+            if not named and (type(value) is not int or not 0 <= value < MAX_SAMPLES):
+                raise self.wrong(f"holds {describe(value)}")
+        return tuple(values)
+
+    def allowed(self) -> str:
+        return 'one or two columns by name or by number from 0, such as ["x", "z"] or [0, 2]'
+
+
 Ratio = Annotated[float, Number(DIMENSIONLESS, above=0.0)]
 Samples = Annotated[int, Whole(MIN_SAMPLES, MAX_SAMPLES)]
 
@@ -80,6 +98,8 @@ class ProfileSection(SceneSection):
     x_unit: Annotated[str, Unit(LENGTH)] | None = None
     z_unit: Annotated[str, Unit(LENGTH)] | None = None
     spacing: Length | None = None
+    columns: Annotated[tuple, Columns()] | None = None
+    channel: Annotated[str, Text("the name of a channel, or of a sheet")] | None = None
     row: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
     column: Annotated[int, Whole(0, MAX_SAMPLES)] | None = None
     line: Annotated[tuple, Segment()] | None = None
@@ -166,7 +186,11 @@ VARIETIES = {
     "file": Variety(
         "a measured profile",
         needed=("file",),
-        optional=("z_unit",),  # a file that is not text may bring its units and its size
+        optional=(
+            "z_unit",
+            "columns",
+            "channel",
+        ),  # a file that is not text may bring its units and its size
         defaults={"form": "line", "dropouts": "refuse"},
         at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
     ),

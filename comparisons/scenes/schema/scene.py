@@ -34,6 +34,7 @@ from comparisons.scenes.schema.profile import ProfileSection
 from comparisons.scenes.schema.running_in import RunningInSection
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
+MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
 
 Pressure = Annotated[float, Number(PRESSURE, above=0.0)]
 Frictions = Annotated[tuple[float, ...], Several(Number(DIMENSIONLESS, at_least=0.0, at_most=1.5))]
@@ -121,7 +122,7 @@ class LoadSection(SceneSection):
 class StressWindowSection(SceneSection):
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
     half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
-    points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS)] = (600, 200)
+    points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
 
 
 class ToleranceSection(SceneSection):
@@ -144,7 +145,7 @@ class ResolutionSection(SceneSection):
 class BudgetSection(SceneSection):
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0
     memory: Annotated[float, Number(MEMORY, above=0.0)] = 8e9
-    effects: Annotated[bool, Truth()] = True
+    effects: Annotated[bool | str, Truth(("all",))] = True
 
 
 class SceneFile(SceneSection):

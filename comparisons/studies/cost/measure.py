@@ -5,7 +5,6 @@ what the wall time would be if the machine were idle.
 """
 
 import re
-import resource
 import statistics
 import time
 from collections.abc import Iterator
@@ -13,16 +12,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from comparisons.common.errors import InputError
-from comparisons.common.progress import Stages, peak_memory
+from comparisons.common.progress import Stages, peak_memory, processor_seconds
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.cost.methods import METHODS, SolutionMethod
 from comparisons.studies.cost.solve import SolvedContact, solved
 
-WARM = 1.0  # seconds: a first solution that takes less is repeated, and does not count
-
-_begun: set[str] = set()  # methods that this process has run: the first solution loads libraries
+# Methods that this process has run. The first solution loads libraries, and does not count.
+_begun: set[str] = set()
 
 
 @dataclass(frozen=True)
@@ -88,12 +86,6 @@ class ProcessorStages(Stages):
             self.seconds[name] = self.seconds.get(name, 0.0) + processor_seconds() - begin
 
 
-def processor_seconds() -> float:
-    """Of this process and of its children that have ended."""
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + children.ru_utime + children.ru_stime
-
-
 def measure(task: CostTask) -> MeasuredRun | RefusedRun:
     method = next(m for m in METHODS if m.name == task.method)
     first = processor_seconds()
@@ -101,9 +93,7 @@ def measure(task: CostTask) -> MeasuredRun | RefusedRun:
         problem = problem_of(task.scene, task.load)
         window = window_of(problem) if task.scene.stress is not None else None
         contact, seconds, wall = _timed(method, problem, task, window)
-        runs = [(seconds, wall)]
-        if task.method not in _begun or sum(seconds.values()) < WARM:
-            runs = []
+        runs = [(seconds, wall)] if task.method in _begun else []
         _begun.add(task.method)
         while not runs or (len(runs) < task.repeats and processor_seconds() - first < task.limit):
             contact, seconds, wall = _timed(method, problem, task, window)

@@ -1,20 +1,16 @@
 """The methods whose cost is measured, at which settings, and to which scenes each applies.
 
-A setting is a pitch of the pressure elements [m] or, for meshes that the contact chooses, the
-relative error of the pressure that it is to reach. Pitches are those of the scene's own levels,
-coarser and finer by powers of two.
+A setting is a pitch of the pressure elements [m]: those of the scene's own levels, coarser and
+finer by powers of two.
 """
 
 from dataclasses import dataclass
 
-from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem
 
 MOST_DENSE = 4000  # elements of a dense matrix: 128 MB, and as much again for its factor
 HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
 FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
-TOLERANCES = (0.1, 0.03, 0.01, 3e-3, 1e-3)
-ADAPTED = "P2 adapted"
 
 
 @dataclass(frozen=True)
@@ -32,14 +28,8 @@ class SolutionMethod:
     element: str
     dense: bool = False
 
-    @property
-    def adapted(self) -> bool:
-        return self.name == ADAPTED
-
     def settings(self, problem: Problem) -> tuple[float, ...]:
         """From coarse to fine."""
-        if self.adapted:
-            return TOLERANCES
         factors = HALF_PLANE_PITCHES if self.model == "half_plane" else FINITE_ELEMENT_PITCHES
         return tuple(factor * problem.pitches[0] for factor in factors)
 
@@ -51,13 +41,12 @@ METHODS = (
     FINEST,
     SolutionMethod("hats, dense", "half_plane", "hat", dense=True),
     *(SolutionMethod(degree, "finite_element", degree) for degree in ("P1", "P2", "P3")),
-    SolutionMethod(ADAPTED, "finite_element", "P2"),
 )
 
 
 def why_not(method: SolutionMethod, problem: Problem) -> str | None:
     """Why a method does not apply to a scene at all, None where it does."""
-    scene, settings = problem.scene, problem.scene.finite_element
+    settings = problem.scene.finite_element
     if method.model == "half_plane":
         if problem.coupling and method != FINEST:
             return "friction moves the surfaces: only hats by FFT have that"
@@ -65,22 +54,6 @@ def why_not(method: SolutionMethod, problem: Problem) -> str | None:
     nonlinear = settings.plastic or settings.deformation == "finite"
     if method.element != "P2" and nonlinear:
         return "bodies that yield or deform finitely take P2"
-    if not method.adapted:
-        return None
-    plan = make_plan(problem, ("half_plane", "finite_element"))
-    for excluded, because in (
-        (nonlinear, "the body yields or deforms finitely"),
-        (scene.hardness is not None, "the pressure has a cap"),
-        (settings.gap == "displaced", "the gap is taken on the deformed surface"),
-        (settings.geometry == "rough" and scene.profile is not None, "the boundary is rough"),
-        (settings.roller_shape == "circle", "the roller is a circle"),
-        (settings.coupled and any(scene.friction), "friction moves the surfaces"),
-        (scene.coating is not None, "the body has a coating"),
-        (scene.width is not None or scene.thickness is not None, "the body has a finite size"),
-        (scene.roller is not None and not plan.shared_factor, "the roller has its own mesh"),
-    ):
-        if excluded:
-            return f"adapted meshes are not made where {because}"
     return None
 
 

@@ -1,5 +1,7 @@
 """A cost study for its reader: what to take, every row, diagrams; as a table and as cost.html."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,31 +17,60 @@ from comparisons.studies.cost.result import Cost
 from comparisons.studies.cost.study import FAILED, OK
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from rich.console import Console, ConsoleOptions, RenderableType
 
 SHOWN = ("peak_pressure", "contact_length", "pressure_l2", "tau1_max", "tau1_max_depth")
 REDUNDANT = ("contact_ratio",)  # the contact length over a constant
 MARK = " *"  # on the Pareto front
+ERRORS = 5  # columns of errors in a narrow terminal
 
 
 def cost_table(cost: Cost) -> "RenderableType":
     """For rich: rows, sentences, references and machine."""
     from rich.console import Group
+    from rich.table import Table
     from rich.text import Text
 
     names = shown(cost)
-    heads = ("setting", "unknowns", "contact", "with\nstresses", "memory")
-    quantities = (SHORT[name].replace(" ", "\n", 1) for name in names)
-    table = plain_table("method", numbers=(*heads, *quantities))
+    heads = ("method", "setting", "unknowns", "contact", "with\nstresses", "memory")
+    heads += tuple(SHORT[name].replace(" ", "\n") for name in names)
     styles = {OK: "", FAILED: STYLES["differ"]}
-    for each in cost.assessed:
-        style = styles.get(each.row.status, STYLES["inconclusive"])
-        table.add_row(*(Text(c.translate(PLAIN), style=style) for c in cells(cost, each, names)))
+
+    def table(*columns: int) -> Table:
+        first, *numbers = (heads[k] for k in columns)
+        made = plain_table(first, numbers=numbers)
+        for each in cost.assessed:
+            style = styles.get(each.row.status, STYLES["inconclusive"])
+            row = cells(cost, each, names)
+            made.add_row(*(Text(row[k].translate(PLAIN), style=style) for k in columns))
+        return made
+
+    errors = range(6, len(heads))
+    several = [table(0, 1, *errors[k : k + ERRORS]) for k in range(0, len(errors), ERRORS)]
+    parts = [part for each in (table(*range(6)), *several) for part in (each, "")][:-1]
+    rows = WhatFits(table(*range(len(heads))), tuple(parts))
     lines = [Text(each.sentence.translate(PLAIN)) for each in cost.recommendations]
     small = [*refusals(cost), *notes_of(cost)]
     notes = [Text(line.translate(PLAIN), style="dim") for line in small]
     title = Text(cost.problem.scene.title, style="bold")
-    return Group(title, "", table, "", *lines, "", *notes)
+    return Group(title, "", rows, "", *lines, "", *notes)
+
+
+@dataclass(frozen=True)
+class WhatFits:
+    """Something for rich to print, or its parts where the terminal is narrower."""
+
+    whole: "RenderableType"
+    parts: "tuple[RenderableType, ...]"
+
+    def __rich_console__(
+        self, console: "Console", options: "ConsoleOptions"
+    ) -> "Iterator[RenderableType]":
+        from rich.measure import Measurement
+
+        unbounded = options.update(width=10 * options.max_width)
+        wide = Measurement.get(console, unbounded, self.whole).maximum
+        yield from (self.whole,) if wide <= options.max_width else self.parts
 
 
 def cost_page(cost: Cost) -> str:
@@ -67,11 +98,13 @@ def _settings(cost: Cost, recommendation: Recommendation) -> list[str]:
 
 
 def _toml(sections: dict[str, dict]) -> str:
-    def written(value: object) -> str:
+    def written(name: str, value: object) -> str:
+        if name == "pitch":
+            value = with_unit(value, "m", 3).translate(PLAIN)  # as the setting is named
         return f'"{value}"' if isinstance(value, str) else f"{value!r}"
 
     return ", ".join(
-        f"{name} = {{{', '.join(f'{k} = {written(v)}' for k, v in fields.items())}}}"
+        f"{name} = {{{', '.join(f'{k} = {written(k, v)}' for k, v in fields.items())}}}"
         for name, fields in sections.items()
     )
 
@@ -85,13 +118,12 @@ def shown(cost: Cost) -> list[str]:
 
 def cells(cost: Cost, each: AssessedRow, names: list[str]) -> tuple[str, ...]:
     row, measured = each.row, each.row.measured
-    setting = percent(row.setting, digits=1) if row.method.adapted and row.setting else row.label
     if measured is None:
-        return (row.method.name, setting, row.status, *[""] * (3 + len(names)))
+        return (row.method.name, row.label, row.status, *[""] * (3 + len(names)))
     stresses = cost.problem.scene.stress is not None
     return (
         row.method.name,
-        setting,
+        row.label,
         integer(measured.solved.unknowns),
         with_unit(row.seconds(False), "s", 2),
         with_unit(row.seconds(True), "s", 2) if stresses else "",

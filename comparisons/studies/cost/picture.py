@@ -20,7 +20,6 @@ LOOKS = {
     "P1": ("#CC79A7", DASHED, "^"),
     "P2": ("#D55E00", DASHED, "o"),
     "P3": ("#009E73", DASHED, "s"),
-    "P2 adapted": ("#E69F00", DASHED, "P"),
 }
 SMALL = {"textcoords": "offset points", "fontsize": 8.0}
 HEIGHT = 3.9

@@ -88,7 +88,8 @@ def _recommendation(
     name, tolerance = ALL, None
     if len(tolerances) == 1:
         [(name, tolerance)] = tolerances.items()
-    sentence = _sentence(tolerances, floors, half_plane, finite_element, best)
+    lucky = _by_chance(assessed, floors, tolerances, best)
+    sentence = _sentence(tolerances, floors, lucky, half_plane, finite_element, best)
     return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
 
 
@@ -107,6 +108,20 @@ def _meeting(
             break
         found.append(each)
     return found
+
+
+def _by_chance(
+    assessed: list[AssessedRow],
+    floors: dict[str, float],
+    tolerances: Tolerances,
+    best: AssessedRow | None,
+) -> AssessedRow | None:
+    """The cheapest row below `best` that meets the tolerances although a finer one does not."""
+    stresses = needs_stress(tolerances)
+    below = float("inf") if best is None else best.row.seconds(stresses)
+    found = [a for a in assessed if a.row.status == OK and a.meets(floors, tolerances)]
+    found = [a for a in found if a.row.seconds(stresses) < below]
+    return min(found, key=lambda a: a.row.seconds(stresses), default=None)
 
 
 def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
@@ -128,8 +143,17 @@ def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:
     return sections
 
 
-def _sentence(tolerances: Tolerances, floors: dict[str, float], *rows: AssessedRow | None) -> str:
-    """`rows`: the cheapest half-plane, the cheapest finite elements, the cheapest of all."""
+def _sentence(
+    tolerances: Tolerances,
+    floors: dict[str, float],
+    lucky: AssessedRow | None,
+    *rows: AssessedRow | None,
+) -> str:
+    """What to take, and why not the cheapest row.
+
+    lucky  a cheaper row that meets the tolerances by chance
+    rows   the cheapest half-plane, the cheapest finite elements, the cheapest of all
+    """
     half_plane, finite_element, best = rows
     aim = "all tolerances of the scene"
     if len(tolerances) == 1:
@@ -139,8 +163,10 @@ def _sentence(tolerances: Tolerances, floors: dict[str, float], *rows: AssessedR
     if uncertain:
         names = ", ".join(f"{QUANTITIES[n].label} ({percent(floors[n])})" for n in uncertain)
         return f"For {aim} nothing can be said: the reference itself is that uncertain: {names}."
+    chance = "" if lucky is None else f"{_words(lucky, tolerances)}, but a finer one does not"
     if best is None:
-        return f"For {aim} no measured setting will do."
+        met = f"; by chance it is met by {chance}" if chance else ""
+        return f"For {aim} no measured setting will do{met}."
     parts = []
     if half_plane is not None:
         parts.append(f"take the half-plane ({_words(half_plane, tolerances)})")
@@ -154,13 +180,17 @@ def _sentence(tolerances: Tolerances, floors: dict[str, float], *rows: AssessedR
     if best not in (half_plane, finite_element):
         lead = "cheapest of all is" if parts else "nothing that run has will do, but"
         parts.append(f"{lead} {_words(best, tolerances)}")
+        if lead.startswith("cheapest"):
+            parts[-1] += ", by which run cannot solve"
+    if chance:
+        parts.append(f"by chance it is met cheaper by {chance}")
     return f"For {aim} {'; '.join(parts)}."
 
 
 def _words(assessed: AssessedRow, tolerances: Tolerances) -> str:
     row = assessed.row
     seconds = row.seconds(needs_stress(tolerances))
-    setting = row.label if row.method.adapted else f"at a pitch of {row.label}"
+    setting = f"at a pitch of {row.label}"
     if row.method.model == "finite_element":
         setting += f", {integer(row.measured.solved.unknowns)} unknowns"
     return f"{row.method.name} {setting}: expect {with_unit(seconds, 's', 2)}"

@@ -107,8 +107,7 @@ def _row(cost: Cost, each: AssessedRow) -> dict:
     found = {
         "method": row.method.name,
         "model": row.method.model,
-        "pitch": None if row.method.adapted else row.setting,
-        "wanted_error": row.setting if row.method.adapted else None,
+        "pitch": row.setting,
         "status": row.status,
         "because": row.because,
     }

@@ -29,7 +29,7 @@ class SolvedContact:
     x, pressure  (n,) [m], [Pa] nodes of the pressure, linear between them, zero at both ends
     stresses     one a friction coefficient on the scene's window, empty without
     elements     of pressure
-    level        the solution as a level of a run, without its mesh; None on unequal hats
+    level        the solution as a level of a run, without its mesh; None of strips
     """
 
     figures: tuple[dict[str, float], ...]
@@ -58,14 +58,13 @@ def solved(
         return _of_level(_plain_half_plane(method, problem, setting, window, stages), problem)
     settings = replace(problem.scene.finite_element, element=method.element)
     problem = replace(problem, scene=replace(problem.scene, finite_element=settings))
-    if method.adapted:
-        return _adapted(problem, setting, window, stages)
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
 
     plan = make_plan(problem, ("finite_element",))
-    level = finite_element_level(problem, plan, Refinement(setting, half_block), window, stages)
-    return _of_level(replace(level, mesh=None, mesh_field=None), problem)
+    given = problem, plan, Refinement(setting, half_block), window, stages
+    level = finite_element_level(*given, fields=False)
+    return _of_level(replace(level, mesh=None), problem)
 
 
 def _of_level(level: Level, problem: Problem) -> SolvedContact:
@@ -148,65 +147,3 @@ def _stresses(
             field = type(field)(*unknown)
         results.append(StressResult(friction, extremes, field))
     return tuple(results)
-
-
-def _adapted(
-    problem: Problem, tolerance: float, window: Window | None, stages: Stages
-) -> SolvedContact:
-    """On a mesh and hats that the contact chooses; a block with the half-plane's far field."""
-    from analytic.surface.roughness import shortest_wavelength
-    from comparisons.models.finite_element.adaptive import Pressing, adapted_contact
-    from comparisons.models.finite_element.stress import LoadedBody, stresses_of
-    from fem.body.surface import straight_down
-    from fem.stress.stress import nodal_stress
-
-    scene = problem.scene
-    pressing = Pressing(
-        gap=problem.finite_element_gap,
-        load=problem.hertz.load_per_length,
-        material=scene.body,
-        extent=problem.extent,
-        knots=problem.knots,
-        shortest=np.inf if scene.profile is None else shortest_wavelength(scene.profile),
-        stiffening=scene.body.plane_strain_modulus / problem.modulus,
-    )
-    with stages.stage("contact and meshes"):
-        contact = adapted_contact(pressing, tolerance)
-    pressure, stresses = contact.solution.pressure, ()
-    if window is not None:
-        rough = contact.compliance
-
-        def stress(friction: float) -> object:
-            moved = rough.displacement(pressure, friction)
-            return nodal_stress(rough.body, moved, rough.hats, pressure, friction, straight_down)
-
-        with stages.stage("stresses"):
-            nothing = np.zeros(rough.count)
-            pressed = LoadedBody(rough.body, contact.solution, nothing, stress, np.empty((0, 2)))
-            stresses, _ = stresses_of(pressed, scene.friction, window)
-    of_contact = {
-        "peak_pressure": contact.peak_pressure,
-        "contact_length": contact.contact_length,
-        "contact_ratio": contact.contact_length / (2.0 * problem.hertz.half_width),
-    }
-    of_stresses = [_stress_figures(each) for each in stresses] or [{}] * len(scene.friction)
-    return SolvedContact(
-        figures=tuple(of_contact | each for each in of_stresses),
-        x=contact.hats,
-        pressure=np.concatenate([[0.0], pressure, [0.0]]),
-        stresses=stresses,
-        elements=len(pressure),
-        unknowns=contact.rounds[-1].unknowns,
-        converged=contact.converged,
-        level=None,
-    )
-
-
-def _stress_figures(stress: StressResult) -> dict[str, float]:
-    """The figures that are of stresses, by the names of result.json."""
-    tau1 = stress.extremes["tau1"]
-    return {
-        "tau1_max": tau1.value,
-        "tau1_max_depth": tau1.z,
-        "txz_max_abs": abs(stress.extremes["txz"].value),
-    }

@@ -70,8 +70,6 @@ class CostRow:
         """The setting in words."""
         if self.setting is None:
             return "–"
-        if self.method.adapted:
-            return f"to {self.setting:.3g}"
         return with_unit(self.setting, "m", 3)
 
 
@@ -214,5 +212,4 @@ def _wants_far_boundary_check(method: SolutionMethod, problem: Problem) -> bool:
     """Whether the finite elements are a reference, whose far boundary counts."""
     scene = problem.scene
     unbounded = scene.thickness is None or scene.width is None
-    plain = method.model == "finite_element" and not method.adapted
-    return plain and unbounded and not is_half_plane_problem(problem)
+    return method.model == "finite_element" and unbounded and not is_half_plane_problem(problem)

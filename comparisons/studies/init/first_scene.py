@@ -6,28 +6,39 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
 from comparisons.common.units import LENGTH
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.scenes.schema.fields import Number, Unit, Whole
+from comparisons.scenes.schema.fields import Number, Text, Unit, Whole, field_type
+from comparisons.scenes.schema.profile import Columns
+from comparisons.scenes.schema.scene import SECTIONS
 from comparisons.studies.init.guess import ProfileFields, fields_of_profile
-from comparisons.studies.init.scene_text import scene_text, toml
+from comparisons.studies.init.picture import picture
+from comparisons.studies.init.scene_text import scene_text, toml, value_of
 
 # Options of `crosscheck init` that are fields of [profile].
 TYPES = {
     "x_unit": Unit(LENGTH),
     "z_unit": Unit(LENGTH),
     "spacing": Number(LENGTH, above=0.0),
+    "columns": Columns(),
+    "channel": Text("the name of a channel, or of a sheet"),
     "row": Whole(0, 2**31),
     "column": Whole(0, 2**31),
 }
 EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"))
 
 
-def given_fields(options: Mapping[str, str | int | None]) -> dict[str, str]:
+def columns_of(text: str) -> list[str | int]:
+    """What `--columns` lists: numbers where they are such, else names."""
+    return [int(word) if word.isdecimal() else word for word in map(str.strip, text.split(","))]
+
+
+def given_fields(options: Mapping[str, str | int | list | None]) -> dict[str, str]:
     """Fields of [profile] as TOML from the options; raises InputError for a wrong one."""
     given = {name: value for name, value in options.items() if value is not None}
     for name, value in given.items():
@@ -40,20 +51,62 @@ def given_fields(options: Mapping[str, str | int | None]) -> dict[str, str]:
             raise InputError(
                 f"--{second}: is given beside --{first.replace('_', '-')}; allowed is one of them"
             )
-    return {name: toml(v) if isinstance(v, str) else str(v) for name, v in given.items()}
+    return {name: toml(value) for name, value in given.items()}
+
+
+# Options that are fields of other sections; moduli are those of both bodies.
+BODIES = {
+    "radius": (("roller", "radius"),),
+    "load": (("load", "per_length"),),
+    "peak_pressure": (("load", "hertz_peak_pressure"),),
+    "friction": (("load", "friction"),),
+    "youngs_modulus": (("roller", "youngs_modulus"), ("body", "youngs_modulus")),
+    "poissons_ratio": (("roller", "poissons_ratio"), ("body", "poissons_ratio")),
+    "hardness": (("body", "hardness"),),
+}
+Sections = dict[str, dict[str, str]]
+
+
+def given_sections(options: Mapping[str, str | None]) -> Sections:
+    """Fields as TOML by section, from the options of BODIES; raises InputError for a wrong one."""
+    found: Sections = {}
+    for name, text in options.items():
+        for section, field in BODIES[name] if text is not None else ():
+            value = _number(text)
+            try:
+                field_type(SECTIONS[section], field).read(value)
+            except ValueError as error:
+                raise InputError(f"--{name.replace('_', '-')}: {error}") from error
+            found.setdefault(section, {})[field] = toml(value)
+    if len(found.get("load", {}).keys() & {"per_length", "hertz_peak_pressure"}) > 1:
+        raise InputError("--peak-pressure: is given beside --load; allowed is one of them")
+    return found
+
+
+def _number(text: str) -> float | str:
+    """A number without unit as such, anything else as text."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 STEEL = {"youngs_modulus": '"210 GPa"', "poissons_ratio": "0.3"}
 # Of the roller, largest first: the contact must stay on the trace.
-RADII = ("10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um")
+RADII = (
+    "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
+    "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm",
+)  # fmt: skip
 PEAK = '"1 GPa"'
 
 
 @dataclass(frozen=True)
 class FirstScene:
-    """A scene file that was written, what it resolves to, and how its profile is read."""
+    """A scene file that was written, what it resolves to, how its profile is read, and a picture of
+    it."""
 
     path: Path
+    picture: Path | None
     scene: ResolvedScene
     profile: ProfileFields
 
@@ -64,8 +117,9 @@ class FirstScene:
         plain = info.as_dict()
         return {
             "scene": str(self.path),
+            "picture": None if self.picture is None else str(self.picture),
             "profile": {name: plain[name] for name in (*trace, "form")},
-            "fields": {name: _value(text) for name, text in self.profile.fields.items()},
+            "fields": {name: value_of(text) for name, text in self.profile.fields.items()},
             "guesses": self.profile.reasons,
             "surface": info.surface(),
             "roller_radius": self.scene.roller_radius,
@@ -77,21 +131,30 @@ def write_first_scene(
     out: Path | None = None,
     given: Mapping[str, str] | None = None,
     force: bool = False,
+    sections: Sections | None = None,
+    draw: bool = False,
 ) -> FirstScene:
     """Write a commented scene for the profile in a file.
 
     out     the scene's file; by default beside the profile, with the suffix .toml
     given   fields of [profile] as TOML that are not to be guessed
-    force   replace the scene's file
+    force   replace the scene's file, and the picture's
+    sections  fields of other sections as TOML, in place of the examples
+    draw    a picture of the trace beside the scene, as SVG
     Raises InputError, one line, and writes nothing, where the profile or the place for the scene
     cannot be used.
     """
     out = profile.with_suffix(".toml") if out is None else out
+    drawn = out.with_suffix(".svg") if draw else None
     _check_place(profile, out, force)
+    if drawn is not None:
+        _check_place(profile, drawn, force)
     found = fields_of_profile(profile, given or {})
-    text, scene = _fitting(profile, out, found)
+    text, scene = _fitting(profile, out, found, sections or {})
     write_whole(out, text)
-    return FirstScene(out, scene, found)
+    if drawn is not None:
+        write_whole(drawn, picture(scene))
+    return FirstScene(out, drawn, scene, found)
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
@@ -107,16 +170,21 @@ def _check_place(profile: Path, out: Path, force: bool) -> None:
         raise InputError(f"{out}: {out.parent} is no folder; allowed is one that is there")
 
 
-def _fitting(profile: Path, out: Path, found: ProfileFields) -> tuple[str, ResolvedScene]:
-    """The scene with the largest roller whose contact stays on the trace."""
+def _fitting(
+    profile: Path, out: Path, found: ProfileFields, sections: Sections
+) -> tuple[str, ResolvedScene]:
+    """The scene with the given roller, or the largest whose contact stays on the trace."""
     refusal = None
-    for radius in RADII:
-        text = _text(profile, out, found, radius)
+    given = sections.get("roller", {}).get("radius")
+    for radius in RADII if given is None else (value_of(given),):
+        text = _text(profile, out, found, toml(radius), sections)
         try:
             tables = tomllib.loads(text)
             scene = resolve_tables(tables, name=out.stem, folder=out.parent, source=str(out))
             problem_of(scene)
             return text, scene
+        except ContactError as error:
+            refusal = SceneError(f"{out}: {error}")
         except SceneError as error:
             refusal = error
             if ": load: " not in str(error):
@@ -124,22 +192,22 @@ def _fitting(profile: Path, out: Path, found: ProfileFields) -> tuple[str, Resol
     raise InputError(str(refusal).replace(str(out), str(profile), 1))
 
 
-def _text(profile: Path, out: Path, found: ProfileFields, radius: str) -> str:
+def _text(profile: Path, out: Path, found: ProfileFields, radius: str, sections: Sections) -> str:
+    loaded = sections.get("load", {})
+    load = {} if "per_length" in loaded else {"hertz_peak_pressure": PEAK}
     values = {
-        "roller": {"radius": toml(radius), **STEEL},
+        "roller": {"radius": radius, **STEEL},
         "body": STEEL,
         "profile": {"file": toml(os.path.relpath(profile, out.parent)), **found.fields},
-        "load": {"hertz_peak_pressure": PEAK, "friction": "[0.0, 0.1]"},
+        "load": {**load, "friction": "[0.0, 0.1]"},
         "stress": {"depth": "1.0", "half_range": "1.5", "points": "[300, 100]"},
         "tolerance": dict.fromkeys(("peak_pressure", "contact_length", "tau1_max"), "0.02"),
     }
+    example = "an example: put in yours"
     notes = {
-        "roller": {"radius": "an example: put in yours"},
-        "load": {"hertz_peak_pressure": "an example: put in yours"},
+        "roller": {} if "radius" in sections.get("roller", {}) else {"radius": example},
+        "load": {} if load.keys() <= loaded.keys() else {"hertz_peak_pressure": example},
         "profile": found.reasons,
     }
+    values |= {name: values[name] | fields for name, fields in sections.items()}
     return scene_text(f"{profile.stem} under a smooth roller", values, notes)
-
-
-def _value(text: str) -> object:
-    return tomllib.loads(f"value = {text}")["value"]

@@ -12,31 +12,50 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.profile import MAX_SAMPLES, Profile
+from analytic.profile import Profile
 from analytic.surface.form import remove_form
-from analytic.surface.readers.columns import BYTES_OF_HEADER, BYTES_PER_SAMPLE
-from analytic.surface.readers.files import MeasuredProfile, MissingUnitError, read_measured
-from analytic.surface.readers.text import ProfileError, read_lines, read_table
-from analytic.surface.readers.topography import MapLine, UnchosenLineError
+from analytic.surface.readers.files import (
+    MeasuredProfile,
+    MissingUnitError,
+    open_measured,
+    profile_of,
+)
+from analytic.surface.readers.source import ProfileError
+from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_columns
+from analytic.surface.readers.topography import MapLine, Topography, UnchosenLineError
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import with_unit
-from comparisons.common.units import LENGTH, UnitError, to_si, unit_in_si
+from comparisons.common.units import (
+    LENGTH,
+    UnitError,
+    UnknownUnitError,
+    known_units,
+    to_si,
+    unit_in_si,
+)
+from comparisons.studies.init.scene_text import toml, value_of
 
 # Units by the patterns that files write them in.
 NAMES = {
+    r"Å|angstr(?:o|ö|oe)ms?": "angstrom",
     r"nm|nanomet(?:er|re)s?": "nm",
     r"[uµμ]m|microns?|micromet(?:er|re)s?": "um",
+    r"[uµμ]in|(?:micro|[uµμ])-?inch(?:es)?": "microinch",
     r"mm|millimet(?:er|re)s?": "mm",
+    r"mils?|thou": "mil",
+    r"(?<=[\[(_])in|inch(?:es)?": "inch",
     r"(?<=[\[(_])m|met(?:er|re)s?": "m",
 }
-ALONE = r"(?<![A-Za-zµμ])(?:{})(?![A-Za-z])"
+ALONE = r"(?<![A-Za-zµμ])(?<!micro-)(?:{})(?![A-Za-z])"
 # a unit behind a number is that of one length ("cut-off 0.8 mm") and not of a column
 UNITS = [
-    (re.compile(rf"(?<!\d)(?<!\d )(?<!\d_){ALONE.format(names)}"), unit)
+    (re.compile(rf"(?<!\d)(?<!\d )(?<!\d_){ALONE.format(names)}", re.I), unit)
     for names, unit in NAMES.items()
 ]
+# What stands alone in brackets behind a column's name is its unit.
+BRACKETED = re.compile(r"\[\s*([^\s\d\[\],;]+)\s*\]|\(\s*([^\s\d(),;]+)\s*\)")
 NUMBER = r"(\d+(?:[.,]\d+)?(?:[eE][+-]?\d+)?)"
-ANY_UNIT = "|".join(NAMES).replace(r"(?<=[\[(_])m", "m")
+ANY_UNIT = "|".join(NAMES).replace(r"(?<=[\[(_])", "")
 SPACINGS = [
     re.compile(
         rf"(?:spacing|step|pitch|increment|interval|dx)\b[^\d\n]*{NUMBER}\W*({ANY_UNIT})\b", re.I
@@ -56,9 +75,28 @@ class Guess:
 
 
 def units_in(line: str) -> list[str]:
-    """Units of columns that a line of text names, in its order."""
-    found = [(match.start(), unit) for pattern, unit in UNITS for match in pattern.finditer(line)]
-    return [unit for _, unit in sorted(found)]
+    """Units of columns that a line of text names, in its order.
+
+    Those in brackets need not be known: they come out as they stand, unless they are in round ones
+    and no unit at all.
+    """
+    found = {match.start(): unit for pattern, unit in UNITS for match in pattern.finditer(line)}
+    for match in BRACKETED.finditer(line):
+        group = 1 if match[1] else 2
+        if match.start(group) not in found and (group == 1 or _measures(match[group])):
+            found[match.start(group)] = match[group]
+    return [found[start] for start in sorted(found)]
+
+
+def _measures(word: str) -> bool:
+    """Whether a word of two letters or more is a unit, of whatever dimension."""
+    try:
+        unit_in_si(word, LENGTH)
+    except UnknownUnitError:
+        return False
+    except UnitError:
+        return len(word) > 1
+    return True
 
 
 def units_of_head(head: list[str], columns: int) -> dict[str, Guess]:
@@ -71,8 +109,8 @@ def units_of_head(head: list[str], columns: int) -> dict[str, Guess]:
         if not named:
             continue
         because = f'by "{_short(line)}" in the file'
-        z_unit = Guess(f'"{named[min(columns, len(named)) - 1]}"', because)
-        return {"x_unit": Guess(f'"{named[0]}"', because), "z_unit": z_unit}
+        z_unit = Guess(toml(named[min(columns, len(named)) - 1]), because)
+        return {"x_unit": Guess(toml(named[0]), because), "z_unit": z_unit}
     return {}
 
 
@@ -115,7 +153,8 @@ def _short(line: str) -> str:
     return line if len(line) <= 40 else f"{line[:37]}..."
 
 
-MOST_BYTES = BYTES_PER_SAMPLE * MAX_SAMPLES + BYTES_OF_HEADER
+LAY = 1.3  # ratio of slopes above which one way is across the lay
+FEWEST_ACROSS = 64  # samples of a column that is suggested
 ROUNDING = 1e-9  # of the largest height: an rms below is rounding
 ARC = 0.5  # an arc is the form where less than this share of the rms beside a line is left
 
@@ -135,7 +174,7 @@ class ProfileFields:
 def fields_of_profile(path: Path, given: Mapping[str, str]) -> ProfileFields:
     """The fields that read the profile in a file, guessed where neither it nor `given` has them.
 
-    given   fields of [profile] as TOML: x_unit, z_unit, spacing, row, column
+    given   fields of [profile] as TOML: x_unit, z_unit, spacing, columns, channel, row, column
     Raises InputError, one line, for a file that cannot be used, or where no guess is possible.
     """
     try:
@@ -152,29 +191,106 @@ def fields_of_profile(path: Path, given: Mapping[str, str]) -> ProfileFields:
 
 def _complete(path: Path, given: dict[str, str]) -> tuple[dict[str, Guess], MeasuredProfile]:
     """The guesses without which the file cannot be read, and the profile read with them."""
-    head, columns = _head(path)
     found: dict[str, Guess] = {}
+    opened = _opened(path, given, found)
+    table = opened if isinstance(opened, ProfileTable) else None
+    columns = None if table is None else table.numbers.shape[1]
     if columns == 1 and "x_unit" in given:
         raise InputError(f"{path}: holds heights alone; allowed is --spacing instead of --x-unit")
     if columns == 1 and "spacing" not in given:
-        spacing = spacing_of_head(head)
+        spacing = spacing_of_head(list(table.head))
         if spacing is None:
             raise InputError(_no_spacing(path, "holds heights alone"))
         found["spacing"] = spacing
     while True:
         fields = given | {name: guess.value for name, guess in found.items()}
         try:
-            return found, _read(path, fields)
-        except UnchosenLineError as error:
-            found["row"] = _middle(error.rows)
+            return found, _profile(opened, fields)
+        except UnchosenLineError:
+            found |= _line_of(opened)
         except MissingUnitError as error:
             if error.field == "spacing":
                 raise InputError(_no_spacing(path, error.message)) from error
-            units = units_of_head(head, columns) if columns else {}
-            units = units or _units_by_size(path, fields)
+            units = {} if table is None else _units_of(table, "columns" in fields)
+            units = units or _units_by_size(opened, fields)
             if "spacing" in fields:
                 units.pop("x_unit")
-            found |= {name: guess for name, guess in units.items() if name not in given}
+            units = {name: guess for name, guess in units.items() if name not in given}
+            for name, guess in units.items():
+                _check_unit(path, name, guess)
+            found |= units
+
+
+def _opened(
+    path: Path, given: Mapping[str, str], found: dict[str, Guess]
+) -> ProfileTable | Topography:
+    """What the file holds; columns that are guessed are put into `found`."""
+    how = {name: value_of(given[name]) for name in ("columns", "channel") if name in given}
+    try:
+        opened = open_measured(path, **how, one_column="spacing" in given)
+    except ColumnsError as error:
+        columns = _columns_of(error.table)
+        if columns is None:
+            raise
+        names = error.table.names or range(error.table.numbers.shape[1])
+        found["columns"] = Guess(toml(columns), f"of {', '.join(map(str, names))}")
+        return chosen_columns(error.table, columns)
+    if isinstance(opened, Topography) and len(opened.channels) > 1 and "channel" not in given:
+        found["channel"] = Guess(
+            toml(opened.channel), f"the default one of {', '.join(opened.channels)}"
+        )
+    return opened
+
+
+def _columns_of(table: ProfileTable) -> list[int] | None:
+    """The columns of x and height: x is the first that ascends or descends, but no mere count of
+    the rows before another such; the height follows it. None where there are none."""
+    numbers, width = table.numbers, table.numbers.shape[1]
+    steps = np.diff(numbers, axis=0)
+    ordered = [i for i in range(width) if np.all(steps[:, i] > 0.0) or np.all(steps[:, i] < 0.0)]
+    first = ordered[0] if ordered else 0
+    if len(ordered) > 1 and np.all(steps[:, first] == 1.0) and numbers[0, first] <= 1.0:
+        ordered = ordered[1:]
+    if not ordered or ordered[0] + 1 == width:
+        return None
+    return [ordered[0], ordered[0] + 1]
+
+
+def _units_of(table: ProfileTable, chosen: bool) -> dict[str, Guess]:
+    """Units by the names of chosen columns where each names one, else by the lines above them."""
+    named = [units_in(name) for name in table.names]
+    if chosen and named and all(len(units) == 1 for units in named):
+        head = [", ".join(table.names)]
+        return units_of_head(head, len(named))
+    return units_of_head(list(table.head), table.numbers.shape[1])
+
+
+def _line_of(found: Topography) -> dict[str, Guess]:
+    """The middle row or column of a map, whichever runs across the lay: along the steeper way."""
+    rows, columns = found.heights.shape
+    along, across = found.pitch or (1.0, 1.0)
+    slopes = []
+    for axis, pitch in ((1, along), (0, across)):
+        squares = np.diff(found.heights, axis=axis) ** 2
+        mean = squares[np.isfinite(squares)].mean() if np.any(np.isfinite(squares)) else 0.0
+        slopes.append(float(np.sqrt(mean)) / pitch)
+    by_row, by_column = slopes
+    steep, gentle = max(slopes), min(slopes)
+    if steep < LAY * gentle or steep == 0.0:
+        why = "slopes are alike both ways, so there is no lay"
+    else:
+        ratio = f"{steep / gentle:.1f} times those" if gentle > 0.0 else "all that there are, none"
+        ratio += " the other way"
+        why = f"across the lay: slopes along {{}} are {ratio}"
+    if by_column >= LAY * by_row and rows >= FEWEST_ACROSS:
+        return {"column": Guess(str(columns // 2), _middle(columns, why.format("columns")))}
+    if by_column >= LAY * by_row:
+        why = f"along the lay: a column has {rows} samples only"
+    return {"row": Guess(str(rows // 2), _middle(rows, why.format("rows")))}
+
+
+def _middle(count: int, why: str) -> str:
+    return f"the middle one of {count}, {why}"
 
 
 def _no_spacing(path: Path, what: str) -> str:
@@ -184,36 +300,36 @@ def _no_spacing(path: Path, what: str) -> str:
     )
 
 
-def _middle(rows: int) -> Guess:
-    return Guess(str(rows // 2), f"the middle one of {rows}")
+def _check_unit(path: Path, name: str, guess: Guess) -> None:
+    """InputError where the file names a unit that is no length, or unknown."""
+    try:
+        in_metres(guess.value)
+    except UnitError:
+        option = f"--{name.replace('_', '-')}"
+        raise InputError(
+            f"{path}: {guess.value} is no known unit of length ({guess.because}); known are "
+            f"{known_units(LENGTH)}; allowed is {option}"
+        ) from None
 
 
-def _units_by_size(path: Path, fields: dict[str, str]) -> dict[str, Guess]:
+def _units_by_size(opened: ProfileTable | Topography, fields: dict[str, str]) -> dict[str, Guess]:
     bare = {"x_unit": '"m"', "z_unit": '"m"'} | fields
     if "spacing" in fields:
         del bare["x_unit"]
     try:
-        profile = _read(path, bare).profile
-    except UnchosenLineError as error:
-        profile = _read(path, bare | {"row": _middle(error.rows).value}).profile
+        profile = _profile(opened, bare).profile
+    except UnchosenLineError:
+        line = {name: guess.value for name, guess in _line_of(opened).items()}
+        profile = _profile(opened, bare | line).profile
     return units_by_size(profile.x, profile.height)
 
 
-def _head(path: Path) -> tuple[list[str], int | None]:
-    """Lines above the numbers of a text file, and its columns; [] and None for any other file."""
-    try:
-        table = read_table(path, MOST_BYTES, one_column=False)
-        return read_lines(path, MOST_BYTES)[: table.lines[0] - 1], table.numbers.shape[1]
-    except ProfileError:
-        return [], None
-
-
-def _read(path: Path, fields: Mapping[str, str]) -> MeasuredProfile:
+def _profile(opened: ProfileTable | Topography, fields: Mapping[str, str]) -> MeasuredProfile:
     """The profile as these fields of [profile] read it, lost samples bridged."""
     scales = {name: in_metres(fields[name]) for name in ("x_unit", "z_unit") if name in fields}
     chosen = {name: int(fields[name]) for name in ("row", "column") if name in fields}
-    return read_measured(
-        path,
+    return profile_of(
+        opened,
         x_scale=scales.get("x_unit"),
         height_scale=scales.get("z_unit"),
         spacing=in_metres(fields["spacing"]) if "spacing" in fields else None,

@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from analytic.surface.roughness_standard import SECTIONS
 from comparisons.common.numbers import significant, with_unit
-from comparisons.report.tables.problem import in_mm
+from comparisons.report.tables.problem import in_mm, sections_text, standard_text
 from comparisons.report.terminal import PLAIN, plain_table
 from comparisons.results.plausibility import warnings_about_surface
 from comparisons.scenes.scene import ProfileInfo
@@ -20,6 +21,7 @@ BRAILLE = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
 ASCII = {(False, False): " ", (True, False): "'", (False, True): ".", (True, True): ":"}
 ROWS, MOST_COLUMNS = 6, 100  # of the picture
 NONE = "-"
+UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not even
 
 
 def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "RenderableType":
@@ -29,7 +31,7 @@ def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "Rendera
 
     info = made.scene.profile_info
     read = f"{info.source}: {info.format}, {info.samples} samples, "
-    read += f"{_length(info.length)} long, {_length(info.spacing)} apart"
+    read += f"{_length(info.length)} long, {_apart(info)} apart"
     parts: list[RenderableType] = [Text(read.translate(PLAIN), style="bold")]
     if info.place:
         parts.append(Text(info.place))
@@ -40,16 +42,37 @@ def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "Rendera
     for row in _rows(info):
         table.add_row(*(cell.translate(PLAIN) for cell in row))
     parts += [table, ""]
-    if info.standard is None:
-        parts += [Text(f"none by ISO 21920-2: {info.standard_why}"), ""]
+    parts += [*(Text(each.translate(PLAIN)) for each in _two_columns(info)), ""]
     parts += [
         Text(f"plausibility warning: {each}".translate(PLAIN))
         for each in warnings_about_surface(info)
     ]
     for name, because in made.profile.reasons.items():
         parts.append(Text(f"{name} = {made.profile.fields[name]}: {because}"))
-    parts += ["", Text(f"scene   {made.path}"), Text(f"next    crosscheck run {made.path}")]
+    parts += ["", Text(f"scene   {made.path}")]
+    if made.picture is not None:
+        parts.append(Text(f"picture {made.picture}"))
+    parts += [Text(f"next    crosscheck run {made.path}")]
     return Group(*parts)
+
+
+def _two_columns(info: ProfileInfo) -> list[str]:
+    """What the two columns of roughness are of, and why they differ."""
+    off = "nothing" if info.form.kind == "none" else f"its {info.form.kind}"
+    pressed = f"as pressed: the whole trace without {off}"
+    if info.standard is None:
+        return [pressed, f"none by ISO 21920-2: {info.standard_why}"]
+    found = f"ISO 21920-2: {standard_text(info)}"
+    few = info.standard.sections < SECTIONS
+    return [pressed, found] + [f"section lengths: {sections_text(info.standard)}"] * few
+
+
+def _apart(info: ProfileInfo) -> str:
+    """The distance of samples, or from which to which it goes."""
+    steps = np.diff(info.trace.x)
+    least, most = float(steps.min()), float(steps.max())
+    even = most - least <= UNEVEN * info.spacing
+    return _length(info.spacing) if even else f"{_length(least)} to {_length(most)}"
 
 
 def _rows(info: ProfileInfo) -> list[tuple[str, str, str]]:

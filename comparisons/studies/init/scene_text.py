@@ -47,8 +47,14 @@ def scene_text(title: str, values: Values, notes: Values) -> str:
     return "\n".join(lines) + "\n"
 
 
-def toml(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
+def toml(value: object) -> str:
+    """Text, numbers and lists of them as TOML."""
+    return json.dumps(value, ensure_ascii=False)
+
+
+def value_of(text: str) -> object:
+    """What a piece of TOML stands for."""
+    return tomllib.loads(f"value = {text}")["value"]
 
 
 def _comment(text: str) -> list[str]:

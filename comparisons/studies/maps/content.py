@@ -5,14 +5,18 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from comparisons.assessment.verdict import judge
 from comparisons.common.cache import Cache
+from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
 from comparisons.common.quantities import QUANTITIES
 from comparisons.studies.maps.groups import GROUPS, Axis
-from comparisons.studies.maps.point import FAILED, SOLVED, TOLERANCES
+from comparisons.studies.maps.point import TOLERANCES
 from comparisons.studies.maps.request import MapRequest
 from comparisons.studies.maps.rule import rules_of
+from comparisons.studies.points import FAILED, SOLVED
 
 if TYPE_CHECKING:
     from rich.console import Group
@@ -21,6 +25,7 @@ MAP, PICTURE = "map.json", "map.svg"
 SCHEMA = 2
 # What is known of the model error of the half-plane at a point.
 SIGNIFICANT, BELOW, INCONCLUSIVE = "significant", "below tolerance", "inconclusive"
+SMALLEST = 1e-3  # errors below are drawn, and interpolated, as if on a straight scale
 
 
 def map_content(request: MapRequest, cache: Cache) -> dict:
@@ -47,6 +52,43 @@ def map_content(request: MapRequest, cache: Cache) -> dict:
 
 def read_map(path: Path) -> dict:
     return json.loads(path.read_text(encoding="utf-8"))
+
+
+def showing(content: dict, quantity: str) -> dict:
+    """The same map of another quantity that its points have; refined for the first one.
+
+    Raises InputError where they do not have it.
+    """
+    solved = [point for point in content["points"] if point["status"] == SOLVED]
+    held = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
+    if quantity not in held:
+        allowed = ", ".join(held)
+        raise InputError(f"--quantity: {quantity} is not on this map; allowed are {allowed}")
+    points = [point | significance(point, quantity) for point in content["points"]]
+    content = content | {"quantity": quantity, "points": points}
+    return content | {"rules": rules_of(content)}
+
+
+def places(axis: dict) -> np.ndarray:
+    """Where an axis's values lie: their logarithms on a logarithmic axis."""
+    values = np.array(axis["values"])
+    return np.log10(values) if axis["logarithmic"] else values
+
+
+def differences(content: dict, quantity: str) -> np.ndarray:
+    """(ny, nx) relative model errors with their signs, nan where unknown."""
+    found = (point.get("quantities", {}).get(quantity) for point in content["points"])
+    error = [np.nan if each is None else each["difference"] for each in found]
+    return np.reshape(error, (len(content["y"]["values"]), len(content["x"]["values"])))
+
+
+def scaled(error: np.ndarray | float) -> np.ndarray | float:
+    """Nearly logarithmic for either sign; `unscaled` takes it back."""
+    return np.arcsinh(np.asarray(error) / SMALLEST)
+
+
+def unscaled(value: np.ndarray | float) -> np.ndarray | float:
+    return SMALLEST * np.sinh(value)
 
 
 def described(request: MapRequest) -> dict:

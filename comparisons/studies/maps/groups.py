@@ -20,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import InputError, SceneError
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
@@ -52,6 +53,8 @@ class Group:
     set_to          gives the SI tables of a scene (changed in place) a value of the group
     finite_element  fields of [finite_element] that drop the assumption that the group is about
     early           the group changes a
+    value_of        the group's value of a scene, where it says how large an effect is
+    vanishes        the effect goes to zero with the group
     """
 
     symbol: str
@@ -60,6 +63,8 @@ class Group:
     set_to: Callable[[dict, float, Origin], None]
     finite_element: Mapping[str, object] = field(default_factory=dict)
     early: bool = False
+    value_of: Callable[[Problem], float] | None = None
+    vanishes: bool = True
 
 
 def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
@@ -101,6 +106,41 @@ def finite_elements(tables: Mapping, names: Iterable[str]) -> dict:
 
 def _half_width(tables: dict, origin: Origin) -> float:
     return smooth_problem(tables, origin).hertz.half_width
+
+
+def _size(name: str, problem: Problem) -> float:
+    extent = getattr(problem.scene, name)
+    return 0.0 if extent is None else problem.hertz.half_width / extent
+
+
+def _radius(problem: Problem) -> float:
+    return problem.hertz.half_width / problem.scene.roller_radius
+
+
+def _friction(problem: Problem) -> float:
+    return max(problem.scene.friction) * abs(problem.dundurs_beta)
+
+
+def _slope(problem: Problem) -> float:
+    info = problem.scene.profile_info
+    return 0.0 if info is None else info.roughness.rms_slope
+
+
+def _wavelength(problem: Problem) -> float:
+    profile = problem.scene.tables.get("profile") or {}
+    if profile.get("kind") in WAVES:
+        shortest = _shortest(profile)
+    else:
+        shortest = shortest_wavelength(problem.scene.profile)
+    return shortest / problem.hertz.half_width
+
+
+def _shortest(profile: Mapping) -> float:
+    """Wave [m] of a made profile."""
+    if profile["kind"] == "sinusoid":
+        return profile["wavelength"]
+    spacing = profile["length"] / (profile["samples"] - 1)
+    return profile.get("shortest_wavelength", SHORTEST * spacing)
 
 
 def _set_size(name: str, tables: dict, value: float, origin: Origin) -> None:
@@ -169,12 +209,7 @@ def _set_wavelength(tables: dict, value: float, origin: Origin) -> None:
     """By scaling the profile: x and heights by one factor, so that slopes stay."""
     profile = _made_profile(tables, origin, "wavelength_over_a")
     kind = profile["kind"]
-    if kind == "sinusoid":
-        shortest = profile["wavelength"]
-    else:
-        spacing = profile["length"] / (profile["samples"] - 1)
-        shortest = profile.get("shortest_wavelength", SHORTEST * spacing)
-    factor = value * _half_width(tables, origin) / shortest
+    factor = value * _half_width(tables, origin) / _shortest(profile)
     for name in (*WAVES[kind], *HEIGHTS[kind], *FILTERS):
         if isinstance(profile.get(name), float):
             profile[name] *= factor
@@ -196,7 +231,12 @@ ROUGH_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
 GROUPS: dict[str, Group] = {
     **{
         f"a_over_{size}": Group(
-            symbol, f"half-width over {size}", span, partial(_set_size, size), {"far_field": "held"}
+            symbol,
+            f"half-width over {size}",
+            span,
+            partial(_set_size, size),
+            {"far_field": "held"},
+            value_of=partial(_size, size),
         )
         for size, symbol, span in (("thickness", "a/t", (0.05, 5.0)), ("width", "a/w", (0.02, 0.4)))
     },
@@ -207,13 +247,32 @@ GROUPS: dict[str, Group] = {
         _set_radius,
         {"deformation": "finite", "roller_shape": "circle"},
         early=True,
+        value_of=_radius,
     ),
-    "rms_slope": Group("rms slope", "of the surface", (0.005, 0.2), _set_slope, ROUGH_BOUNDARY),
+    "rms_slope": Group(
+        "rms slope",
+        "of the surface",
+        (0.005, 0.2),
+        _set_slope,
+        ROUGH_BOUNDARY,
+        value_of=_slope,
+    ),
     "wavelength_over_a": Group(
-        "λ/a", "shortest wavelength over half-width", (0.2, 4.0), _set_wavelength, ROUGH_BOUNDARY
+        "λ/a",
+        "shortest wavelength over half-width",
+        (0.2, 4.0),
+        _set_wavelength,
+        ROUGH_BOUNDARY,
+        value_of=_wavelength,
+        vanishes=False,
     ),
     "friction_dundurs": Group(
-        "μβ", "friction times Dundurs' beta", (0.01, 0.3), _set_friction, {"coupled": True}
+        "μβ",
+        "friction times Dundurs' beta",
+        (0.01, 0.3),
+        _set_friction,
+        {"coupled": True},
+        value_of=_friction,
     ),
     "peak_pressure_over_hardness": Group(
         "p₀/H", "Hertz's peak pressure over hardness", (0.3, 1.5), _set_hardness, {"plastic": True}

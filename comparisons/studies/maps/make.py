@@ -10,10 +10,12 @@ from comparisons.common.mpi import is_several
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json
-from comparisons.studies.maps.content import MAP, PICTURE, map_content
-from comparisons.studies.maps.point import FAILED, NOT_CONVERGED
+from comparisons.models.problem import Problem
+from comparisons.studies.maps.content import MAP, PICTURE, map_content, showing
+from comparisons.studies.maps.place import finished_map, mark_of
+from comparisons.studies.maps.point import NOT_CONVERGED, solve_point
 from comparisons.studies.maps.request import MapRequest, point_cache
-from comparisons.studies.maps.sweep import Workers, cluster, ranks, sweep
+from comparisons.studies.points import FAILED, Workers, cluster, ranks, solve_points
 
 GOES_ON = "finished points are kept, the same command goes on from there"
 TIMES = "map_times.json"
@@ -24,10 +26,12 @@ def make_map(
     out: Path,
     workers: Workers | int | None = None,
     callback: ProgressCallback = no_progress,
+    marked: Problem | None = None,
 ) -> dict:
     """Compute the points that `out` does not have, write the map there, and return its content.
 
     workers  an executor that solves the points, or a number of processes; None: one a core
+    marked   a scene of the user's on the picture
     Raises InputError for what cannot be mapped or written.
     """
     points = request.points
@@ -38,23 +42,46 @@ def make_map(
     if isinstance(workers, Workers):
         open_executor, count = lambda count: nullcontext(workers.executor), workers.count
     try:
-        sweep(points, cache, open_executor, count, callback)
+        solve_points(points, solve_point, cache, open_executor, count, callback)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     content = map_content(request, cache)
     callback("map: picture")
-    from comparisons.studies.maps.picture import map_picture
-
+    picture = _picture(content, marked)
     with published(out, (PICTURE, TIMES, MAP)) as folder:
-        (folder / PICTURE).write_text(map_picture(content), encoding="utf-8")
+        (folder / PICTURE).write_text(picture, encoding="utf-8")
         seconds = {"seconds": [cache.load(point.key)["seconds"] for point in points]}
         (folder / TIMES).write_text(as_json(seconds), encoding="utf-8")
         (folder / MAP).write_text(as_json(content), encoding="utf-8")
     return content
 
 
+def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> dict:
+    """Write a map that comes with the project to `out`, and return its content; nothing is solved.
+
+    Raises InputError for a quantity that it does not have, and what cannot be written.
+    """
+    content = showing(finished_map(name), quantity)
+    check_writable(out, (PICTURE, MAP))
+    picture = _picture(content, marked)
+    with published(out, (PICTURE, MAP)) as folder:
+        (folder / PICTURE).write_text(picture, encoding="utf-8")
+        (folder / MAP).write_text(as_json(content), encoding="utf-8")
+    return content
+
+
+def _picture(content: dict, marked: Problem | None) -> str:
+    from comparisons.studies.maps.picture import map_picture
+
+    return map_picture(content, None if marked is None else mark_of(content, marked))
+
+
 def make_map_by(
-    workers: str | None, request: MapRequest, out: Path, callback: ProgressCallback
+    workers: str | None,
+    request: MapRequest,
+    out: Path,
+    callback: ProgressCallback,
+    marked: Problem | None = None,
 ) -> dict | None:
     """As `make_map`; None in processes that only work for the first one under mpirun.
 
@@ -64,20 +91,20 @@ def make_map_by(
     """
     if is_several():
         with ranks() as pool:
-            return None if pool is None else make_map(request, out, pool, callback)
+            return None if pool is None else make_map(request, out, pool, callback, marked)
     if workers is None:
-        return make_map(request, out, None, callback)
+        return make_map(request, out, None, callback, marked)
     if workers.isdigit():
         if int(workers) < 1:
             raise InputError(f"--workers: is {workers}; allowed is from 1 on")
-        return make_map(request, out, int(workers), callback)
+        return make_map(request, out, int(workers), callback, marked)
     if "://" not in workers:
         raise InputError(
             f"--workers: is {workers!r}; allowed is a number, or a Dask scheduler's address "
             "such as tcp://host:8786"
         )
     with cluster(workers) as pool:
-        return make_map(request, out, pool, callback)
+        return make_map(request, out, pool, callback, marked)
 
 
 def exit_status(content: dict) -> ExitStatus:

@@ -2,7 +2,7 @@
 
 A cell a point. Where the error is within its numerical uncertainty the cell is hatched, without
 colour: dots where both are below the first tolerance, lines where the error may be above. A failed
-point has a cross.
+point has a cross. A scene of the user's own may be marked.
 """
 
 from typing import TYPE_CHECKING
@@ -11,36 +11,45 @@ import numpy as np
 
 from comparisons.common.quantities import QUANTITIES
 from comparisons.report.figures.style import drawing, figure, svg
-from comparisons.studies.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT
-from comparisons.studies.maps.point import FAILED
+from comparisons.studies.maps.content import (
+    BELOW,
+    INCONCLUSIVE,
+    SIGNIFICANT,
+    differences,
+    places,
+    scaled,
+)
+from comparisons.studies.points import FAILED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+Mark = tuple[str, tuple[float, float]]
 SIZE = (7.2, 5.9)  # inches
 BOX = (0.105, 0.2, 0.74, 0.71)
 BAR = (0.87, 0.2, 0.028, 0.71)
 BANDS = (0.0, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 0.1, 0.2, 0.5)
 COLOURS = "cividis_r"  # for every kind of colour vision; darker is worse
-LIGHT = 0.45  # share of the colours from whose darkness on letters are white
 LETTERED = 12  # columns up to which each cell states its error
-SMALLEST = 1e-3  # errors below are drawn as if on a straight scale
 STYLES = ((0, (1, 1.2)), (0, (5, 1.5)), "-", (0, (7, 1.5, 1, 1.5)))
 HATCHES = {BELOW: "....", INCONCLUSIVE: "////"}
 
 
-def map_picture(content: dict) -> str:
-    """SVG of a map's content; the same for the same content."""
+def map_picture(content: dict, mark: Mark | None = None) -> str:
+    """SVG of a map's content; the same for the same content.
+
+    mark  name of a scene, and its values of the groups of x and y
+    """
     with drawing():
-        return svg(map_figure(content))
+        return svg(map_figure(content, mark))
 
 
-def map_figure(content: dict) -> "Figure":
+def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
     """The same as a figure, to be called inside `drawing()`."""
     drawn = figure(*SIZE)
     axes = drawn.add_axes(BOX)
-    x, y = (_places(content[name]) for name in ("x", "y"))
+    x, y = (places(content[name]) for name in ("x", "y"))
     edges = _edges(x), _edges(y)
     axes.set(xlim=edges[0][[0, -1]], ylim=edges[1][[0, -1]])
     axes.grid(False)
@@ -51,14 +60,22 @@ def map_figure(content: dict) -> "Figure":
     _bar(drawn)
     label = QUANTITIES[content["quantity"]].label
     axes.set_title(f"Model error of the half-plane: {label}, per cent\n{content['scene']['title']}")
-    _legend(axes, content, kinds, lines)
+    _legend(axes, content, kinds, lines, _marked(axes, content, mark))
     return drawn
 
 
-def _places(axis: dict) -> np.ndarray:
-    """Where values lie: their logarithms on a logarithmic axis."""
-    values = np.array(axis["values"])
-    return np.log10(values) if axis["logarithmic"] else values
+def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
+    """Draw the mark, on the border where it lies beyond; its entry in the legend."""
+    if mark is None:
+        return []
+    name, values = mark
+    at = [
+        np.clip(places(content[axis] | {"values": [value]})[0], *ends)
+        for axis, value, ends in zip("xy", values, (axes.get_xlim(), axes.get_ylim()), strict=True)
+    ]
+    look = {"marker": "*", "markersize": 15.0, "color": "#E6007A", "markeredgecolor": "white"}
+    look |= {"linestyle": "none", "label": name}
+    return axes.plot(*at, zorder=5, clip_on=False, **look)
 
 
 def _edges(places: np.ndarray) -> np.ndarray:
@@ -89,7 +106,7 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             share = _share(abs(error))
             look["facecolor"] = colours(share)
             if columns <= LETTERED:
-                ink = "white" if share > LIGHT else "black"
+                ink = _ink(look["facecolor"])
                 text = f"{100.0 * error:+#.2g}".rstrip(".").replace("-", "−")
                 # lines stop short of letters
                 box = {"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8}
@@ -100,6 +117,15 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             look |= {"hatch": HATCHES[point["error"]], "edgecolor": "#777777"}
         axes.add_patch(Rectangle((left, low), wide, high, **look))
     return kinds
+
+
+def _ink(colour: tuple[float, ...]) -> str:
+    """Black or white, whichever stands out more from a colour (WCAG's relative luminance)."""
+    red, green, blue = (
+        c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour[:3]
+    )
+    luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    return "black" if (luminance + 0.05) / 0.05 > 1.05 / (luminance + 0.05) else "white"
 
 
 def _share(error: float) -> float:
@@ -114,27 +140,18 @@ def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[fl
     """
     from matplotlib.patheffects import Normal, Stroke
 
-    error = np.full((len(y), len(x)), np.nan)
-    for number, point in enumerate(content["points"]):
-        found = point.get("quantities", {}).get(content["quantity"])
-        if found is not None:
-            error.flat[number] = found["difference"]
+    error = differences(content, content["quantity"])
     drawn = {}
     for tolerance, style in zip(content["tolerances"], STYLES, strict=True):
         for side in (-1.0, 1.0):
             if np.nanmax(side * error, initial=-np.inf) <= tolerance:
                 continue
             drawn[tolerance] = style
-            scaled = np.ma.masked_invalid(_scaled(side * error))
+            values = np.ma.masked_invalid(scaled(side * error))
             look = {"colors": "#D55E00", "linewidths": 1.3, "linestyles": [style]}
-            found = axes.contour(x, y, scaled, levels=[_scaled(tolerance)], **look)
+            found = axes.contour(x, y, values, levels=[scaled(tolerance)], **look)
             found.set(path_effects=[Stroke(linewidth=2.6, foreground="white"), Normal()])
     return drawn
-
-
-def _scaled(error: np.ndarray | float) -> np.ndarray | float:
-    """Nearly logarithmic for either sign."""
-    return np.arcsinh(np.asarray(error) / SMALLEST)
 
 
 def _ticks(side: object, axis: dict, places: np.ndarray) -> None:
@@ -169,7 +186,13 @@ def _bar(drawn: "Figure") -> None:
         spine.set_visible(False)
 
 
-def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, object]) -> None:
+def _legend(
+    axes: "Axes",
+    content: dict,
+    kinds: set[str],
+    lines: dict[float, object],
+    marked: list[object],
+) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -190,6 +213,7 @@ def _legend(axes: "Axes", content: dict, kinds: set[str], lines: dict[float, obj
     if FAILED in kinds:
         cross = {"marker": "x", "color": "#222222", "linestyle": "none"}
         entries.append(Line2D([], [], label="failed", **cross))
+    entries += marked
     if entries:
         place = {"loc": "upper left", "bbox_to_anchor": (-0.1, -0.115), "borderaxespad": 0.0}
         axes.legend(handles=entries, ncols=4, columnspacing=1.4, **place)

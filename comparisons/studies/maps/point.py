@@ -8,12 +8,12 @@ The uncertainty is that of a run's comparison.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from time import perf_counter
 
 import numpy as np
 
 from comparisons.assessment.comparison import figures, pair_history
-from comparisons.common.errors import one_line
 from comparisons.common.progress import Stages
 from comparisons.common.quantities import MODELS
 from comparisons.models.level import Level, ModelRun
@@ -22,10 +22,10 @@ from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window, window_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.request import PointRequest
+from comparisons.studies.points import SOLVED, failed
 from fem.solver.communicator import each_alone
 from meshes.block import MeshError
 
-SOLVED, FAILED = "solved", "failed"
 NOT_CONVERGED = "the contact did not converge"
 TOLERANCES = (0.01, 0.02, 0.05, 0.10)  # that a map shows
 SHARE = 1.0 / 3.0  # of an error, or of the first tolerance, that may be numerical
@@ -87,10 +87,6 @@ def solve_point(point: PointRequest) -> dict:
     return {"found": found, "seconds": perf_counter() - began}
 
 
-def failed(why: str) -> dict:
-    return {"status": FAILED, "why": one_line(why)}
-
-
 def _solved(point: PointRequest) -> dict:
     scene = resolve_tables(point.tables, name="point", folder=point.folder, source=point.source)
     problem = problem_of(scene)
@@ -119,12 +115,20 @@ def _refined(
     problem: Problem, plan: Plan, window: Window | None
 ) -> Iterator[tuple[ModelRun, ModelRun]]:
     """Both models on the first levels, then with one more each time, while there may be."""
+    from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.half_plane import half_plane_level
 
     def solved(pitch: float, half_block: bool = False) -> Level:
-        return finite_element_level(problem, plan, Refinement(pitch, half_block), window, Stages())
+        refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
+        return finite_element_level(
+            problem, plan, refinement, window, Stages(), body_cache=body_cache, fields=False
+        )
+
+    @lru_cache(maxsize=1)  # the latest pitch's alone: the far-boundary check is on its mesh
+    def bodies(pitch: float) -> BodyCache:
+        return BodyCache()
 
     half_plane: list[Level] = []
     finite_element: list[Level] = []

@@ -11,7 +11,7 @@ from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.provenance import LEVEL_CODE, digest, program_code, versions
 from comparisons.common.quantities import QUANTITIES
-from comparisons.scenes.files import find_scene, read_toml
+from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.groups import (
     Axis,
@@ -141,7 +141,7 @@ def request_of(
     finished = FINISHED / f"{scene}.toml"
     path = finished if finished.is_file() else find_scene(scene)
     given = read_toml(path)
-    name = path.stem.strip(". ") or "scene"
+    name = name_of(path)
     origin = Origin(source=scene, folder=path.parent)
     tables = _given_tables(given, name, origin)
     usual = usual_axes(tables)

@@ -6,16 +6,13 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from analytic.contact.problem import ContactError
-from comparisons.assessment.comparison import compared
-from comparisons.assessment.effects.error_budget import error_budget
-from comparisons.assessment.normal_tangential_coupling import couplings
-from comparisons.assessment.refinement import refined
 from comparisons.common.errors import ExitStatus, InputError, SolverError
 from comparisons.common.files import check_writable, published
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
 from comparisons.common.quantities import MODELS
+from comparisons.common.tasks import tasks_of_a_run
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
@@ -23,6 +20,7 @@ from comparisons.models.window import window_of
 from comparisons.results.outcome import Outcome
 from comparisons.results.record import record_of
 from comparisons.results.result_json import result_of
+from comparisons.runs.run import solved
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.paper.claims.claim_list import SCENES, SURFACES, claims
@@ -164,10 +162,8 @@ def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback, effects
     window = window_of(problem)
     with TemporaryDirectory(prefix="crosscheck-") as folder:
         cache = level_cache(Path(folder) / "run", scene, plan)
-        runs, stop = refined(problem, plan, window, cache, callback)
-        rows = compared(problem, runs, window)
-        moved = couplings(problem, runs["half_plane"], window, callback) if plan.coupling else ()
-        budget = error_budget(problem, plan, window, runs, rows, moved, cache, callback)
+        with tasks_of_a_run(callback, scene.budget.memory) as tasks:
+            runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
     result = result_of(problem, plan, runs, rows, stop, moved, budget)
     record = record_of(scene, runs, {})
     return Outcome(problem, plan, window, runs, rows, result, record, out, moved, budget)

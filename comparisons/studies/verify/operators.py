@@ -46,7 +46,7 @@ class OperatorContact:
 
     kind    wave | punch | layer | rough
     model   half_plane | layer
-    make    grid to operator
+    make    operator of a grid's count and pitch [m]
     gap     g0(x) [m], smooth but for `knots` [m]
     span    (2,) ends of the grid [m]; a period's where it is periodic
     scale   [m] of which the pitch is a part: half of the contact, or its rounded corner
@@ -57,7 +57,7 @@ class OperatorContact:
     source: str
     kind: str
     model: str
-    make: Callable[[HatGrid], ModelOperator]
+    make: Callable[[int, float], ModelOperator]
     gap: Callable[[np.ndarray], np.ndarray]
     knots: tuple[float, ...]
     load: float
@@ -131,7 +131,7 @@ def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSol
         grid = HatGrid.within(*case.span, pitch)
     weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
     load = Constraints(load=case.load)
-    return grid, solve_contact(case.make(grid), weighted_gap, grid.weights, load)
+    return grid, solve_contact(case.make(grid.count, grid.pitch), weighted_gap, grid.weights, load)
 
 
 def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) -> dict[str, float]:
@@ -158,7 +158,7 @@ def _contact(case: ExactContact) -> OperatorContact:
         source=case.source,
         kind="punch" if case.period is None else "wave",
         model="half_plane",
-        make=lambda grid: kind(grid.count, grid.pitch, case.combined_modulus),
+        make=partial(kind, modulus=case.combined_modulus),
         gap=case.gap,
         knots=case.knots,
         load=case.load,
@@ -180,7 +180,7 @@ def _layer(reference: LayerReference, nu: float) -> OperatorContact:
         source="slope equation by collocation, analytic/exact/layer_contact.json",
         kind="layer",
         model="layer",
-        make=lambda grid: LayeredSurface(grid.count, grid.pitch, body),
+        make=partial(LayeredSurface, body=body),
         gap=roller_gap(LAYER_RADIUS),
         knots=(),
         load=reference.load * unit * LAYER_THICKNESS,

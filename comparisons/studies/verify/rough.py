@@ -159,9 +159,7 @@ def rough_operator_contacts() -> tuple[OperatorContact, ...]:
                 source=SOURCE,
                 kind="rough",
                 model="layer",
-                make=lambda grid, layer=contact.layer: LayeredSurface(
-                    grid.count, grid.pitch, layer
-                ),
+                make=partial(LayeredSurface, body=contact.layer),
                 gap=contact.gap,
                 knots=(),
                 load=contact.load,

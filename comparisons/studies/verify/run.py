@@ -12,8 +12,8 @@ from time import perf_counter
 
 from comparisons.common.errors import InputError
 from comparisons.common.mpi import is_several
-from comparisons.common.progress import ProgressCallback, no_progress, within
-from comparisons.studies.checks import CheckedCase, check_places, run_cases, write_study
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.studies.checks import CheckedCase, check_places, run_case, run_cases, write_study
 from comparisons.studies.verify.coverage import (
     FEWEST,
     FEWEST_ROUGH,
@@ -26,7 +26,6 @@ from comparisons.studies.verify.pages import verify_page
 from comparisons.studies.verify.scenes import exact_scenes, scene_cases, spread
 
 DEGREES = (1, 2, 3)
-EXACT_SHARE = 0.9  # of the time, for the exact cases
 
 
 @dataclass(frozen=True)
@@ -73,8 +72,9 @@ def verify(
     check_places("verify", out, junit)
     scope = scope or everything()
     start = perf_counter()
-    rows = run_cases(scope.exact, within(callback, 0.0, EXACT_SHARE))
-    rows += run_cases((*order_cases(rows), *scope.others), within(callback, EXACT_SHARE, 1.0))
+    rows = run_cases((*scope.exact, *scope.others), callback)
+    exact, others = rows[: len(scope.exact)], rows[len(scope.exact) :]
+    rows = (*exact, *map(run_case, order_cases(exact)), *others)
     found = verification(rows, perf_counter() - start, scope.fewest, scope.fewest_rough)
     write_study(found, out, junit, verify_page(found))
     return found

@@ -32,6 +32,7 @@ from comparisons.assessment.comparison import figures, relative_l2, uncertaintie
 from comparisons.assessment.refinement import refined
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.quantities import MODELS, QUANTITIES
+from comparisons.common.tasks import Tasks
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
@@ -260,7 +261,7 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
         runs, budget = outcome.runs, outcome.budget
     else:
         window = window_of(problem) if plan.stress else None
-        runs, _ = refined(problem, plan, window, level_cache(None, resolved, plan), no_progress)
+        runs, _ = refined(problem, plan, window, level_cache(None, resolved, plan), Tasks())
     run = runs[model]
     stated = uncertainties(run, problem, friction)
     history = [figures(level, problem, friction) for level in run.levels]

@@ -4,6 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from blocks import SumOfBodies
 from scipy.linalg import toeplitz
 
 from analytic.contact import defect_correction as defect
@@ -16,7 +17,7 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.layers.tangential import TangentialLayer
 from analytic.material import Material
-from analytic.operators.half_plane import HalfPlane, SumOfBodies
+from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair
 from analytic.surface.synthetic import self_affine
 
@@ -76,6 +77,20 @@ def test_the_model_itself_needs_one_step():
     direct = solve_contact(half_plane(), average_gap(), GRID.weights, Constraints(load=LOAD))
     assert solution.iterations["applications"] == 1
     assert solution.pressure == pytest.approx(direct.pressure, abs=1e-9 * direct.pressure.max())
+
+
+@pytest.mark.parametrize("constraints", [Constraints(load=LOAD), Constraints(approach=2e-6)])
+def test_a_start_nearer_than_the_model_takes_no_longer(constraints):
+    """The solution of nearly the same operator, and in the end the same answer."""
+    given = perturbed(), half_plane(), average_gap(), GRID.weights, constraints
+    found = solve_with_model(*given)
+    near = Dense(given[0].matrix * 1.001)
+    start = solve_with_model(near, *given[1:]).pressure
+    nearer = solve_with_model(*given, start, nearer=True)
+    assert nearer.converged
+    assert nearer.iterations["steps"] < found.iterations["steps"]
+    assert nearer.iterations["applications"] <= found.iterations["applications"]
+    np.testing.assert_allclose(nearer.pressure, found.pressure, atol=1e-6 * found.pressure.max())
 
 
 @pytest.mark.parametrize("factor", [0.3, 0.7, 1.5, 3.0])

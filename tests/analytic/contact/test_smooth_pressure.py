@@ -2,14 +2,20 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
+from unequal_hats import half_plane_matrix, hat_weights
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.contact.smooth_pressure import LEAST_NODES, nodal_values, smooth_pressure
+from analytic.contact.smooth_pressure import (
+    LEAST_NODES,
+    contact_ends,
+    nodal_values,
+    smooth_pressure,
+)
 from analytic.exact.hertz import hertz_from_peak_pressure
 from analytic.grid import hat_integrals
 from analytic.operators.half_plane import DenseCompliance
-from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 
 HERTZ = hertz_from_peak_pressure(1.0, 0.5, 1.0)  # half-width 1
 NORM = np.sqrt(4.0 / 3.0)
@@ -51,6 +57,8 @@ def errors(hats):
     solution = contact(hats)
     (patch,) = smooth_pressure(hats, solution.pressure, solution.gap)
     whole = np.concatenate([[0.0], solution.pressure, [0.0]])
+    square = (whole[1:] ** 2 + whole[1:] * whole[:-1] + whole[:-1] ** 2) / 3.0
+    assert patch.norm**2 == pytest.approx(square @ np.diff(hats), rel=1e-12)
     at_end = np.diff(hats)[patch.last + 1]
     return {
         "hats": distance(lambda x: np.interp(x, hats, whole), HERTZ.pressure),
@@ -103,6 +111,36 @@ def test_nodal_values_undo_the_overshoot_of_hats_on_a_parabola():
     wanted = 3.0 - 2.0 * hats[1:-1] + 1.5 * hats[1:-1] ** 2
     found = nodal_values(hats, wanted - 3.0 * pitch**2 / 12.0)
     assert found[1:-1] == pytest.approx(wanted[1:-1], rel=1e-13)
+
+
+def test_all_ends_at_once_are_those_of_a_search_one_by_one(rng):
+    """On unequal hats; the same equation for each end alone, by quadrature and brentq."""
+    hats, gap = np.cumsum(rng.uniform(0.8, 1.2, 402)), np.zeros(400)
+    for start in range(0, 400, 40):  # open, then in contact
+        depth = np.minimum(np.arange(20), np.arange(20)[::-1]) + rng.uniform(0.0, 1.0)
+        gap[start : start + 20] = depth**1.5 * (1.0 + 0.02 * depth)
+    nodes, ends = contact_ends(hats, np.where(gap > 0.0, 0.0, 1.0), gap)
+    assert len(nodes) == 10
+    for node, found, side in [
+        *zip(nodes[:, 0], ends[:, 0], [-1] * 10, strict=True),
+        *zip(nodes[:-1, 1], ends[:-1, 1], [1] * 9, strict=True),
+    ]:
+        near = node + side * np.arange(2, 5)
+        some = slice(near.min(), near.max() + 3)
+
+        def mismatch(end, near=near, some=some, side=side):
+            rows = [
+                hat_integrals(
+                    hats[some],
+                    lambda x, p=p: np.maximum(side * (x - end), 0.0) ** p,
+                    np.array([end]),
+                )
+                / hat_weights(hats[some])
+                for p in (1.5, 2.5)
+            ]
+            return np.linalg.det(np.array([*rows, gap[near.min() : near.max() + 1]]))
+
+        assert found == pytest.approx(brentq(mismatch, found - 0.05, found + 0.05), abs=1e-4)
 
 
 def test_several_patches_each_with_their_own_ends():

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from layer_stresses import layer_field
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 
@@ -14,7 +15,6 @@ from analytic.exact.manufactured import ManufacturedContact, PressurePatch, rand
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
-from analytic.layers.stress import layer_field
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from analytic.stress.points import stress_at

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from exact_stresses import wave_stress
+from layer_stresses import layer_field
 
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import PeriodicLayeredSurface
-from analytic.layers.stress import layer_field
 from analytic.material import Material
 from analytic.stress.field import friction_field
 

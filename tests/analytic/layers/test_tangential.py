@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from layer_stresses import layer_field
 from scipy.linalg import toeplitz
 
 from analytic.contact.coupled import solve_coupled
@@ -9,7 +10,6 @@ from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody, wave_compliance
 from analytic.layers.operator import LayeredSurface
-from analytic.layers.stress import layer_field
 from analytic.layers.tangential import TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane

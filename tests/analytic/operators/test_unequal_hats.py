@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from scipy.integrate import trapezoid
+from unequal_hats import half_plane_matrix, hat_weights
 
 from analytic.grid import HatGrid, hat_integrals
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.unequal_hats import half_plane_matrix, hat_weights
 
 
 def random_nodes(seed=0, count=60, fine=2000):

@@ -8,7 +8,13 @@ from scenes import MEASURED, PROFILES
 
 from analytic.profile import Profile
 from analytic.surface.readers.columns import read_profile
-from analytic.surface.roughness import roughness, shortest_wavelength, summits
+from analytic.surface.roughness import (
+    bearing_curve,
+    power_spectrum,
+    roughness,
+    shortest_wavelength,
+    summits,
+)
 from analytic.surface.synthetic import self_affine, sinusoid
 
 UNEVEN = np.array([-1.0, -0.9, -0.35, -0.3, 0.1, 0.55, 0.6, 0.98, 1.0])
@@ -223,3 +229,21 @@ def test_summits_of_two_waves():
     assert spread == pytest.approx(0.1, rel=0.02)
     assert curvature == pytest.approx(1.0, rel=1e-2)
     assert summits(Profile(x, 0.1 * x)) == (0.0, 0.0)
+
+
+def test_a_power_spectrum_holds_the_mean_square_height():
+    profile = self_affine(hurst=0.8, samples=4096, length=1e-3, rms_height=1e-6, seed=3)
+    wavenumber, density = power_spectrum(profile)
+    assert np.sum(density) * wavenumber[0] == pytest.approx(1e-12, rel=0.15)
+    x = 1e-6 * np.arange(2000)
+    wave = Profile(x, 2e-7 * np.sin(2.0 * np.pi * 20.0 * x / x[-1]))
+    wavenumber, density = power_spectrum(wave)
+    assert wavenumber[np.argmax(density)] == pytest.approx(20.0 / x[-1], rel=1e-9)
+    assert np.sum(density) * wavenumber[0] == pytest.approx(2e-14, rel=1e-3)
+
+
+def test_a_bearing_curve_is_that_of_a_wave():
+    """Of a sine the share c is as high as cos(pi c)."""
+    x = np.linspace(0.0, 1.0, 2001)
+    share, height = bearing_curve(Profile(x, np.sin(2.0 * np.pi * 20.0 * x)))
+    np.testing.assert_allclose(height, np.cos(np.pi * share), atol=3e-3)

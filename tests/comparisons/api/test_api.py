@@ -97,9 +97,22 @@ def test_scenes_by_name_path_and_tables(tmp_path, monkeypatch):
         (lambda: api.read("nowhere"), "nowhere: is no folder"),
         (lambda: api.map("smooth", "8"), "--points"),
         (lambda: api.cost("smooth", repeats=0), "--repeats"),
+        (lambda: api.cost("smooth", repeats="3"), 'repeats: is "3"; allowed is a whole number'),
+        (lambda: api.run("smooth", 5), "models: is 5; allowed are half-plane, finite-element"),
+        (lambda: api.run("smooth", fields="foo"), 'fields: is "foo"; allowed is auto, vtu'),
+        (lambda: api.run("smooth", fields=["vtu"]), "fields: is a list; allowed is auto"),
+        (lambda: api.run("smooth", tolerance="0.1"), 'tolerance: is "0.1"; allowed is a number'),
+        (lambda: api.run("smooth", tolerance=True), "tolerance: is true; allowed is a number"),
+        (lambda: api.run("smooth", out="/dev/null/a"), "/dev/null is not a folder"),
+        (lambda: api.run("smooth", out=7), "out: is 7; allowed is a path"),
+        (lambda: api.load(7), "scene: is 7; allowed is a name, a path, tables"),
+        (lambda: api.load({"title": object()}), "title: is of type object; allowed is"),
+        (lambda: api.read(7), "folder: is 7; allowed is a path"),
+        (lambda: api.map("smooth", 8), "points: is 8; allowed is a text"),
     ],
 )
-def test_wrong_input_is_one_line(call, words):
+def test_wrong_input_is_one_line_before_anything_is_solved(call, words, monkeypatch):
+    monkeypatch.setattr("comparisons.runs.run.run", None)
     with pytest.raises(InputError) as caught:
         call()
     assert words in str(caught.value) and "\n" not in str(caught.value)
@@ -201,7 +214,7 @@ def test_a_view_holds_the_field_with_depth_downwards(found):
     mesh = plotter.mesh
     field = found.outcome.runs["half_plane"].finest.stress(0.1).field
     assert np.array_equal(mesh["tau1 (friction 0.1)"], field.tau1.ravel())
-    assert plotter.camera.up == (0.0, 0.0, -1.0)
+    assert plotter.camera.up == (0.0, -1.0, 0.0)
     sight = np.subtract(plotter.camera.focal_point, plotter.camera.position)
     assert np.cross(sight, plotter.camera.up)[0] > 0.0  # x to the right
     plotter.close()

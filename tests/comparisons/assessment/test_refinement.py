@@ -7,7 +7,7 @@ import pytest
 from scenes import SMOOTH, problem
 
 from comparisons.assessment.refinement import refined
-from comparisons.common.progress import no_progress
+from comparisons.common.tasks import Tasks
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 
@@ -17,7 +17,7 @@ def half_plane(**budget):
     made = problem(SMOOTH | {"tolerance": {"peak_pressure": 1e-6}, "budget": budget})
     plan = make_plan(made, ("half_plane",))
     cache = level_cache(None, made.scene, plan)
-    runs, why = refined(made, plan, None, cache, no_progress)
+    runs, why = refined(made, plan, None, cache, Tasks())
     return runs["half_plane"], why
 
 

@@ -5,7 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from comparisons.assessment.comparison import compared, pair_history, uncertainties
+from comparisons.assessment.comparison import (
+    SHOWN,
+    compared,
+    discretisations,
+    pair_history,
+    uncertainties,
+)
 from comparisons.assessment.uncertainty import (
     DOMAIN,
     difference_of_figures,
@@ -100,3 +106,30 @@ def test_a_peak_between_nodes_is_read_within_its_resolution(offset):
     nodal = np.sqrt(np.maximum(1.0 - (x / 15.0) ** 2, 0.0))
     resolution = peak_resolution(nodal)
     assert 1.0 - nodal.max() <= resolution < 2.5 * (0.5 / 15.0) ** 2
+
+
+def test_refinement_ends_by_the_worst_of_difference_and_models(smooth_outcome: Outcome):
+    """What both models leave out is in both figures, once each, and not in their difference."""
+    problem, window = smooth_outcome.problem, smooth_outcome.window
+
+    def off(run, sizes):
+        levels = (
+            replace(each, solution=replace(each.solution, pressure=f * each.solution.pressure))
+            for each, f in zip((run.finest,) * 3, sizes, strict=True)
+        )
+        return replace(run, levels=tuple(levels))
+
+    def open_ones(sizes, others):
+        pair = smooth_outcome.runs["half_plane"], smooth_outcome.runs["finite_element"]
+        runs = {run.name: off(run, f) for run, f in zip(pair, (sizes, others), strict=True)}
+        both = discretisations(runs, problem, 0.0, window)
+        alone = [discretisations({n: r}, problem, 0.0, window) for n, r in runs.items()]
+        return both["peak_pressure"], [each["peak_pressure"] for each in alone]
+
+    both, alone = open_ones((1.16, 1.04, 1.0), (1.16, 1.04, 1.0))
+    assert min(alone) > 0.01
+    assert both == pytest.approx(SHOWN * max(alone))
+    assert alone[0] == pytest.approx(alone[1])
+    # Where they err apart, the difference decides.
+    both, alone = open_ones((1.16, 1.04, 1.0), (0.84, 0.96, 1.0))
+    assert both > 1.5 * max(alone)

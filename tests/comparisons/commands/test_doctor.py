@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import subprocess
 import sys
 
 import pytest
@@ -11,6 +12,7 @@ from rich.console import Console
 from comparisons.cli import main
 from comparisons.commands import doctor
 from comparisons.commands.doctor import TRIALS, Finding, attempt, findings_table
+from comparisons.common.provenance import PROJECT, revision
 
 # A module that each trial cannot do without.
 MODULES = {name: name for name in TRIALS} | {
@@ -57,13 +59,28 @@ def test_findings_in_order_as_a_table_and_as_json(monkeypatch, capsys):
     monkeypatch.setattr(doctor, "TRIALS", {"slow": "a", "fast": "b"})
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, True, program))
     assert main(["doctor", "--json"]) == 0
-    python, *others = json.loads(capsys.readouterr().out)
+    python, own, *others = json.loads(capsys.readouterr().out)
+    assert own == {"name": "crosscheck", "ok": True, "detail": f"{revision()}, {PROJECT}"}
     assert python["name"] == "Python" and sys.executable in python["detail"]
     assert others == [{"name": n, "ok": True, "detail": p} for n, p in doctor.TRIALS.items()]
     monkeypatch.setattr(doctor, "attempt", lambda name, program: Finding(name, False, "torn"))
     assert main(["doctor"]) == 1
     out, err = capsys.readouterr()
     assert "torn" in out and out.endswith(f"{doctor.REMEDY}\n") and err == ""
+
+
+def test_the_revision_is_of_this_checkout_and_of_no_other(monkeypatch, tmp_path):
+    """Whatever repository the working folder or the environment names."""
+    git = ("git", "-C", str(PROJECT), "rev-parse", "HEAD")
+    head = subprocess.run(git, capture_output=True, text=True, check=True).stdout
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("GIT_DIR", str(tmp_path))
+    revision.cache_clear()
+    assert head.startswith(revision().removesuffix("+changes"))
+    monkeypatch.setenv("PATH", "/nowhere")
+    revision.cache_clear()
+    assert revision() is None
+    revision.cache_clear()
 
 
 def test_the_table_shows_every_word_as_it_is():

@@ -12,6 +12,13 @@ from comparisons.cli import main
 from comparisons.common.provenance import machine
 
 MODULES = ("numpy", "signal", "pickle", "threading", "meshes", "analytic", "gmsh", "scipy")
+SMALL = """
+roller = {radius = 0.01, rigid = true}
+body = {youngs_modulus = 210e9, poissons_ratio = 0.3}
+load = {hertz_peak_pressure = 1e9}
+resolution = {levels = 2}
+stress = {points = [12, 6]}
+"""
 # The mesher and a process beside, as a run starts them.
 PROGRAM = """
 import numpy as np
@@ -52,7 +59,7 @@ def test_no_file_of_an_instrument_is_read_by_a_module_of_the_working_folder(tmp_
     (tmp_path / "map.x3p").write_bytes(b"\0" * 100)
     monkeypatch.chdir(tmp_path)
     from analytic.surface.readers.instruments import read_instrument_file
-    from analytic.surface.readers.text import ProfileError
+    from analytic.surface.readers.source import ProfileError
 
     with pytest.raises(ProfileError) as refused:
         read_instrument_file(tmp_path / "map.x3p")
@@ -90,3 +97,25 @@ def test_a_table_gives_nothing_to_obey(tmp_path, smooth_outcome, capsys):
         assert all(c.isprintable() or c == "\n" for c in text)
     assert "'=1+2\\x1b]0;owned" in printed
     assert json.loads(as_json)[0]["title"] == title
+
+
+def test_a_scene_need_not_be_named_in_utf_8(tmp_path):
+    (tmp_path / os.fsdecode(b"sc\xe9ne.toml")).write_text(SMALL)
+    scene, out = os.fsdecode(b"sc\xe9ne.toml"), os.fsdecode(b"r\xe9sultats")
+    given = ["-m", "comparisons.cli", "run", scene, "--models", "half-plane"]
+    done = command(*given, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "results/sc\ufffdne/report.html").exists()
+    assert command(*given, "--out", out, cwd=tmp_path).returncode == 0
+    summary = os.fsdecode(b"\xe9.html")
+    for arguments in (["rerun", out], ["table", out], ["report", out, "--summary", summary]):
+        done = command("-m", "comparisons.cli", *arguments, cwd=tmp_path)
+        assert (done.returncode, done.stderr) == (0, ""), arguments
+    assert b"r%E9sultats/report.html" in (tmp_path / summary).read_bytes()
+
+
+@pytest.mark.parametrize("place", ["/proc", "/dev/null/absent"])
+def test_mpi_begins_wherever_temporary_files_cannot_be(tmp_path, place):
+    pytest.importorskip("mpi4py")
+    done = command("-c", "import fem; from mpi4py import MPI", cwd=tmp_path, TMPDIR=place)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")

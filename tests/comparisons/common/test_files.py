@@ -72,6 +72,24 @@ def test_a_failure_changes_nothing(tmp_path, error):
     assert {p.name for p in out.iterdir()} == {"result.json", "record.json"}
 
 
+@pytest.mark.parametrize(
+    ("error", "named"),
+    [
+        (lambda scratch: OSError(errno.ENOSPC, "full"), ""),
+        (lambda scratch: OSError(errno.ENOSPC, "full", str(scratch / "a/b.csv")), "a/b.csv"),
+        (lambda scratch: OSError(errno.EIO, "broken", os.fsencode(scratch / "c")), "c"),
+    ],
+)
+def test_a_full_disk_is_told_with_what_was_to_be_written(tmp_path, error, named):
+    out = tmp_path / "results"
+    with pytest.raises(OSError) as caught, published(out) as scratch:
+        raise error(scratch)
+    assert caught.value.filename == str(out / named)
+    with pytest.raises(OSError) as caught, whole_file(out) as part:
+        raise error(part)
+    assert caught.value.filename.startswith(str(out))
+
+
 def test_a_file_in_the_way_is_refused(tmp_path):
     (tmp_path / "taken").write_text("mine")
     for out in (tmp_path / "taken", tmp_path / "taken" / "deeper"):

@@ -69,6 +69,12 @@ def waits(*given):
     os._exit(5)
 mumps.factorised = waits
 """
+# Forked processes for the tasks, whatever these take.
+SIDE_BY_SIDE = """
+from comparisons.common import tasks
+tasks.WORTH_A_FORK = 0.0
+os.sched_getaffinity = lambda process: {0, 1}
+"""
 CRASH = """
 from fem.solver import mumps
 mumps.factorised = lambda *given: os.kill(os.getpid(), signal.SIGSEGV)
@@ -135,12 +141,26 @@ def test_in_the_middle_of_a_factorisation(folder, interrupt):
     assert "finite_element-1.npz" in kept and "finite_element-2.npz" not in kept
     assert not (folder / "out").exists()
     if interrupt is os.kill:
-        assert count(folder) == 2  # of the four that there are in all
+        assert count(folder) == 1  # of the three that there are in all
         assert not (folder / ".out.unfinished").exists()
 
 
-def test_in_the_middle_of_meshing(folder):
-    process = started(folder, MESHER)
+def test_in_the_middle_of_factorisations_side_by_side(folder):
+    """What each process had finished is not computed again."""
+    process = started(folder, SIDE_BY_SIDE + STUCK.format(call=2))
+    reached(folder, process)
+    os.killpg(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=PATIENT)
+    assert (process.returncode, out) == (ExitStatus.INTERRUPTED, "")
+    assert err.startswith("crosscheck: interrupted; finished levels are kept")
+    kept = {path.name for path in (folder / ".out.unfinished").glob("finite_element*")}
+    assert 1 <= len(kept) < 3
+    assert count(folder) == 3 - len(kept)
+
+
+@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
+def test_in_the_middle_of_meshing(folder, beside):
+    process = started(folder, beside + MESHER)
     reached(folder, process)
     os.kill(process.pid, signal.SIGINT)
     _, err = process.communicate(timeout=PATIENT)
@@ -163,15 +183,17 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
 
 
-def test_a_crash_stays_a_crash(folder):
-    process = started(folder, CRASH)
+@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
+def test_a_crash_stays_a_crash(folder, beside):
+    process = started(folder, beside + CRASH)
     process.communicate(timeout=PATIENT)
     assert process.returncode == -signal.SIGSEGV
 
 
+@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
 @pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
-def test_nothing_outlives_the_command(folder, sent):
-    process = started(folder, STUCK.format(call=1))
+def test_nothing_outlives_the_command(folder, sent, beside):
+    process = started(folder, beside + STUCK.format(call=1))
     reached(folder, process)
     process.send_signal(sent)
     process.communicate(timeout=PATIENT)  # returns when nobody holds its output any more

@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from comparisons.common.processes import ProcessEnded, fresh_process, share_out
+from comparisons.common.processes import ProcessEnded, fresh_process, meanwhile, side_by_side
 
 
 def test_one_that_hears_nothing_ends_at_an_interrupt():
@@ -49,53 +49,68 @@ def test_answers_errors_and_its_end():
             call(os._exit, 3)
 
 
-class TestShareOut:
-    def test_every_item_is_worked_on_once(self):
-        worked = []
-        share_out(range(100), worked.append, [worked.append, worked.append])
-        assert sorted(worked) == list(range(100))
+@pytest.fixture
+def two_cores(monkeypatch):
+    monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 1})
+    monkeypatch.setenv("OMP_NUM_THREADS", "1")
 
-    def test_those_beside_work_at_the_same_time(self):
-        both = threading.Barrier(2, timeout=60.0)
-        share_out(range(2), lambda item: both.wait(), [lambda item: both.wait()])
 
-    def test_what_a_process_had_in_hand_is_worked_on_here(self):
-        here, begun = [], threading.Event()
+@pytest.mark.usefixtures("two_cores")
+class TestSideBySide:
+    def test_copies_answer_in_order_with_what_is_in_memory(self):
+        shared = [bytes(number) for number in range(9)]
+        answers = side_by_side([lambda n=n: (len(shared[n]), os.getpid()) for n in range(9)])
+        assert [size for size, _ in answers] == list(range(9))
+        assert os.getpid() not in {copy for _, copy in answers}
 
-        def ends(item):
-            begun.set()
-            time.sleep(0.05)  # after all others are done
-            raise ProcessEnded
+    def test_one_core_works_here(self, monkeypatch):
+        monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0})
+        assert side_by_side([os.getpid] * 3) == [os.getpid()] * 3
 
-        def work(item):
-            begun.wait(60.0)
-            here.append(item)
+    def test_several_threads_work_here(self, monkeypatch):
+        monkeypatch.setenv("OMP_NUM_THREADS", "2")
+        assert side_by_side([os.getpid] * 3) == [os.getpid()] * 3
 
-        share_out(range(3), work, [ends])
-        assert sorted(here) == [0, 1, 2]
+    def test_what_a_killed_copy_was_to_do_is_done_here(self):
+        own = os.getpid()
+        assert side_by_side([lambda: os.getpid() == own or os._exit(9)] * 3) == [True] * 3
 
-    def test_an_error_beside_ends_the_rest_and_is_raised(self):
-        here, failed = [], threading.Event()
-
-        def fails(item):
-            failed.set()
-            raise ZeroDivisionError
-
-        def work(item):
-            failed.wait(60.0)
-            time.sleep(0.05)
-            here.append(item)
-
+    def test_errors_come_through(self):
         with pytest.raises(ZeroDivisionError):
-            share_out(range(10), work, [fails])
-        assert len(here) <= 1
+            side_by_side([lambda: 1 / 0, int])
+        with pytest.raises(FileNotFoundError, match="nowhere"):
+            side_by_side([int, lambda: os.stat("/nowhere/at/all")])
 
-    def test_an_interrupt_here_waits_for_nobody(self):
-        free = threading.Event()
-
-        def interrupted(item):
-            raise KeyboardInterrupt
-
+    def test_an_interrupt_ends_them(self):
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+        begin = time.monotonic()
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
         with pytest.raises(KeyboardInterrupt):
-            share_out(range(2), interrupted, [lambda item: free.wait(60.0)])
-        free.set()
+            side_by_side([lambda: time.sleep(300.0)] * 2)
+        assert time.monotonic() - begin < 100.0
+        assert signal.pthread_sigmask(signal.SIG_BLOCK, ()) == before
+
+
+@pytest.mark.usefixtures("two_cores")
+class TestMeanwhile:
+    def test_a_copy_works_while_this_process_does(self, tmp_path):
+        with meanwhile([lambda: (tmp_path / "one").write_text(str(os.getpid()))]):
+            while not (tmp_path / "one").exists():
+                time.sleep(0.01)
+        assert (tmp_path / "one").read_text() != str(os.getpid())
+
+    def test_what_fails_there_is_tried_and_raised_here(self, tmp_path, capfd):
+        path, own = tmp_path / "none" / "file", os.getpid()
+        with pytest.raises(FileNotFoundError), meanwhile([lambda: path.write_text("")]):
+            pass
+        done = []
+        with meanwhile([lambda: done.append(1) if os.getpid() == own else os._exit(9)]):
+            assert not done
+        assert done == [1]
+        assert capfd.readouterr() == ("", "")
+
+    def test_what_ends_the_block_ends_it(self, tmp_path):
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt), meanwhile([lambda: time.sleep(300.0)]):
+            raise KeyboardInterrupt
+        assert time.monotonic() - begin < 100.0

@@ -112,6 +112,8 @@ def test_pint_refuses_what_the_table_refuses(dimension):
         ("1 (mm)", "not a unit"),
         ("1 mm # note", "not a unit"),
         ("1 " + "mm*" * 40 + "mm", "not a unit"),
+        ("1 m**0", "not a unit"),
+        ("1 m/m", "a number without unit"),
         ("1 dB", "a number without unit"),
         ("1 degC", "temperature"),
         ("1 rad", "without dimension"),

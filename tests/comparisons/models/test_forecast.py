@@ -6,8 +6,8 @@ import pytest
 from scenes import STEEL, changed, problem
 
 from comparisons.assessment.refinement import refined
-from comparisons.common.progress import no_progress
 from comparisons.common.quantities import MODELS
+from comparisons.common.tasks import Tasks
 from comparisons.models.forecast import forecast
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
@@ -28,13 +28,15 @@ def planned(models=MODELS, **sections):
     return posed, plan, forecast(posed, plan)
 
 
-@pytest.mark.parametrize("time", [0.5, 2.0, 4.0])
-def test_as_many_levels_as_the_run_then_has(time):
+@pytest.mark.parametrize("count", [1, 3, 4])
+def test_as_many_levels_as_the_run_then_has(count):
+    _, _, whole = planned(budget={"time": 60.0, "effects": False})
+    time = 1.15 * sum(level.seconds for level in whole.levels[:count])
     posed, plan, found = planned(budget={"time": time, "effects": False})
     cache = level_cache(None, posed.scene, plan)
-    runs, stop = refined(posed, plan, None, cache, no_progress)
+    runs, stop = refined(posed, plan, None, cache, Tasks())
     levels = runs["finite_element"].levels
-    assert len(levels) == len(found.levels)
+    assert len(levels) == len(found.levels) == count
     assert "budget.time" in stop and "budget.time" in found.ends
     for level, said in zip(levels, found.levels, strict=True):
         assert (level.grid.pitch, level.grid.count) == (said.pitch, said.elements)
@@ -46,7 +48,7 @@ def test_as_many_levels_as_the_run_then_has(time):
 def test_waves_of_a_five_hundredth_of_the_half_width_are_told_to_be_coarse():
     """The fourth level has a million unknowns and five to ten elements a wave; the fifth would
     exceed the memory."""
-    posed, _, found = planned(**SHORT)
+    posed, _, found = planned(**SHORT, budget={"memory": 3e9, "effects": False})
     assert 400 < posed.hertz.half_width / 0.2e-6 < 800
     assert len(found.levels) == 4 and "budget.memory" in found.ends
     assert 4.0 < found.per_wave < 10.0

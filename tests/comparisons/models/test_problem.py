@@ -4,14 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import STEEL, problem
+from scenes import SMOOTH, STEEL, changed, problem, resolved
+from scipy.signal import find_peaks
 
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import solve_contact
 from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
+from comparisons.common.errors import SceneError
 from comparisons.models.finite_element.mesh import Refinement, block_spec
-from comparisons.models.problem import problem_of
+from comparisons.models.problem import problem_of, standing_out
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.scene import ResolvedScene
 from meshes.build import in_units
@@ -65,3 +67,33 @@ def test_asperities_end_between_peaks_of_pressure():
     np.testing.assert_allclose((ends / 60e-6) % 1.0, 0.5, atol=0.05)  # crests stand at whole waves
     assert problem(rough).asperities == ()
     assert problem(rough | {"profile": wave | {"amplitude": 1e-9}}).asperities == ()
+
+
+@pytest.mark.parametrize("thickness", [1e-30, 1e-9, 1e3, 1e30])
+@pytest.mark.parametrize("layer", ["body", "coating"])
+def test_a_layer_that_no_mesh_can_show_is_refused(layer, thickness):
+    tables = changed(SMOOTH, **{layer: STEEL | {"thickness": thickness}})
+    with pytest.raises(SceneError, match=rf"{layer}.thickness: is .*; allowed is from 0.001 to 1e"):
+        problem(tables)
+
+
+def test_a_layer_under_a_prescribed_approach_is_measured_by_the_cut_that_it_makes():
+    tables = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}, "load": {"approach": 1e-6}}
+    for thickness in (1e-30, 1e30):
+        with pytest.raises(SceneError, match=r"under a contact of 0\.000126 m half-width"):
+            problem_of(resolved(changed(tables, body={"thickness": thickness})), 1e6)
+
+
+def test_a_body_softer_than_the_load_allows_is_told_so():
+    with pytest.raises(SceneError, match=r"body.hardness: is 1 Pa, .* 2.34e.08 Pa or more"):
+        problem(changed(SMOOTH, body={"hardness": 1.0}))
+
+
+def test_what_stands_out_are_peaks_of_that_prominence():
+    noise = np.random.default_rng(7)
+    for count in (30, 300, 3000):
+        values = np.pad(np.maximum(np.cumsum(noise.standard_normal(count)), 0.0), 1)
+        for share in (0.02, 0.25):
+            least = share * values.max()
+            known, _ = find_peaks(values, prominence=least)
+            assert standing_out(values, least) == list(known)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import pyvista
 
+from comparisons.common.provenance import versions
 from comparisons.common.quantities import MODELS
 from comparisons.results import field_files as fields
 from comparisons.results.field_files import CELL_TYPES, FORMATS, STRESSES, field_of, write_field
@@ -42,7 +43,7 @@ def quietly(program: str, *arguments: object) -> str:
 
 
 def names(field) -> list[str]:
-    return [*STRESSES, *(f"{name} (friction 0.1)" for name in STRESSES)]
+    return [f"{name} (friction {mu})" for mu in ("0", "0.1") for name in STRESSES]
 
 
 OPENED = """
@@ -89,10 +90,12 @@ def test_vtk_files_in_pyvista(field, tmp_path, ending):
     called = [name.replace(".", "_") if ending == "vtkhdf" else name for name in names(field)]
     assert sorted(grid.point_data) == sorted(called)
     for name, shown in zip(names(field), called, strict=True):
+        unit = field.units[name]
+        assert unit == ("1" if name.startswith("s1_") else "Pa")
         assert np.array_equal(grid.point_data[shown], field.arrays[name])
         information = grid.GetPointData().GetArray(shown).GetInformation()
         if ending == "vtu":  # of a vtkhdf the units are in its notes alone
-            assert information.Get(vtkDataArray.UNITS_LABEL()) == "Pa"
+            assert information.Get(vtkDataArray.UNITS_LABEL()) == unit
     assert np.array_equal(grid.points, field.points)
     assert np.array_equal(grid.cells_dict[CELL_TYPES[field.kind][0]], field.cells)
     for name, text in field.notes.items():
@@ -105,7 +108,37 @@ def test_notes_say_units_and_scene(outcome, model):
     field = field_of(outcome, outcome.runs[model].finest)
     assert field.notes["title"] == "Waves of 1 µm & <more>"
     assert json.loads(field.notes["scene"]) == outcome.result["scene"]
-    assert json.loads(field.notes["units"]) == {"points": "m", **dict.fromkeys(names(field), "Pa")}
+    assert json.loads(field.notes["units"]) == field.units
+    assert list(field.units) == ["points", *names(field)] and field.units["points"] == "m"
+
+
+def test_one_friction_coefficient_has_plain_names(smooth_outcome):
+    field = field_of(smooth_outcome, smooth_outcome.runs["half_plane"].finest)
+    assert list(field.arrays) == list(STRESSES)
+
+
+def test_principal_directions_diagonalise_the_stress(field):
+    for friction in ("0", "0.1"):
+        sx, sz, txz, tau1, along = (
+            field.arrays[f"{name} (friction {friction})"]
+            for name in ("sx", "sz", "txz", "tau1", "s1_direction")
+        )
+        there = np.isfinite(tau1)
+        x, z, y = along[there].T.astype(float)
+        assert np.hypot(x, z) == pytest.approx(1.0, abs=1e-6) and not y.any()
+        normal = (sx[there] * x + txz[there] * z) * x + (txz[there] * x + sz[there] * z) * z
+        middle, size = 0.5 * (sx + sz)[there], np.abs(tau1[there]).max()
+        assert normal == pytest.approx(middle + tau1[there], abs=1e-5 * size)
+
+
+def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):
+    run = outcome.runs["finite_element"]
+    write_mesh(tmp_path / "mesh.msh", outcome, run.finest.mesh)
+    mesh = meshio.read(tmp_path / "mesh.msh", file_format="gmsh").points
+    for each in outcome.runs.values():
+        points = field_of(outcome, each.finest).points
+        assert not points[:, 2].any() and not mesh[:, 2].any()
+        assert mesh[:, 1].min() <= points[:, 1].min() and points[:, 1].max() <= mesh[:, 1].max()
 
 
 IN_GMSH = """
@@ -146,8 +179,9 @@ def test_msh_in_gmsh_and_meshio(field, tmp_path):
     assert list(views) == list(mesh.point_data) == names(field)
     for name, values in field.arrays.items():
         kind, of_nodes, in_view, parts = views[name]
-        assert (kind, parts) == ("NodeData", 1)
-        assert np.array_equal(np.array(in_view)[np.argsort(of_nodes)], values)
+        assert (kind, parts) == ("NodeData", 3 if values.ndim > 1 else 1)
+        found = np.reshape(in_view, (-1, parts)).squeeze()[np.argsort(of_nodes)]
+        assert np.array_equal(found, values)
         assert np.array_equal(mesh.point_data[name], values)
     said = path.read_bytes().rpartition(b"$Comments\n")[2].decode()
     lines = dict(line.split(": ", 1) for line in said.splitlines()[:-1])
@@ -169,8 +203,12 @@ def test_the_mesh_in_gmsh_meshio_and_pyvista(outcome, tmp_path):
 
 def test_contact_curves_have_units_in_their_header(outcome, tmp_path):
     level = outcome.runs["half_plane"].finest
-    write_contact(tmp_path / "contact.csv", outcome.problem, level)
-    header, *rows = (tmp_path / "contact.csv").read_text().splitlines()
+    write_contact(tmp_path / "contact.csv", outcome, level)
+    *notes, header = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[:3]
+    rows = (tmp_path / "contact.csv").read_text(encoding="utf-8").splitlines()[3:]
+    assert notes[0].startswith(f"# crosscheck {versions()['crosscheck']}")
+    assert notes[0].endswith(": Waves of 1 µm & <more>")
+    assert json.loads(notes[1].removeprefix("# scene: ")) == outcome.result["scene"]
     assert header == "x [m],pressure [Pa],gap [m],deformed height [m]"
     read = np.array([row.split(",") for row in rows], dtype=float)
     assert read[:, 0] == pytest.approx(level.grid.x, rel=1e-11)

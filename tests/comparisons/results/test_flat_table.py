@@ -110,7 +110,7 @@ def test_json(runs, capsys):
 
 
 def test_parquet(runs, tmp_path):
-    parquet = pytest.importorskip("pyarrow.parquet")
+    parquet = pytest.importorskip("pyarrow.parquet", reason="no pyarrow: pip install pyarrow")
     rows = tidy_rows([runs])
     write_table(tmp_path / "all.parquet", rows)
     assert parquet.read_table(tmp_path / "all.parquet").to_pylist() == rows

@@ -251,7 +251,8 @@ def test_a_folder_without_a_whole_record_is_refused(own, capsys, file, text, wor
     [
         (lambda r: r.update(models=[]), r"models: is \[\]; allowed are half_plane"),
         (lambda r: r.update(models=["fem"]), "models: is "),
-        (lambda r: r.update(levels=0), "levels: is 0; allowed is 1 or more"),
+        (lambda r: r.update(levels=0), "levels: is 0; allowed is from 1 to 8"),
+        (lambda r: r.update(levels=10**9), "levels: is 1000000000; allowed is from 1 to 8"),
         (lambda r: r.update(levels=True), "levels: is bool"),
         (lambda r: r["scene"].pop("roller"), "record.json: roller: is missing"),
         (lambda r: r["scene"]["load"].update(per_length=-1.0), "load.per_length: "),
@@ -263,6 +264,33 @@ def test_a_record_that_cannot_be_is_refused(own, alter, words):
     change(own / "record.json", alter)
     with pytest.raises(InputError, match=words):
         rerun(own)
+
+
+@pytest.mark.parametrize(
+    "alter",
+    [
+        lambda r: r.update(error_budget={"levels": 10**9}),
+        lambda r: r.update(error_budget={"levels": "3"}),
+        lambda r: r.update(error_budget="3"),
+        lambda r: r["models"]["half_plane"][0]["contact"].update(patches=["wide"]),
+        lambda r: r["models"]["half_plane"][0]["contact"].update(approach=10**400),
+    ],
+)
+def test_figures_that_no_run_writes_are_refused_before_anything_is_solved(own, alter, monkeypatch):
+    monkeypatch.setattr("comparisons.runs.rerun.run", None)
+    change(own / "result.json", alter)
+    with pytest.raises(InputError, match=r"result.json: .*; allowed is "):
+        rerun(own)
+
+
+@pytest.mark.parametrize("name", ["result.json", "record.json"])
+@pytest.mark.parametrize("command", ["rerun", "report"])
+def test_a_file_of_three_gigabytes_is_not_read(own, capsys, command, name):
+    with (own / name).open("ab") as file:
+        file.truncate(3 * 10**9)
+    assert main([command, str(own)]) == 2
+    told = capsys.readouterr().err
+    assert f"{name}: has 3000000000 bytes; allowed are 268435456" in told
 
 
 def test_no_such_folder(tmp_path, capsys):

@@ -1,11 +1,19 @@
 """Finding scenes and reading them as TOML."""
 
 import os
+from pathlib import Path
 
 import pytest
 
 from comparisons.common.errors import SceneError
-from comparisons.scenes.files import SCENES, find_scene, read_toml, scene_names, scene_titles
+from comparisons.scenes.files import (
+    SCENES,
+    find_scene,
+    name_of,
+    read_toml,
+    scene_names,
+    scene_titles,
+)
 
 PROMISED = {
     "smooth",
@@ -67,6 +75,39 @@ def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "pipe.toml")
     with pytest.raises(SceneError, match="is not a regular file"):
         read_toml(tmp_path / "pipe.toml")
+
+
+def test_a_loop_of_links_is_called_one(tmp_path):
+    (tmp_path / "a.toml").symlink_to(tmp_path / "b.toml")
+    (tmp_path / "b.toml").symlink_to(tmp_path / "a.toml")
+    with pytest.raises(SceneError, match="is a loop of symbolic links; allowed is a TOML file"):
+        read_toml(tmp_path / "a.toml")
+
+
+@pytest.mark.parametrize(
+    "key", ["a." * 100_000 + "a", "a . " * 33 + "a", "[a" + ".a" * 40 + "]\nb"]
+)
+def test_a_key_of_many_parts_is_refused_before_it_is_read(tmp_path, key, monkeypatch):
+    monkeypatch.setattr("tomllib.loads", lambda text: pytest.fail("read"))
+    (tmp_path / "scene.toml").write_text(f"{key} = 1")
+    with pytest.raises(SceneError, match="has a key of more than 32 parts"):
+        read_toml(tmp_path / "scene.toml")
+
+
+@pytest.mark.parametrize(
+    "value", ['"' + "a." * 100 + '"', "1 # " + "a." * 100, "'" + "a." * 100 + "'", "'''\na.a'''"]
+)
+def test_dots_in_texts_and_comments_are_no_key(tmp_path, value):
+    (tmp_path / "scene.toml").write_text(f"a = {value}\n")
+    assert list(read_toml(tmp_path / "scene.toml")) == ["a"]
+
+
+@pytest.mark.parametrize(
+    ("file", "name"),
+    [(b"sc\xe9ne.toml", "sc\ufffdne"), ("scène.toml".encode(), "scène"), (b"a\nb.toml", "a b")],
+)
+def test_a_file_is_named_in_text_whatever_bytes_name_it(file, name):
+    assert name_of(Path(os.fsdecode(file))) == name
 
 
 def test_errors_keep_their_cause(tmp_path):

@@ -94,7 +94,7 @@ class TestMaps:
         (tmp_path / "trace.csv").write_text("0,1\n1,2\n2,0\n3,1\n4,1\n")
         assert complaint(tmp_path, file="trace.csv", x_unit="um") == (
             'mine.toml: profile.z_unit: is missing; allowed is a unit of length as a string, such '
-            'as "um" (trace.csv is text, which names no unit)'
+            'as "um" (trace.csv is text, from whose header no unit is taken)'
         )  # fmt: skip
 
 
@@ -262,11 +262,14 @@ class TestResults:
         rows = dict(dict(problem_sheet(outcome))["Roughness (ISO 21920-2)"])
         standard = outcome.problem.scene.profile_info.standard
         assert rows["cut-offs λc, λs"] == "0.8 mm, 2.5 µm"
-        assert rows["section lengths"] == "4"
+        assert rows["section lengths"] == "4 where the standard asks for 5"
         assert rows["Ra, Rq"].startswith(f"{1e9 * standard.ra:#.4g} nm, ")
         assert rows["Rz, Rt"].startswith(f"{1e6 * standard.rz:#.4g} µm, ")
         assert rows["Rdq, RSm"].endswith(", 100.0 µm")
-        assert len(rows) == 6
+        assert rows["unlike as pressed"].startswith(
+            "waves longer than 0.8 mm and shorter than 2.5 "
+        )
+        assert len(rows) == 7
         geometry = dict(dict(problem_sheet(outcome))["Geometry"])
         assert geometry["filter"] == "waves longer than 0.8 mm removed"
 

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from blocks import hooke
+from blocks import SumOfBodies, hooke
 from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
@@ -14,7 +14,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_extremes, hertz_from_load, hertz_stress
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus
-from analytic.operators.half_plane import HalfPlane, SumOfBodies
+from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import TangentialHalfPlane
 from fem.body.elasticity import Coating, elastic_body
 from fem.body.support import Support

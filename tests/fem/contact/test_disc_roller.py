@@ -9,6 +9,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from blocks import SumOfBodies
 from scenes import hat_nodes
 
 from analytic.contact.defect_correction import solve_with_model
@@ -17,7 +18,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.hertz import hertz_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material
-from analytic.operators.half_plane import HalfPlane, SumOfBodies
+from analytic.operators.half_plane import HalfPlane
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from meshes.block import BlockSpec

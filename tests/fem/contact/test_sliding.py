@@ -10,6 +10,7 @@ from functools import cache, partial
 
 import numpy as np
 import pytest
+from blocks import SumOfBodies
 from scenes import DATA, hat_nodes
 
 from analytic.contact.coupled import solve_coupled
@@ -19,7 +20,6 @@ from analytic.contact.patches import contact_patches
 from analytic.exact.sliding import SlidingContact, sliding_from_load
 from analytic.grid import HatGrid
 from analytic.material import Material, combined_modulus, dundurs_constants
-from analytic.operators.half_plane import SumOfBodies
 from analytic.operators.tangential import CoupledHalfPlane, DenseCoupledCompliance
 from analytic.surface.synthetic import self_affine
 from fem.body.elasticity import Support, elastic_body

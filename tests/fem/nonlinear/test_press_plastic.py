@@ -125,6 +125,32 @@ def test_below_first_yield_it_is_the_elastic_contact(small, dense):
     assert not contact.state.equivalent.any()
 
 
+@pytest.mark.parametrize(("elastic", "friction"), [(False, 0.0), (True, 0.0), (True, 0.1)])
+def test_what_is_condensed_changes_nothing(small, monkeypatch, elastic, friction):
+    """All increments one by one, with the whole roller, lead to the same, in more contacts. What is
+    left on the way changes little, the plastic strain of single points most."""
+    scene = Scene(small, 2.4, 6, hardening=10.0, elastic=elastic)
+    loads = [1.0, 0.0, 0.8]
+
+    def same(found, wholly, accuracy, of_strain):
+        for one, other in zip(found, wholly, strict=True):
+            peak, flow = other.pressure.max(), other.state.equivalent.max()
+            strains = one.state.equivalent, other.state.equivalent
+            np.testing.assert_allclose(one.pressure, other.pressure, atol=accuracy * peak)
+            np.testing.assert_allclose(*strains, atol=of_strain * flow)
+            moved, size = (one.displacement, other.displacement), np.abs(other.displacement).max()
+            np.testing.assert_allclose(*moved, atol=accuracy * size)
+
+    _, quick = scene.press(loads, friction)
+    monkeypatch.setattr("fem.nonlinear.press_plastic.ON_THE_WAY", 1e-9)
+    _, found = scene.press(loads, friction)
+    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_HATS", 0)
+    _, wholly = scene.press(loads, friction)
+    same(found, wholly, 1e-7, 1e-7)
+    same(quick, wholly, 1e-5, 1e-4)
+    assert sum(one.iterations for one in found) < sum(one.iterations for one in wholly)
+
+
 def test_flow_flattens_and_widens(loaded):
     """Less peak pressure on a wider contact, the same load, a deeper approach."""
     scene, _, (pressed, *_) = loaded

@@ -1,5 +1,7 @@
 """Largest stresses: Hertz's values and places, windows, smooth and kinked fields."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,8 +9,10 @@ from analytic.exact.hertz import hertz_extremes
 from analytic.material import Material
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
+from fem.body.surface import straight_down
 from fem.stress.maximum import NEAR, maxima, maximum
-from fem.stress.stress import at_mesh_points, nodal_stress
+from fem.stress.stress import at_mesh_points, nodal_stress, nodal_stresses
+from fem.stress.surface_load import SurfaceLoad
 
 
 def tau1(stress):
@@ -134,6 +138,28 @@ def test_each_cell_of_x_has_its_own_maximum(body):
     assert found[0, 3] == 0.0 and np.isnan(found[1:, 3]).all()  # beyond the window
     whole = maximum(body, nodal, lambda stress: stress.sx, window)
     assert found[0].max() == pytest.approx(whole.value)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_looking_where_an_estimate_is_high_finds_what_looking_everywhere_does(pressed, friction):
+    """And needs the stresses of a part of the nodes; ten elements to a half-width."""
+    case, cells = pressed(10, 0.2), (-0.5, 0.2, 0.9)
+    hats, window = case.compliance.hats, (-1.5, 1.5, 1.5)
+    load = SurfaceLoad(case.body, hats, case.pressure, np.array([friction]), straight_down)
+    for quantity in (tau1, lambda stress: np.abs(stress.txz)):
+        (there,) = nodal_stresses(case.displacement(friction)[:, None], load)
+        everywhere = replace(there, estimate=lambda all_of=there.values: all_of)
+        (there,) = nodal_stresses(case.displacement(friction)[:, None], load)
+        asked = np.zeros(len(there.poissons_ratio), dtype=bool)
+
+        def at(node, asked=asked, of=there.at):
+            asked[node] = True
+            return of(node)
+
+        found = maxima(case.body, replace(there, at=at), quantity, window, cells)
+        assert 0.0 < asked.mean() < 0.5
+        expected = maxima(case.body, everywhere, quantity, window, cells)
+        np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
 def test_each_material_has_its_own_poissons_ratio(structured_block):

@@ -7,7 +7,8 @@ from blocks import hooke
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.triangle import GAUSS, jacobians, reference_nodes, slopes
-from fem.stress.recovery import element_stress, recovered_stress, stress_nodes
+from fem.stress.recovery import Recovery, element_stress, recovered_stress, stress_nodes
+from fem.stress.surface_load import SurfaceLoad
 
 MATERIAL = Material(3.0, 0.3)
 
@@ -93,6 +94,32 @@ def test_inner_forces_balance_the_load_and_the_support_bears_it(structured_block
     np.testing.assert_allclose(
         force[body.held].reshape(-1, 2).sum(axis=0), -load.sum(axis=0), atol=1e-11
     )
+
+
+@pytest.mark.parametrize("thickness", [None, 0.5])
+def test_what_is_asked_for_piece_by_piece_is_what_all_at_once_gives(
+    structured_block, rng, thickness, monkeypatch
+):
+    """Under several friction coefficients together, against each of them alone."""
+    coating = thickness and Coating(Material(9.0, 0.2), thickness)
+    mesh = structured_block(np.linspace(-1, 1, 17), np.linspace(0, 1, 9), lambda x: 0.03 * x**2)
+    body = elastic_body(mesh, MATERIAL, Support(), coating=coating or None)
+    hats, pressure = np.linspace(-0.6, 0.6, 9), rng.uniform(0.5, 1.0, 7)
+    moved = rng.normal(size=(len(body.nodes), 2, 2))
+
+    def load(friction):
+        return SurfaceLoad(body, hats, pressure, friction, lambda x: (0.1 * x, np.ones_like(x)))
+
+    alone = np.stack(
+        [recovered_stress(body, moved[:, k], load(mu)) for k, mu in enumerate((0.0, 0.4))], axis=1
+    )
+    monkeypatch.setattr("fem.stress.recovery.PIECE", 20)
+    together = Recovery(body, moved, load(np.array([0.0, 0.4])))
+    node = rng.permutation(len(together.known))
+    for some in np.array_split(node[: len(node) // 2], 5):
+        np.testing.assert_allclose(together.at(some), alone[some], atol=1e-9 * np.abs(alone).max())
+    assert not together.known.all()
+    assert not np.array_equal(alone[:, 0], alone[:, 1])
 
 
 def test_the_smallest_block_still_has_stresses(structured_block):

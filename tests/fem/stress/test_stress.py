@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from layer_stresses import layer_field
 from scenes import hat_nodes
 from scipy.integrate import trapezoid
 from scipy.interpolate import CubicSpline
 
 from analytic.exact.hertz import hertz_stress
 from analytic.layers.layered import LayeredBody
-from analytic.layers.stress import layer_field
 from analytic.material import Material
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState

@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from analytic.contact.equilibrium import Constraints
-from analytic.layers.layered import LayeredBody
+from analytic.layers.layered import Base, LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
@@ -106,6 +106,14 @@ def hertz_results(make: Callable[[float], ModelOperator], change: Change) -> Res
     return results_of(load_contact(operator, x, gap, Constraints(load=float(change(LOAD)))))
 
 
+def layered(
+    stiffness: float, poissons_ratio: float, thickness: float, base: Base | Material, modulus: float
+) -> LayeredSurface:
+    """A surface layer, of a stiffness in units of `modulus`, on a base."""
+    layer = Material(stiffness * modulus, poissons_ratio)
+    return LayeredSurface(COUNT, PITCH, LayeredBody(layer, thickness, base))
+
+
 def rough_results(change: Change) -> Results:
     height = change(rough(1024))
     operator = HalfPlane(1024, 1.0, float(change(1.0)))
@@ -149,22 +157,14 @@ def finite_element_results(poissons_ratio: float, stiffness: float, change: Chan
 
 def cases() -> Groups:
     # The layer's own numbers are as exact as its type allows: 1 - 2 nu is not perturbed.
-    elastomer, steel = 0.5 - 1e-9, Material(1.0, 0.3)
-
-    def on_soft_layer(modulus: float) -> LayeredSurface:
-        body = LayeredBody(Material(1e-2 * modulus, elastomer), 0.05, "bonded")
-        return LayeredSurface(COUNT, PITCH, body)
-
-    def on_hard_coating(modulus: float) -> LayeredSurface:
-        body = LayeredBody(Material(1e6 * modulus, 0.3), 0.01, steel)
-        return LayeredSurface(COUNT, PITCH, body)
-
+    soft = partial(layered, 1e-2, 0.5 - 1e-9, 0.05, "bonded")
+    hard = partial(layered, 1e6, 0.3, 0.01, Material(1.0, 0.3))
     sliding = partial(CoupledHalfPlane, COUNT, PITCH, friction_dundurs=0.5)
     given = {
         "smooth": (partial(hertz_results, partial(HalfPlane, COUNT, PITCH)), 11.0, 4.0),
         "sliding, mu beta = 0.5": (partial(hertz_results, sliding), 11.0, 4.0),
-        "thin incompressible layer": (partial(hertz_results, on_soft_layer), 12.0, 6.0),
-        "coating 1e6 times as stiff": (partial(hertz_results, on_hard_coating), 7.5, 2.0),
+        "thin incompressible layer": (partial(hertz_results, soft), 12.0, 6.0),
+        "coating 1e6 times as stiff": (partial(hertz_results, hard), 7.5, 2.0),
         "rough": (rough_results, 11.0, 3.0),
     }
     return {"rounding": {name: partial(digits_findings, *each) for name, each in given.items()}}

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from scenes import PROFILES
 
 from analytic.surface.readers.columns import read_profile
-from analytic.surface.readers.text import ProfileError, read_table
+from analytic.surface.readers.source import ProfileError
+from analytic.surface.readers.text import read_table
 
 X = [0.0, 0.5, 1.5, 2.0, 4.25]
 HEIGHT = [0.125, -3.0, 2.5, 0.0, -0.75]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.surface.readers.columns import read_profile
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.source import ProfileError
 
 
 def bridged(directory, content, **options):

@@ -1,15 +1,12 @@
 """Which reader takes a file, whose units count, and what happens to lost heights."""
 
-import importlib.util
-import sys
-
 import numpy as np
 import pytest
 
 import analytic.surface.readers.instruments as instruments
 from analytic.surface.readers.files import MissingUnitError, read_measured
-from analytic.surface.readers.text import ProfileError
-from analytic.surface.readers.topography import MapLine
+from analytic.surface.readers.source import ProfileError
+from analytic.surface.readers.topography import MapLine, Topography
 
 SCAN = b"0,1\n1,2\n2,4\n3,3\n4,0\n"
 SCALES = {"x_scale": 1e-6, "height_scale": 1e-9}
@@ -49,7 +46,7 @@ def knows(monkeypatch, **answer):
         "np.savez(sys.argv[2], heights=np.array([1.0, 4.0, 9.0, 2.0, 3.0]))\n"
         f"print({str(given | answer)!r}.replace(chr(39), chr(34)).replace('None', 'null'))"
     )
-    monkeypatch.setattr(instruments, "WORKER", (sys.executable, "-c", program))
+    monkeypatch.setattr(instruments, "WORKER", ("-c", program))
 
 
 def test_text_is_a_line_scan(tmp_path):
@@ -62,7 +59,7 @@ def test_text_is_a_line_scan(tmp_path):
 def test_text_needs_its_units(tmp_path):
     path = text(tmp_path)
     message = refusal(path, MissingUnitError, x_scale=1e-6)
-    assert message.endswith("is text, which names no unit")
+    assert message.endswith("is text, from whose header no unit is taken")
     with pytest.raises(MissingUnitError) as caught:
         read_measured(path, height_scale=1e-6)
     assert caught.value.field == "x_unit"
@@ -167,17 +164,17 @@ COLUMNS = b"".join(b"%d %d %d\n" % (i, i * i % 7, 3 * i % 5) for i in range(5))
 def test_columns_are_a_map_only_where_their_file_says_so(tmp_path, monkeypatch):
     path = text(tmp_path, COLUMNS)
     knows(monkeypatch)
-    expected = "3 columns; a profile has two (x, height) or one (height)"
-    assert refusal(path, **SCALES).endswith(expected)
+    expected = (
+        "3 columns; a profile has two (x, height) or one (height), and columns chooses them: "
+    )
+    assert refusal(path, **SCALES).endswith(f"{expected}by numbers from 0 to 2")
     knows(monkeypatch, pitch=[2.0, 2.0], unit=1e-6, unit_name="um")
     assert read_measured(path).format.startswith("made")
 
 
-@pytest.mark.skipif(
-    importlib.util.find_spec("SurfaceTopography") is not None,
-    reason="SurfaceTopography is installed",
-)
-def test_without_the_library_columns_name_what_may_read_them(tmp_path):
+def test_without_the_library_columns_name_what_may_read_them(tmp_path, monkeypatch):
+    program = "import json; print(json.dumps({'absent': 'No module named SurfaceTopography'}))"
+    monkeypatch.setattr(instruments, "WORKER", ("-c", program))
     message = refusal(text(tmp_path, COLUMNS), **SCALES)
     assert ", line 1: 3 columns; a profile has two (x, height)" in message
     assert message.endswith(instruments.install_command())
@@ -186,3 +183,51 @@ def test_without_the_library_columns_name_what_may_read_them(tmp_path):
 def test_a_file_that_is_not_there(tmp_path):
     assert refusal(tmp_path / "none.x3p").endswith("there is no such file")
     assert "is a directory" in refusal(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("heights", "pitch", "fragment"),
+    [
+        (np.empty((0, 5)), (1e-6, 1e-6), "a damaged file: it holds 0 by 5 heights"),
+        (np.zeros((4, 5)), (np.nan, 1e-6), "a damaged file: its samples are nan and 1e-06 apart"),
+        (np.zeros((4, 5)), (1e-6, 0.0), "a damaged file: its samples are 1e-06 and 0 apart"),
+    ],
+)
+def test_a_map_without_samples_or_size_is_damaged(tmp_path, monkeypatch, heights, pitch, fragment):
+    def read(path, channel):
+        return Topography(path, heights, pitch, None, 1.0, "made")
+
+    monkeypatch.setattr("analytic.surface.readers.files.read_instrument_file", read)
+    (tmp_path / "map.x3p").write_bytes(b"\0" * 10)
+    assert fragment in refusal(tmp_path / "map.x3p", chosen=MapLine(row=0))
+
+
+@pytest.mark.parametrize(
+    "content", [b"0,1\n1,1e300\n2,0\n3,1\n4,0\n", b"0,1\n1e290,1\n2e290,0\n3e290,1\n"]
+)
+def test_heights_of_no_size_are_refused(tmp_path, content):
+    assert "holds no profile" in refusal(text(tmp_path, content), x_scale=1.0, height_scale=1.0)
+
+
+def test_digits_in_groups_are_shown_as_they_are(tmp_path):
+    path = text(tmp_path, b'"1,000,000";"1,5"\n' * 5)
+    assert '"1,000,000"' in refusal(path, **SCALES)
+
+
+def test_a_loop_of_links_is_called_one(tmp_path):
+    (tmp_path / "a.csv").symlink_to(tmp_path / "a.csv")
+    assert "a loop of symbolic links" in refusal(tmp_path / "a.csv", **SCALES)
+
+
+@pytest.mark.parametrize(
+    ("scale", "size"),
+    [
+        ("Xscale = 1e-6", "Xscale = 1e-300"),
+        ("Xscale = 1e-6", "Xscale = 1e290"),
+        ("Zscale = 1e-9", "Zscale = 1e300"),
+    ],
+)
+def test_scales_of_no_size_are_refused(tmp_path, scale, size):
+    path = sdf(tmp_path, MAP)
+    path.write_text(path.read_text().replace(scale, size))
+    assert "holds no profile: " in refusal(path, chosen=MapLine(row=0))

@@ -2,6 +2,7 @@
 
 import hashlib
 import importlib.util
+import json
 import sys
 import zipfile
 
@@ -14,10 +15,12 @@ from analytic.surface.readers.instruments import (
     install_command,
     read_instrument_file,
 )
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.source import ProfileError
 
 HAS_READER = importlib.util.find_spec("SurfaceTopography") is not None
-needs_reader = pytest.mark.skipif(not HAS_READER, reason="SurfaceTopography is not installed")
+needs_reader = pytest.mark.skipif(
+    not HAS_READER, reason="SurfaceTopography is not installed: pip install crosscheck[surface]"
+)
 HEIGHTS = np.random.default_rng(6).standard_normal((5, 7)) * 1e-7
 MAIN = """<?xml version="1.0" encoding="UTF-8"?>
 <p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2"><Record1>
@@ -82,9 +85,9 @@ def test_files_without_size_and_unit_say_so(tmp_path):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (bytes(range(1, 100)), "is neither text nor of a format that SurfaceTopography"),
-        (b"\x00\x01" * 16, "is neither text nor of a format that"),  # 4 x 4 heights of terrain
-        (b"PK\x05\x06" + bytes(18), "is neither text nor"),
+        (bytes(range(1, 100)), "is of no format that is known; allowed is text of columns"),
+        (b"\x00\x01" * 16, "is of no format that is known"),  # 4 x 4 heights of terrain
+        (b"PK\x05\x06" + bytes(18), "is of no format"),
     ],
 )
 def test_unknown_files(tmp_path, content, words):
@@ -106,7 +109,7 @@ def test_a_truncated_file(tmp_path):
 
 
 def worker(monkeypatch, program: str) -> None:
-    monkeypatch.setattr(module, "WORKER", (sys.executable, "-c", program))
+    monkeypatch.setattr(module, "WORKER", ("-c", program))
 
 
 def complaint(tmp_path) -> str:
@@ -129,9 +132,10 @@ def test_without_the_library_the_message_says_how_to_get_it(tmp_path, monkeypatc
         read_instrument_file(tmp_path / "map.opd")
 
 
-@pytest.mark.skipif(HAS_READER, reason="SurfaceTopography is installed")
-def test_the_worker_finds_it_absent(tmp_path):
-    assert "which is not installed (No module named" in complaint(tmp_path)
+def test_the_worker_finds_it_absent(tmp_path, monkeypatch):
+    hidden = "import runpy, sys; sys.modules['SurfaceTopography'] = None"
+    worker(monkeypatch, f"{hidden}; runpy.run_path({module.WORKER[-1]!r}, run_name='__main__')")
+    assert "which is not installed (import of SurfaceTopography" in complaint(tmp_path)
 
 
 def test_the_command_installs_into_this_environment_beside_debians_numpy(tmp_path, monkeypatch):
@@ -183,3 +187,32 @@ def test_an_uneven_scan_comes_in_metres(tmp_path, monkeypatch):
 def test_a_channel_that_is_no_height_is_refused(tmp_path, monkeypatch):
     worker(monkeypatch, ANSWER % ("None", "V"))
     assert complaint(tmp_path).endswith("counts in 'V', which is no length; a profile has heights")
+
+
+def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(tmp_path, monkeypatch):
+    monkeypatch.setattr(module, "_ask", lambda path, target: pytest.fail("unpacked"))
+    monkeypatch.setattr(module, "MOST_UNPACKED", 10**6)
+    path = tmp_path / "map.x3p"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("bindata/data.bin", bytes(2 * 10**6))
+    assert path.stat().st_size < 10**4
+    with pytest.raises(ProfileError, match=r"unpacks to 0\.002 GB; allowed are 0\.001 GB"):
+        read_instrument_file(path)
+
+
+def test_another_interpreter_may_have_a_newer_library(tmp_path, monkeypatch):
+    python = tmp_path / "python"
+    found = {"format": "new", "version": "9", "pitch": [1, 1], "unit": 1e-6, "unit_name": "um"}
+    (tmp_path / "worker.py").write_text(
+        "import sys\nimport numpy\nnumpy.savez(sys.argv[2], heights=[1.0, 2.0])\n"
+        f"print({json.dumps(json.dumps(found))})\n"
+    )
+    lines = ["#!/bin/sh", "shift 2", f'exec {sys.executable} {tmp_path / "worker.py"} "$@"']
+    python.write_text("\n".join(lines) + "\n")
+    python.chmod(0o755)
+    (tmp_path / "new.dat").write_bytes(b"\x00\x01")
+    monkeypatch.setenv("CROSSCHECK_SURFACE_PYTHON", str(python))
+    assert read_instrument_file(tmp_path / "new.dat").format == "new, by SurfaceTopography 9"
+    monkeypatch.setenv("CROSSCHECK_SURFACE_PYTHON", str(tmp_path / "none"))
+    with pytest.raises(ProfileError, match=r"none, which cannot be run \(No such file"):
+        read_instrument_file(tmp_path / "new.dat")

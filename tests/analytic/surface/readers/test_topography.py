@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.topography import MapLine, Topography, trace_of
 
 ALONG, ACROSS = 2e-6, 3e-6

@@ -5,7 +5,7 @@ import struct
 import numpy as np
 import pytest
 
-from analytic.surface.readers.text import ProfileError
+from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.topography import is_sdf, read_sdf
 
 HEIGHTS = np.array([[1.0, -2.5, 3.0, 0.0], [4.0, np.nan, 0.5, 2.0], [7.0, 8.0, -9.0, 1e-3]])

@@ -6,6 +6,7 @@ import pytest
 from comparisons.assessment.comparison import figures
 from comparisons.assessment.effects.error_budget import sampling_changes
 from comparisons.common.progress import Stages
+from comparisons.common.tasks import Tasks
 from comparisons.models.half_plane import half_plane_level
 
 LENGTH, WAVE, AMPLITUDE = 1.2e-3, 60e-6, 0.3e-6
@@ -37,7 +38,7 @@ def pressed(problem_with, tmp_path):
 
 def stated(pressed, samples: int) -> tuple[dict, dict]:
     problem, levels = pressed(samples)
-    changes = sampling_changes(problem, None, levels)
+    changes = sampling_changes(problem, None, levels, Tasks())
     return figures(levels[-1], problem, 0.0), changes[0.0]
 
 

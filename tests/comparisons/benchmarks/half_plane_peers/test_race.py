@@ -83,7 +83,7 @@ def test_absent_peers_are_named(monkeypatch, capsys):
 
 @pytest.mark.parametrize("module", ["tamaas", "ContactMechanics"])
 def test_peers_meet_the_yardstick(module, capsys):
-    pytest.importorskip(module, reason=f"{module} is not installed")
+    pytest.importorskip(module, reason=f"{module} is not installed: pip install {module}")
     main(["--sizes", "64", "--seeds", "1", "--repeats", "1"])
     shown = capsys.readouterr().out
     assert "never meets" not in shown

@@ -1,6 +1,7 @@
 """Where friction makes the largest shear stand on the surface, up to the ends of contact."""
 
 import pickle
+from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
@@ -8,8 +9,9 @@ import pytest
 from scenes import STEEL, problem
 
 from comparisons.assessment.refinement import refined
-from comparisons.common.progress import no_progress
 from comparisons.common.quantities import MODELS
+from comparisons.common.tasks import Tasks
+from comparisons.models.finite_element.stress import stresses_of
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.window import window_of
@@ -30,9 +32,7 @@ TABLES = {
 def runs():
     posed = problem(TABLES)
     plan = make_plan(posed, MODELS)
-    return refined(
-        posed, plan, window_of(posed), level_cache(None, posed.scene, plan), no_progress
-    )[0]
+    return refined(posed, plan, window_of(posed), level_cache(None, posed.scene, plan), Tasks())[0]
 
 
 @pytest.mark.parametrize(("model", "most"), [("half_plane", 1e-3), ("finite_element", 7e-3)])
@@ -56,17 +56,37 @@ def test_both_fields_have_the_curve_next_to_the_ends(runs):
         np.testing.assert_allclose(sz, exact, atol=2e-3 * 1e9)
 
 
-def test_stresses_go_from_one_process_to_another():
-    """With what is beside them: a body's factor cannot."""
-    posed = problem(TABLES)
-    plan, kept = make_plan(posed, ("finite_element",)), []
-    with patch("comparisons.models.finite_element.level.stresses_of") as stresses:
-        stresses.side_effect = lambda pressed, *_: (
-            kept.append(pressed.stress(FRICTION)),
-            ((), None),
-        )[1]
-        cache = level_cache(None, posed.scene, plan)
-        refined(posed, plan, window_of(posed), cache, no_progress)
-    there = pickle.loads(pickle.dumps(kept[0]))
-    assert there.further is not None
-    np.testing.assert_array_equal(there.values, kept[0].values)
+def test_figures_are_those_of_a_body_whose_stresses_are_known_everywhere():
+    """Without stresses at all points of the mesh, too; what is found goes to other processes."""
+    posed, found = problem(TABLES), []
+    plan, window = make_plan(posed, ("finite_element",)), window_of(posed)
+
+    def both(pressed, frictions, window, asperities, _):
+        known = replace(pressed, on_mesh=None)
+        ways = (pressed, False), (pressed, True), (known, True)
+        given = frictions, window, asperities
+        results = (stresses_of(body, *given, fields) for body, fields in ways)
+        found.append([pickle.loads(pickle.dumps(each)) for each in results])
+        return (), None
+
+    with patch("comparisons.models.finite_element.level.stresses_of", both):
+        refined(posed, plan, window, level_cache(None, posed.scene, plan), Tasks())
+    for ((without,), nothing), (_, later), ((all_known,), at_once) in found:
+        assert nothing is None
+        for part in ("sx", "sz", "txz"):
+            there, expected = (
+                getattr(each.stresses[FRICTION], part) for each in (later.recovered, at_once)
+            )
+            np.testing.assert_allclose(there, expected, rtol=1e-9, atol=1e-3)
+        for name, most in all_known.extremes.items():
+            assert without.extremes[name].value == pytest.approx(most.value, rel=1e-12)
+        for part in ("sx", "sz", "txz"):
+            expected = getattr(all_known.field, part)
+            np.testing.assert_allclose(getattr(without.field, part), expected, atol=1e-3)
+
+
+def test_the_last_level_has_the_stresses_at_all_points_of_its_mesh(runs):
+    """Also where the budget ends the refinement earlier than asked for."""
+    assert len(runs["finite_element"].levels) < 2
+    field = runs["finite_element"].finest.field_on_mesh
+    assert len(field.stresses[FRICTION].sx) == len(field.points)

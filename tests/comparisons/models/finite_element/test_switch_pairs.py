@@ -85,7 +85,7 @@ def test_pair(pair):
     assert solution.load == pytest.approx(posed.hertz.load_per_length, rel=1e-6)
     assert 0.5 < solution.pressure.max() / posed.hertz.peak_pressure < 2.5
     found = [solution.pressure, solution.gap, level.displacement, level.patches]
-    for stress in level.mesh_field.stresses.values():
+    for stress in level.field_on_mesh.stresses.values():
         found += [stress.sx, stress.sz, stress.txz]
-    found += [*level.mesh_field.others.values(), level.mesh_field.poissons_ratio]
+    found += [*level.field_on_mesh.others.values(), level.field_on_mesh.poissons_ratio]
     assert all(np.isfinite(values).all() for values in found)

@@ -1,5 +1,6 @@
 """One assumption of the finite elements switched off at a time, all else the same."""
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -7,13 +8,14 @@ import pytest
 from scenes import changed, problem
 
 from comparisons.common.progress import Stages
-from comparisons.models.finite_element.bodies import BodyCache
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.plan import make_plan
-from comparisons.models.problem import Problem
+from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
+from comparisons.scenes.resolve import load_scene
 
 STEEL = {"youngs_modulus": 200e9, "poissons_ratio": 0.3}
 RADIUS, HALF_WIDTH = 10e-3, 200e-6  # a/R = 0.02 under a rigid roller
@@ -138,6 +140,19 @@ def test_a_list_of_friction_coefficients_and_a_repetition_share_one_factorisatio
     finite_element_level(problem, plan, held, None, third, body_cache=body_cache)
     assert "factorisation" in third.seconds  # another support, the same mesh
     assert third.seconds["mesh"] < 0.1 * first.seconds["mesh"]
+
+
+def test_a_roller_like_the_body_that_flows_shares_its_factor():
+    problem = problem_of(load_scene("yielding"))
+    plan, half = make_plan(problem, ("finite_element",)), problem.hertz.half_width
+    patches, refinement = np.array([[-half, half]]), Refinement(problem.pitches[0])
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    assert bodies.roller is bodies.rough
+    assert bodies.factor_memory == bodies.rough.factor.bytes
+    disc = replace(problem.scene.finite_element, roller_body="disc")
+    problem = replace(problem, scene=replace(problem.scene, finite_element=disc))
+    bodies = bodies_of(problem, plan, refinement, patches, Stages(), BodyCache())
+    assert bodies.roller is not bodies.rough
 
 
 def test_finite_rotations_leave_the_surface_at_the_edge_of_contact_without_shear():

@@ -100,6 +100,13 @@ def test_a_wrong_field_is_named_with_what_is_allowed(fields, line, resolved):
     assert str(error.value).startswith(f"wavy.toml: {line}")
 
 
+@pytest.mark.parametrize("load", [1e20, 1e-15])
+def test_pressures_too_few_or_too_many_for_the_trace_are_refused(resolved, load):
+    scene = resolved({"running_in": {"load": load}, "profile": {"length": 2e-3}})
+    with pytest.raises(SceneError, match=r"running_in: takes .* of .* m; allowed are 8 to 4e\+06"):
+        run_in_scene(scene)
+
+
 class TestRestOfTheScene:
     @pytest.fixture
     def refused(self, resolved) -> Callable[[dict], str]:

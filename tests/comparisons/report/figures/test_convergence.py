@@ -24,7 +24,7 @@ def moving(outcome: Outcome) -> list:
 
 @pytest.fixture(scope="module")
 def panels(wavy_outcome: Outcome, drawn_by) -> list:
-    [figure], _ = drawn_by(convergence_picture, wavy_outcome)
+    [figure, _], _ = drawn_by(convergence_picture, wavy_outcome)
     return figure.axes
 
 
@@ -78,6 +78,6 @@ def test_levels_that_are_equal_are_said_to_be(smooth_outcome: Outcome, drawn_by)
         name: replace(run, levels=(run.finest,) * 3) for name, run in smooth_outcome.runs.items()
     }
     found = replace(smooth_outcome, runs=runs, pairs=())
-    [figure], picture = drawn_by(convergence_picture, found)
+    [figure, _], picture = drawn_by(convergence_picture, found)
     words = [text.get_text() for axes in figure.axes for text in axes.texts]
     assert "no change but rounding" in words and "settled" in picture.alternative

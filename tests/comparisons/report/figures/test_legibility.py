@@ -2,14 +2,22 @@
 
 from itertools import combinations
 
+import numpy as np
 import pytest
 from matplotlib.transforms import Bbox
 
 from analytic.material import Material
-from comparisons.report.figures.model_error import LOOKS
 from comparisons.report.figures.pressures import TICKS, close_up_picture, pressure_picture
 from comparisons.report.figures.problem import problem_picture
-from comparisons.report.figures.style import LINES, REFERENCE
+from comparisons.report.figures.style import (
+    LINES,
+    REFERENCE,
+    drawing,
+    figure,
+    hatch,
+    stacked,
+    svg,
+)
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import Coated, Yielding
@@ -84,4 +92,19 @@ def test_numbers_along_the_top_are_whole_and_clear_of_the_axis_name(wavy_outcome
 def test_models_and_signs_differ_in_grey():
     for one, other in combinations((*LINES.values(), REFERENCE), 2):
         assert one["linestyle"] != other["linestyle"]
-    assert len({look.get("hatch") for look in (LOOKS[True], LOOKS[False])}) == 2
+
+
+def test_hatches_are_lines_on_bars_alone():
+    with drawing():
+        drawn = figure(4.0, 2.0)
+        [axes] = stacked(drawn, [(0.2, 1.4)], 0.5)
+        bars = axes.barh([0, 1], [2.0, 3.0], left=1.0, height=0.5)
+        hatch(axes, [bars[0]], "black")
+        axes.set(xlim=(0.0, 10.0), ylim=(-1.0, 2.0))
+        drawn.draw_without_rendering()
+        [lines] = [line for line in axes.lines if line.get_gid() == "hatch"]
+        clip = lines.get_clip_path().get_fully_transformed_path().get_extents()
+        assert clip.extents == pytest.approx(bars[0].get_window_extent().extents)
+        x = drawn.dpi * np.asarray(lines.get_xdata(), dtype=float)
+        assert np.count_nonzero((x > clip.x0) & (x < clip.x1)) > 5
+        assert "<pattern" not in svg(drawn)

@@ -64,6 +64,8 @@ def test_the_page_is_whole_and_fits(tab, wavy_file, width, script):
     )
     assert len(pictures) > 15
     assert min(pictures) > 100
+    widest = page.value("Math.max(...[...document.images].map((i) => i.clientWidth))")
+    assert 0.5 * min(width, 1100) < widest <= width
     assert page.value("document.querySelector('#look').hidden") is not script
 
 
@@ -106,7 +108,7 @@ def test_the_keyboard_reaches_all_that_scrolls_and_every_control(tab, wavy_file,
             && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)))
           .map((e) => e.dataset.number)"""
     )
-    assert len(wanted) > (20 if width < 700 else 3)
+    assert len(wanted) > (15 if width < 700 else 3)
     reached = set()
     for _ in range(MOST_KEYS):
         page.press("Tab", TAB)
@@ -114,8 +116,5 @@ def test_the_keyboard_reaches_all_that_scrolls_and_every_control(tab, wavy_file,
         if number in reached:
             break
         reached.add(number)
-    assert set(wanted) <= reached
-    named = page.value(
-        "[...document.querySelectorAll('[tabindex]')].every((e) => e.getAttribute('aria-label'))"
-    )
-    assert named
+    body = page.value("document.body.dataset.number")  # after the last
+    assert set(wanted) == reached - {None, body}  # and stops nowhere else

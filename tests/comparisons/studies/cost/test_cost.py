@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 from html import unescape
 
 import pytest
@@ -10,11 +11,12 @@ from scenes import SMOOTH, changed, resolved
 from analytic.exact.hertz import hertz_from_load
 from comparisons.assessment.comparison import figures
 from comparisons.cli import main
+from comparisons.report.terminal import PLAIN
 from comparisons.runs.run import run
 from comparisons.studies.cost import methods as cost_methods
 from comparisons.studies.cost.cost import cost
 from comparisons.studies.cost.methods import FINEST, METHODS
-from comparisons.studies.cost.page import cost_table
+from comparisons.studies.cost.page import cells, cost_table, shown
 from comparisons.studies.cost.recommend import scene_sections
 from comparisons.studies.cost.result import content_of
 from comparisons.studies.cost.study import FOLDER, OK
@@ -105,6 +107,25 @@ class TestWholeStudy:
         text = console.export_text()
         assert "For all tolerances of the scene take the half-plane (hats, FFT" in text
         assert "threads 1" in text and "exact (Hertz)" in text
+
+    def test_a_narrow_terminal_breaks_no_number(self, small):
+        from rich.console import Console
+
+        found, _ = small
+        console = Console(width=80, record=True, file=io.StringIO())
+        console.print(cost_table(found))
+        lines = console.export_text().splitlines()
+        assert max(map(len, lines)) <= 80
+        text = " ".join(" ".join(lines).split())
+        for each in found.assessed:
+            for cell in cells(found, each, shown(found)):
+                assert " ".join(cell.translate(PLAIN).split()) in text
+
+    def test_what_to_write_into_a_scene_is_short(self, small):
+        _, folder = small
+        page = unescape((folder / "cost.html").read_text())
+        pitches = re.findall(r"pitch = (\S+ \S+)", page)
+        assert pitches and all(re.fullmatch(r'"[0-9.]+ [um]?m",', each) for each in pitches)
 
 
 class TestCommand:

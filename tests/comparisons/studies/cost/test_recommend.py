@@ -12,7 +12,7 @@ from comparisons.common.processes import ProcessEnded
 from comparisons.common.progress import no_progress
 from comparisons.report.figures.style import Picture
 from comparisons.studies.cost.measure import MeasuredRun, RefusedRun
-from comparisons.studies.cost.methods import ADAPTED, FINEST, METHODS
+from comparisons.studies.cost.methods import FINEST, METHODS
 from comparisons.studies.cost.page import cells, cost_page, notes_of, refusals, shown
 from comparisons.studies.cost.recommend import AssessedRow, pareto, recommendations
 from comparisons.studies.cost.result import assess, content_of
@@ -175,7 +175,17 @@ class TestRecommendation:
         rows = assessed(
             row("P2", 4.0, 1.0, 1e-5), row("P2", 2.0, 2.0, 5e-2), row("P2", 1.0, 8.0, 1e-3)
         )
-        assert chosen(rows, 0.01).finite_element.row.setting == 1.0
+        choice = chosen(rows, 0.01)
+        assert choice.finite_element.row.setting == 1.0
+        assert choice.sentence.endswith(
+            "by chance it is met cheaper by P2 at a pitch of 4.00 m, 100 unknowns: expect 1.0 s, "
+            "but a finer one does not."
+        )
+        assert "by chance" not in chosen(rows[1:], 0.01).sentence
+        assert chosen(rows[:2], 0.01).sentence == (
+            "For 1 % of the peak pressure no measured setting will do; by chance it is met by P2 "
+            "at a pitch of 4.00 m, 100 unknowns: expect 1.0 s, but a finer one does not."
+        )
 
     def test_the_floor_counts_as_error(self):
         rows = assessed(row("P2", 4.0, 1.0, 8e-3), row("P2", 2.0, 2.0, 1e-3))
@@ -187,12 +197,13 @@ class TestRecommendation:
         assert "nothing can be said: the reference itself is that uncertain" in choice.sentence
 
     def test_cheaper_ones_that_run_does_not_have_are_named(self):
-        rows = assessed(row("P2 adapted", 0.01, 0.5, 1e-3), row("P2", 4.0, 1.0, 1e-3))
+        rows = assessed(row("strips, FFT", 8.0, 0.5, 1e-3), row("P2", 4.0, 1.0, 1e-3))
         choice = chosen(rows, 0.01)
-        assert choice.cheapest.row.method.name == ADAPTED
+        assert choice.cheapest.row.method.name == "strips, FFT"
         assert choice.sentence.endswith(
             "P2 at a pitch of 4.00 m, 100 unknowns: expect 1.0 s; no setting of the half-plane "
-            "will do; cheapest of all is P2 adapted to 0.01, 100 unknowns: expect 500 ms."
+            "will do; cheapest of all is strips, FFT at a pitch of 8.00 m: expect 500 ms, "
+            "by which run cannot solve."
         )
 
     def test_nothing_will_do(self):

@@ -1,8 +1,10 @@
 """From a measured profile to a scene that runs as it stands."""
 
+import gzip
 import json
 import tomllib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -13,7 +15,9 @@ from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.schema.fields import field_type
 from comparisons.scenes.schema.profile import VARIETIES
 from comparisons.scenes.schema.scene import SECTIONS, SceneFile
+from comparisons.studies.init import first_scene
 from comparisons.studies.init.first_scene import write_first_scene
+from comparisons.studies.init.picture import picture
 from comparisons.studies.init.scene_text import FIELDS, scene_text
 
 SHIPPED = sorted(PROFILES.glob("*.csv"))
@@ -48,9 +52,31 @@ FILES = {
     "no header, micrometres": rows(X, Z, "\t").encode(),
     "no header, millimetres and nanometres": rows(1e-3 * X, 1e3 * Z, " ").encode(),
     "UTF-16": ("Distance (um)\tHeight (nm)\n" + rows(X, 1e3 * Z, "\t")).encode("utf-16"),
+    "a count first": (
+        "index,x in µm,y in µm\n"
+        + "".join(f"{i},{a:.6g},{b:.6g}\n" for i, (a, b) in enumerate(zip(X, Z, strict=True)))
+    ).encode(),
+    "raw and levelled": (
+        "x [mm],raw [um],levelled [nm]\n"
+        + "".join(f"{a / 1e3:.6g},{b:.6g},0\n" for a, b in zip(X, Z, strict=True))
+    ).encode(),
+    "packed": gzip.compress(("x_um,z_um\n" + rows(X, Z)).encode()),
     "heights with their spacing": ("# step = 0,5 um\n# z in nm\n" + heights(1e3 * Z)).encode(),
     "a map": sdf(Z).encode(),
     "lost samples": ("x_um,z_um\n" + rows(X, Z).replace("100,", "100,NaN #", 1)).encode(),
+}
+
+
+INCH = 25400.0  # um
+HEADS = {  # units of x and of z, as a scene has them
+    "x [inch], z [microinch]": (INCH, 1e-6 * INCH, "inch", "microinch"),
+    "x_in,z_uin": (INCH, 1e-6 * INCH, "inch", "microinch"),
+    "Distance (mils), Height (micro-inches)": (1e-3 * INCH, 1e-6 * INCH, "mil", "microinch"),
+    "x / um, z / \N{ANGSTROM SIGN}": (1.0, 1e-4, "um", "angstrom"),
+    "X [um], Z [Angstrom]": (1.0, 1e-4, "um", "angstrom"),
+    "Lateral (MM), Raw (Micrometers)": (1e3, 1.0, "mm", "um"),
+    "x [cm], z [pm]": (1e4, 1e-6, "cm", "pm"),
+    "position (um), height (um) (raw)": (1.0, 1.0, "um", "um"),
 }
 
 
@@ -58,6 +84,12 @@ FILES = {
 def folder(tmp_path, monkeypatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch) -> None:
+    """Drawing takes the longest."""
+    monkeypatch.setattr(first_scene, "picture", lambda scene: "")
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
@@ -82,6 +114,153 @@ def test_every_format_is_read_in_its_own_units(folder, content):
     assert (info.bridged > 0) == (b"NaN" in content)
     assert info.place == ("row 2 of 5 rows and 801 columns, 0.0004 m by 4e-06 m"
                           if b"aISO" in content else None)  # fmt: skip
+
+
+@pytest.mark.parametrize("head", HEADS)
+def test_units_that_a_header_names_count(folder, head, capsys):
+    x_unit, z_unit, *names = HEADS[head]
+    (folder / "trace.csv").write_text(f"{head}\n" + rows(X / x_unit, Z / z_unit))
+    assert main(["init", "trace.csv"]) == 0
+    assert "guessed by size" not in capsys.readouterr().out
+    scene = load_scene("trace.toml")
+    assert [scene.tables["profile"][name] for name in ("x_unit", "z_unit")] == names
+    assert scene.profile_info.length == pytest.approx(400e-6, rel=1e-5)
+    assert scene.profile_info.roughness.rq == pytest.approx(RMS, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("head", "unit", "option"),
+    [("x [foo], z [um]", "foo", "--x-unit"), ("x (um), z (mV)", "mV", "--z-unit")],
+)
+def test_units_that_are_no_length_are_errors_unless_another_is_given(
+    folder, capsys, head, unit, option
+):
+    (folder / "trace.csv").write_text(f"{head}\n" + rows(X, Z))
+    assert main(["init", "trace.csv"]) == 2
+    said = capsys.readouterr().err
+    assert f'"{unit}" is no known unit of length (by "{head}" in the file); known are m, mm' in said
+    assert all(f" {name}" in said for name in ("angstrom", "inch", "mil", "microinch", option))
+    assert main(["init", "trace.csv", option, "um"]) == 0
+
+
+def test_a_missing_stretch_is_told_bridged_and_refused_without(folder, capsys):
+    kept = (X < 100.0) | (X > 300.0)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X[kept], Z[kept]))
+    assert main(["init", "trace.csv"]) == 0
+    said = capsys.readouterr().out
+    assert "801 samples, 400.0 um long, 500.0 nm apart" in said
+    assert "nothing was measured from 99.50 um to 300.5 um: what is pressed there is a" in said
+    info = load_scene("trace.toml").profile_info
+    assert info.bridged == 401 and info.roughness.rt < 1.5 * np.ptp(Z) * 1e-6
+    text = Path("trace.toml").read_text().replace('\ndropouts = "bridge"', "")
+    Path("trace.toml").write_text(text)
+    assert main(["run", "trace.toml", "--models", "half-plane"]) == 2
+    assert (
+        "x has a gap from 9.95e-05 m to 0.0003005 m (401 samples lost)" in capsys.readouterr().err
+    )
+
+
+def test_uneven_samples_are_told_as_such(folder, capsys):
+    x = np.cumsum(np.random.default_rng(2).uniform(0.2, 0.8, 101)).round(3)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(x, Z[:101]))
+    assert main(["init", "trace.csv"]) == 0
+    least, most = np.diff(x).min(), np.diff(x).max()
+    assert f"long, {1e3 * least:.1f} nm to {1e3 * most:.1f} nm apart" in capsys.readouterr().out
+
+
+def test_a_spike_is_named(folder, capsys):
+    z = Z.copy()
+    z[300] += 5.0
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, z))
+    assert main(["init", "trace.csv"]) == 0
+    assert "a spike stands out of the trace, by 4.9" in capsys.readouterr().out
+
+
+def test_two_columns_of_roughness_say_why_they_differ(folder, capsys):
+    x = 0.5 * np.arange(4001)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(x, np.sin(x / 5.0)))
+    assert main(["init", "trace.csv"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "as pressed: the whole trace without its line" in said
+    assert (
+        "ISO 21920-2: waves longer than 0.8 mm and shorter than 2.5 um are filtered off, and the "
+        "middle 800.0 um of 2.000 mm count"
+    ) in said
+    assert "section lengths: 1 where the standard asks for 5, so that Rz is Rt" in said
+
+
+def test_bodies_and_load_are_options(folder):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    options = ["--radius", "4 mm", "--load", "0.05 N/um", "--youngs-modulus", "70 GPa"]
+    options += ["--poissons-ratio", "0.33", "--hardness", "2 GPa", "--friction", "0.2"]
+    assert main(["init", "trace.csv", *options]) == 0
+    scene = load_scene("trace.toml")
+    assert (scene.roller_radius, scene.load.kind, scene.load.value) == (
+        pytest.approx(4e-3), "load_per_length", pytest.approx(5e4)
+    )  # fmt: skip
+    for material in (scene.roller, scene.body):
+        assert (material.youngs_modulus, material.poissons_ratio) == (pytest.approx(70e9), 0.33)
+    assert (scene.hardness, list(scene.friction)) == (pytest.approx(2e9), [0.2])
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--radius", "4 N"], "--radius: is "),
+        (["--poissons-ratio", "0.6"], "--poissons-ratio: is 0.6; allowed is"),
+        (["--load", "1 N/um", "--peak-pressure", "1 GPa"], "--peak-pressure: is given beside"),
+        (["--radius", "9 m", "--load", "1 N/um"], "trace.csv: load"),
+        (["--columns", "0,1,2"], "--columns: is a list of 3"),
+    ],
+)
+def test_options_that_do_not_go_are_one_line(folder, capsys, options, words):
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    assert main(["init", "trace.csv", *options]) == 2
+    said = capsys.readouterr().err
+    assert words in said and said.count("\n") == 1
+    assert [path.name for path in folder.iterdir()] == ["trace.csv"]
+
+
+def test_a_picture_stands_beside_the_scene(folder, capsys, monkeypatch):
+    monkeypatch.setattr(first_scene, "picture", picture)
+    (folder / "trace.csv").write_text("x_um,z_um\n" + rows(X, Z))
+    assert main(["init", "trace.csv", "--out", "mine.toml"]) == 0
+    assert "picture mine.svg" in capsys.readouterr().out
+    assert ElementTree.parse("mine.svg").getroot().tag.endswith("svg")
+    assert Path("mine.svg").stat().st_size > 20_000
+    Path("mine.toml").unlink()
+    Path("mine.svg").write_text("mine")
+    assert main(["init", "trace.csv", "--out", "mine.toml"]) == 2
+    assert "mine.svg: is there already; allowed is --force" in capsys.readouterr().err
+    assert Path("mine.svg").read_text() == "mine" and not Path("mine.toml").exists()
+    assert main(["init", "trace.csv", "--out", "mine.toml", "--no-picture"]) == 0
+    assert Path("mine.svg").read_text() == "mine"
+
+
+def test_a_small_map_gets_a_load_that_fits_it(folder):
+    """As an atomic force microscope has it: 100 nm long, some tenths of a nanometre rough."""
+    (folder / "trace.csv").write_text("x_nm,z_nm\n" + rows(X / 4.0, Z))
+    assert main(["init", "trace.csv"]) == 0
+    assert 0.0 < load_scene("trace.toml").roller_radius < 10e-6
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_line_of_a_map_runs_across_the_lay(folder, turned):
+    lay = np.outer(np.sin(np.arange(90) / 2.0), np.ones(70))
+    lay = lay if turned else lay.T
+    count, profiles = lay.shape[1], lay.shape[0]
+    head = f"aISO-1.0\nNumPoints = {count}\nNumProfiles = {profiles}\nXscale = 1e-6\n"
+    head += "Yscale = 1e-6\nZscale = 1e-7\nDataType = 7\n*\n"
+    body = "\n".join(" ".join(f"{value:.6g}" for value in row) for row in lay)
+    (folder / "map.sdf").write_text(f"{head}{body}\n*\n")
+    made = write_first_scene(Path("map.sdf"))
+    name = "column" if turned else "row"
+    assert made.profile.fields[name] == "35"
+    assert made.profile.reasons[name] == (
+        f"the middle one of 70, across the lay: slopes along {name}s are all that there are, none "
+        "the other way"
+    )
+    assert made.scene.profile_info.roughness.rq == pytest.approx(1e-7 / np.sqrt(2.0), rel=0.05)
 
 
 def test_the_scene_runs_unchanged(folder, monkeypatch):

@@ -45,7 +45,7 @@ def test_a_flat_profile_is_a_line():
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii", None])
 def test_a_picture_is_for_a_terminal_alone(tmp_path, encoding):
     command = [sys.executable, "-m", "comparisons.cli", "init", str(PROFILE)]
-    command += ["--out", str(tmp_path / "mine.toml")]
+    command += ["--out", str(tmp_path / "mine.toml"), "--no-picture"]
     environment = os.environ | {"PYTHONIOENCODING": encoding or "utf-8", "TERM": "xterm"}
     environment |= {"PYTHONPATH": str(PROJECT), "COLUMNS": "80"}
     if encoding is None:

@@ -9,9 +9,10 @@ import pytest
 from comparisons.common.provenance import versions
 from comparisons.studies.maps.content import described, read_map
 from comparisons.studies.maps.picture import map_picture
-from comparisons.studies.maps.point import FAILED, SOLVED, TOLERANCES, solve_point
+from comparisons.studies.maps.point import TOLERANCES, solve_point
 from comparisons.studies.maps.request import FINISHED, request_of
 from comparisons.studies.maps.rule import rules_of
+from comparisons.studies.points import FAILED, SOLVED
 
 NAMES = ("curvature-thickness", "slope-wavelength", "thickness-friction")
 # A point of each that costs little and whose error is well above its uncertainty: column, row.

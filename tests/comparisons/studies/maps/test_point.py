@@ -10,8 +10,9 @@ from analytic.exact.sliding import sliding_from_load
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.groups import Origin, tables_with
-from comparisons.studies.maps.point import FAILED, SOLVED, PointError, solve_point
+from comparisons.studies.maps.point import PointError, solve_point
 from comparisons.studies.maps.request import PointRequest
+from comparisons.studies.points import FAILED, SOLVED
 
 HERE = Origin("made.toml", Path("."))
 RIGID = {

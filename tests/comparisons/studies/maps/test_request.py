@@ -3,6 +3,7 @@
 import pytest
 
 from comparisons.common.errors import InputError, SceneError
+from comparisons.scenes.files import SCENES
 from comparisons.studies.maps.request import request_of
 
 
@@ -16,13 +17,18 @@ class TestRequest:
         [
             ({"x": "a_over_width", "y": "a_over_width"}, "--y: is a_over_width, as --x"),
             ({"quantity": "peak"}, "--quantity: there is no peak"),
-            ({"quantity": "tau1_max", "scene": "thickness-friction"}, "--quantity: tau1_max needs"),
             ({"scene": "nothing"}, "nothing: is neither a file nor a scene"),
         ],
     )
     def test_wrong_requests(self, arguments, what):
         with pytest.raises(InputError, match=f"^{what}"):
             request_of(**{"scene": "smooth", "points": "2x2"} | arguments)
+
+    def test_stresses_take_a_window(self, tmp_path):
+        text = (SCENES / "smooth.toml").read_text().partition("[stress]")
+        (tmp_path / "bare.toml").write_text(text[0] + text[2].partition("\n\n")[2])
+        with pytest.raises(InputError, match=r"^--quantity: tau1_max needs"):
+            request_of(str(tmp_path / "bare.toml"), "2x2", quantity="tau1_max")
 
     def test_a_point_is_known_by_all_that_shapes_it(self):
         def keys(*arguments: str) -> list[str]:

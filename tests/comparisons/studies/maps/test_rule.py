@@ -6,8 +6,8 @@ import pytest
 from comparisons.report.figures.style import drawing
 from comparisons.studies.maps.content import BELOW, INCONCLUSIVE, SIGNIFICANT, significance
 from comparisons.studies.maps.picture import map_figure, map_picture
-from comparisons.studies.maps.point import FAILED, SOLVED
 from comparisons.studies.maps.rule import rule_of
+from comparisons.studies.points import FAILED, SOLVED
 
 
 @pytest.fixture

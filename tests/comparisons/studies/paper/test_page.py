@@ -169,10 +169,8 @@ class TestPictures:
             views = [drawn[4 * k + first] for k in range(len(SCENES))]
             contours = [drawn[4 * k + first + 1] for k in range(len(SCENES))]
             assert len({(f.axes[0].get_xlim(), f.axes[0].get_ylim()) for f in views}) == 1
-            bounds = {
-                tuple(axes.images[0].norm.boundaries) for f in contours for axes in f.axes[:-1]
-            }
-            assert len(bounds) == 1
+            bars = [figure.axes[-1] for figure in contours]
+            assert len({(bar.get_xlim(), tuple(bar.get_xticks())) for bar in bars}) == 1
             letters = {tuple(t.get_text() for t in f.axes[0].texts) for f in views}
             assert len(letters) == 1
             assert {"x/a", "z/a"} < set(next(iter(letters)))

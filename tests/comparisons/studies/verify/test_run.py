@@ -1,8 +1,11 @@
 """`crosscheck verify` on a part of its cases: it holds, and it sees what does not."""
 
 import json
+import os
+import pickle
 import re
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,7 +14,9 @@ import pytest
 from analytic.exact.layers import layer_references
 from comparisons import cli
 from comparisons.assessment import convergence
+from comparisons.common import tasks
 from comparisons.common.errors import ExitStatus
+from comparisons.studies.checks import CheckedCase, run_case, run_cases
 from comparisons.studies.verify import run
 from comparisons.studies.verify.coverage import (
     FEWEST_ROUGH,
@@ -36,6 +41,10 @@ from comparisons.studies.verify.scenes import (
     spread,
 )
 
+# Evaluated, the number of the process as a finding.
+PROCESS = """(
+    lambda c: c.Findings((c.BoundedFigure("process", __import__("os").getpid(), 1e9, ""),))
+)(__import__("sys").modules["comparisons.studies.checks"])"""
 SOME_LAYERS = (0, 9)  # thick and hardly pressed, thin and nearly incompressible
 
 
@@ -72,8 +81,13 @@ class TestCases:
             kinds = {scene.kind for scene in scenes if model in scene.models}
             assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
         figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
-        assert figures + sum(len(c.exact) for c in operator_contacts()) >= 550
-        rough = (*rough_scenes(), *rough_operator_contacts())
+        contacts, rough = operator_contacts(), rough_operator_contacts()
+        assert figures + sum(len(c.exact) for c in contacts) >= 550
+        rough_ones = rough_scenes()
+        cases = scene_cases((*scenes, *rough_ones))
+        cases += operator_cases((*contacts, *rough), spread(len(contacts) + len(rough)))
+        assert pickle.dumps([case.solve for case in cases])  # for other processes
+        rough = (*rough_ones, *rough)
         assert sum(len(case.exact) for case in rough) >= FEWEST_ROUGH
         assert len({case.name for case in rough}) == len(rough)
         assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
@@ -103,6 +117,21 @@ class TestCases:
         assert all(figure.holds for figure in found.figures)
         assert all(pair.converged and len(pair.levels) == 3 for pair in found.pairs)
         assert found.pressure_errors[-1] < 0.02 and len(found.pressure_errors) == 3
+
+
+def test_processes_find_what_one_finds(monkeypatch):
+    """In the same order, each case once."""
+    contacts = operator_contacts()[:4]
+    cases = scene_cases(half_plane_scenes(rounds=1)[:4]) + operator_cases(contacts, spread(4))
+    process = CheckedCase("", "process", "half_plane", partial(eval, PROCESS))
+    alone = [run_case(case).findings for case in cases]
+    for worth in ("WORTH_A_FORK", "WORTH_A_START"):
+        monkeypatch.setattr(tasks, worth, 0.0)
+    *beside, last = run_cases([*cases, process])
+    assert [row.case for row in beside] == cases
+    assert [row.findings for row in beside] == alone
+    alone = len(os.sched_getaffinity(0)) == 1
+    assert (last.findings.figures[0].value == os.getpid()) == alone
 
 
 class TestWhole:

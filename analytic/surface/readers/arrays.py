@@ -1,0 +1,109 @@
+"""Profiles and maps in files of numpy (npy, npz) and of MATLAB (mat), as numbers alone.
+
+Vectors of one length are the columns of a table under their names, an `x` first. An array of two
+dimensions is such a table where it has few columns, else a map without size and unit.
+"""
+
+import io
+import zipfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from analytic.surface.readers.source import ProfileError, contents, shown
+from analytic.surface.readers.text import ProfileTable, chosen_columns
+from analytic.surface.readers.topography import Topography
+
+MOST_COLUMNS = 16  # of a table; an array with more of them, or more columns than rows, is a map
+NPY, ZIP, MAT = b"\x93NUMPY", b"PK\x03\x04", b"MATLAB 5.0"
+
+
+def is_arrays(path: Path, head: bytes) -> bool:
+    """Whether a file that begins with these bytes is one of these."""
+    return head.startswith((NPY, MAT)) or (head.startswith(ZIP) and path.suffix == ".npz")
+
+
+def read_arrays(
+    path: Path, max_bytes: int, columns: Sequence[str | int] | None, channel: str | None
+) -> ProfileTable | Topography:
+    """What is in the file, of `max_bytes` at most; `channel` is the name of one array of several.
+
+    Raises ProfileError, one line, for anything else than arrays of real numbers.
+    """
+    raw = contents(path, max_bytes)
+    kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
+    try:
+        arrays = {"npy": _npy, "npz": _npz, "mat": _mat}[kind](raw, max_bytes)
+    except MemoryError:
+        raise ProfileError(path, f"is too large; allowed are {max_bytes / 1e9:.3g} GB") from None
+    except Exception as error:  # scipy and numpy raise whatever a damaged file brings about
+        text = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise ProfileError(path, f"is a damaged {kind} file ({text[:200]})") from error
+    arrays = {name: np.asarray(found, dtype=float) for name, found in arrays.items()}
+    names = tuple(arrays)
+    if channel is not None:
+        if channel not in arrays:
+            allowed = ", ".join(map(shown, names)) or "none"
+            raise ProfileError(path, f"has no channel {shown(channel)}; allowed is {allowed}")
+        arrays = {channel: arrays[channel]}
+    vectors = {name: np.ravel(found) for name, found in arrays.items() if _is_vector(found)}
+    longest = max((len(found) for found in vectors.values()), default=0)
+    vectors = {name: found for name, found in vectors.items() if len(found) == longest}
+    if longest > 1:
+        order = sorted(vectors, key=lambda name: name.lower() != "x")
+        numbers = np.column_stack([vectors[name] for name in order])
+        return _table(path, kind, numbers, tuple(order), columns)
+    fields = {name: found for name, found in arrays.items() if found.ndim == 2 and found.size}
+    if len(fields) > 1:
+        allowed = ", ".join(map(shown, fields))
+        raise ProfileError(path, f"holds {len(fields)} maps; allowed is channel, of {allowed}")
+    if not fields:
+        raise ProfileError(path, "holds no arrays of one or two dimensions; a profile is one")
+    ((_, field),) = fields.items()
+    if field.shape[1] <= MOST_COLUMNS and field.shape[0] > field.shape[1]:
+        return _table(path, kind, field, (), columns)
+    return Topography(path, field, None, None, None, kind)
+
+
+def _table(
+    path: Path,
+    kind: str,
+    numbers: np.ndarray,
+    names: tuple[str, ...],
+    columns: Sequence[str | int] | None,
+) -> ProfileTable:
+    numbers = np.where(np.isfinite(numbers), numbers, np.nan)
+    rows = np.arange(1, len(numbers) + 1)
+    head = (", ".join(names),) if names else ()
+    table = ProfileTable(path, numbers, range(len(rows)), rows, names=names, head=head, format=kind)
+    return chosen_columns(table, columns)
+
+
+def _is_vector(found: np.ndarray) -> bool:
+    return found.size > 1 and found.size == max(found.shape)
+
+
+def _npy(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
+    return {"array": np.load(io.BytesIO(raw), allow_pickle=False)}
+
+
+def _npz(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
+    with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+        if sum(entry.file_size for entry in archive.infolist()) > max_bytes:
+            raise MemoryError
+    with np.load(io.BytesIO(raw), allow_pickle=False) as arrays:
+        found = {name: arrays[name] for name in arrays.files}
+    return {name: array for name, array in found.items() if array.dtype.kind in "fiu"}
+
+
+def _mat(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
+    from scipy.io import loadmat, whosmat
+
+    numeric = {"double", "single", *(f"{u}int{n}" for u in ("", "u") for n in (8, 16, 32, 64))}
+    known = [(name, shape) for name, shape, kind in whosmat(io.BytesIO(raw)) if kind in numeric]
+    if sum(8.0 * np.prod(shape, dtype=float) for _, shape in known) > max_bytes:
+        raise MemoryError
+    names = [name for name, _ in known]
+    found = loadmat(io.BytesIO(raw), variable_names=names) if names else {}
+    return {name: found[name] for name in names if not np.iscomplexobj(found[name])}

@@ -1,0 +1,112 @@
+"""What is in the file of a profile: its bytes or its lines, bounded, and why it cannot be used."""
+
+import errno
+import gzip
+import io
+import re
+import zlib
+from pathlib import Path
+
+QUOTED = re.compile(r'"([^"\n]*)"')
+GROUPED = re.compile(r"[+-]?\d{1,3}(,\d{3}){2,}(\.\d*)?")  # digits; shown as they are, not read
+OTHER_BLANKS = re.compile(r"[^\S\n\t ]")  # form feed, no-break blank and the like
+NOT_TEXT = re.compile("[\x00-\x08\x0e-\x1f\x7f]")
+MAX_BYTES = 2**31  # of any file, packed or not
+GZIP = b"\x1f\x8b"
+
+
+class ProfileError(ValueError):
+    """A profile file that cannot be used. One line: file, line, what is wrong, what is allowed."""
+
+    def __init__(self, path: object, message: str, line: int | None = None) -> None:
+        self.message, self.line = message, line
+        place = str(path) if str(path).isprintable() else repr(str(path))
+        super().__init__(f"{place}{f', line {line}' if line else ''}: {message}")
+
+
+class NotTextError(ProfileError):
+    """The file is not text; another reader may know it."""
+
+
+class NotRowsError(ProfileError):
+    """The file is text and no table of numbers; another reader may know it."""
+
+
+def regular_file(path: Path) -> int:
+    """Size [bytes] of the file at `path`; ProfileError unless there is one that can be read."""
+    try:
+        if path.exists() and not path.is_file():  # a pipe would block
+            kind = "a directory" if path.is_dir() else "no regular file"
+            raise ProfileError(path, f"is {kind}; a profile is a text file")
+        return path.stat().st_size
+    except FileNotFoundError:
+        raise ProfileError(path, "there is no such file") from None
+    except ProfileError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        raise unreadable(path, error) from error
+
+
+def unreadable(path: Path, error: Exception) -> ProfileError:
+    """The error to raise where the system does not let a file be read."""
+    reason = getattr(error, "strerror", None) or str(error)
+    if getattr(error, "errno", None) == errno.ELOOP:
+        reason = "a loop of symbolic links"
+    return ProfileError(path, f"cannot be read ({reason})")
+
+
+def contents(path: Path, max_bytes: int) -> bytes:
+    """What is in the file, unpacked where it is gz, of `max_bytes` at most either way."""
+    too_large = ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
+    if regular_file(path) > max_bytes:
+        raise too_large
+    try:
+        raw = path.read_bytes()
+        if raw.startswith(GZIP):
+            with gzip.open(io.BytesIO(raw)) as file:
+                raw = file.read(max_bytes + 1)
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ProfileError(path, f"is a damaged gz file ({error})") from error
+    except OSError as error:
+        raise unreadable(path, error) from error
+    if len(raw) > max_bytes:
+        raise too_large
+    return raw
+
+
+def read_lines(path: Path, max_bytes: int) -> list[str]:
+    """The file's lines without their ends; it may have `max_bytes` at most."""
+    raw = contents(path, max_bytes)
+    text = _decoded(path, raw).replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")
+    if not text.strip():
+        raise ProfileError(path, "is empty; a profile has lines of numbers")
+    binary = NOT_TEXT.search(text)
+    if binary:
+        line = text.count("\n", 0, binary.start()) + 1
+        code = f"byte {ord(binary[0]):#04x}"
+        raise NotTextError(path, f"is not text ({code}); export the profile as text or CSV", line)
+    text = OTHER_BLANKS.sub(" ", text.replace("\u2212", "-"))  # the typographer's minus sign
+    if '"' in text:
+        text = QUOTED.sub(
+            lambda cell: cell[0] if GROUPED.fullmatch(cell[1]) else cell[1].replace(",", "."), text
+        )
+    return text.split("\n")
+
+
+def _decoded(path: Path, raw: bytes) -> str:
+    if raw[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        try:
+            return raw.decode("utf-16")
+        except UnicodeDecodeError:
+            message = "is not text (broken UTF-16); export the profile as text or CSV"
+            raise NotTextError(path, message) from None
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return raw.decode("latin-1")
+
+
+def shown(text: str) -> str:
+    """Text from a file, quoted, on one line and not too long."""
+    text = text.strip()
+    return repr(text if len(text) <= 40 else text[:37] + "...")

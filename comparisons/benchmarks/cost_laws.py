@@ -1,0 +1,120 @@
+"""The laws of cost beside what levels of finite elements take, over all scenes that come along.
+
+    python -m comparisons.benchmarks.cost_laws [SCENE ...] [--levels N]
+
+Every level is solved in a process of its own, on one thread, with its stresses. Printed are its
+unknowns, processor seconds and peak memory, and expected over measured. By these laws levels are
+planned and refused (`comparisons.models.finite_element.cost`); no clock may do that.
+
+Exit status 0 only if every ratio is within WITHIN of 1, either way, where a level takes LEAST
+seconds or more: a shorter one is mostly the start of its process.
+"""
+
+import argparse
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import NamedTuple
+
+from comparisons.benchmarks import harness
+from comparisons.scenes.files import scene_names
+
+WITHIN = 2.0
+LEAST = 1.0  # s
+LEVELS = 3
+
+
+class LevelCost(NamedTuple):
+    """One level: (expected, measured) each; unknowns, processor seconds, bytes at the peak."""
+
+    scene: str
+    number: int
+    unknowns: tuple[float, float]
+    seconds: tuple[float, float]
+    memory: tuple[float, float]
+
+    @property
+    def ratios(self) -> tuple[float, ...]:
+        """Expected over measured."""
+        return tuple(one / other for one, other in (self.unknowns, self.seconds, self.memory))
+
+
+def level_cost(name: str, number: int) -> LevelCost:
+    """Solve the finite elements' level `number` of a scene that comes along."""
+    from comparisons.common.progress import Stages, peak_memory
+    from comparisons.models.finite_element.level import finite_element_level
+    from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
+    from comparisons.models.plan import make_plan
+    from comparisons.models.problem import problem_of
+    from comparisons.models.running_in import run_in_scene
+    from comparisons.models.window import window_of
+    from comparisons.scenes.resolve import load_scene
+
+    scene = load_scene(name)
+    if scene.running_in is not None:
+        scene = run_in_scene(scene)
+    problem = problem_of(scene)
+    plan = make_plan(problem, ("finite_element",))
+    refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
+    window = window_of(problem) if plan.stress else None
+    begin = harness.processor_seconds()
+    level = finite_element_level(problem, plan, refinement, window, Stages(), check=True)
+    seconds = harness.processor_seconds() - begin
+    return LevelCost(
+        name,
+        number,
+        (expected_unknowns(problem, plan, refinement, level.patches), level.unknowns),
+        (level.expected_seconds, seconds),
+        (level.expected_memory, peak_memory()),
+    )
+
+
+def level_costs(names: list[str], levels: int) -> list[LevelCost]:
+    """Of each scene's first levels."""
+    found = []
+    for name in names:
+        for number in range(1, levels + 1):
+            with ProcessPoolExecutor(1, get_context("spawn")) as alone:
+                found.append(alone.submit(level_cost, name, number).result())
+    return found
+
+
+def demands(rows: list[LevelCost]) -> list[harness.Demand]:
+    """That every law is within WITHIN, of the levels that take LEAST or more."""
+    long = [row for row in rows if row.seconds[1] >= LEAST]
+    found = []
+    for k, law in enumerate(("unknowns", "seconds", "memory")):
+        ratios = [row.ratios[k] for row in long] or [1.0]
+        text = f"expected over measured {law}: {min(ratios):.2f} to {max(ratios):.2f}"
+        holds = min(ratios) >= 1.0 / WITHIN and max(ratios) <= WITHIN
+        found.append(harness.Demand(holds, f"{text} (within a factor of {WITHIN:g})"))
+    return found
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Print the levels and the demands; the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("scenes", nargs="*", default=scene_names())
+    parser.add_argument("--levels", type=int, default=LEVELS)
+    given = parser.parse_args(arguments)
+    rows = level_costs(given.scenes, given.levels)
+    harness.print_table(
+        "finite elements, one level in a process",
+        ("level", "unknowns", "ratio", "seconds", "ratio", "MB", "ratio"),
+        [
+            (
+                f"{row.scene} {row.number}",
+                f"{row.unknowns[1]:.0f}",
+                f"{row.ratios[0]:.2f}",
+                f"{row.seconds[1]:.2f}",
+                f"{row.ratios[1]:.2f}",
+                f"{row.memory[1] / 1e6:.0f}",
+                f"{row.ratios[2]:.2f}",
+            )
+            for row in rows
+        ],
+    )
+    return harness.print_demands(demands(rows))
+
+
+if __name__ == "__main__":
+    harness.run_on_one_thread(main)

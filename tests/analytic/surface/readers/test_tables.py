@@ -1,0 +1,216 @@
+"""Tables of more than x and height, packed files, arrays, spreadsheets and PRF."""
+
+import gzip
+import importlib.util
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from analytic.surface.readers.arrays import read_arrays
+from analytic.surface.readers.files import MissingUnitError, open_measured, read_measured
+from analytic.surface.readers.source import ProfileError
+from analytic.surface.readers.text import ColumnsError
+from analytic.surface.readers.topography import MapLine
+
+X = 0.5 * np.arange(40)  # um
+RAW = np.sin(X / 3.0)
+LEVEL = RAW - 0.01 * X
+UM = {"x_scale": 1e-6, "height_scale": 1e-6}
+HAS_SPREADSHEETS = importlib.util.find_spec("SurfaceTopography") is not None
+needs_spreadsheets = pytest.mark.skipif(
+    not HAS_SPREADSHEETS, reason="no SurfaceTopography: pip install SurfaceTopography"
+)
+
+
+def holds(path, height, **options):
+    """The file's profile is that of X and these heights [um]."""
+    found = read_measured(path, **({} if "spacing" in options else UM) | options)
+    np.testing.assert_allclose(found.profile.x, 1e-6 * X, atol=1e-15)
+    np.testing.assert_allclose(found.profile.height, 1e-6 * height, atol=1e-12)
+    return found
+
+
+def text(folder, head, *columns, end="\n"):
+    path = folder / "trace.csv"
+    rows = (",".join(f"{value:.9g}" for value in row) for row in zip(*columns, strict=True))
+    path.write_text(head + end.join(rows) + end)
+    return path
+
+
+def refusal(path, kind=ProfileError, **options) -> str:
+    with pytest.raises(kind) as caught:
+        read_measured(path, **UM | options)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_empty_columns_at_the_end_are_none(tmp_path):
+    """As a Dektak exports: two commas end every row, one the names."""
+    holds(text(tmp_path, "Lateral um,Raw Micrometer,\n", X, RAW, end=",,\n"), RAW)
+
+
+def test_a_count_above_the_rows_is_no_row(tmp_path):
+    holds(text(tmp_path, "µm µm\n40\n", X, RAW), RAW)
+    assert "line 2: 1 column where most lines have 2" in refusal(
+        text(tmp_path, "µm µm\n41\n", X, RAW)
+    )
+
+
+def test_columns_are_chosen_by_number_or_name(tmp_path):
+    index = np.arange(40.0)
+    path = text(tmp_path, "n,x [um],raw [um],level [um]\n", index, X, RAW, LEVEL)
+    holds(path, RAW, columns=(1, 2))
+    holds(path, LEVEL, columns=("x [um]", "level [um]"))
+    holds(path, LEVEL, columns=("level [um]",), spacing=0.5e-6, height_scale=1e-6)
+    message = refusal(path, ColumnsError)
+    assert "4 columns; a profile has two (x, height) or one (height), and columns" in message
+    assert "numbers from 0 to 3, or by names, of 'n', 'x [um]', 'raw [um]', 'level" in message
+    assert "has no column 4; allowed is numbers from 0 to 3" in refusal(path, columns=(1, 4))
+    assert "has no column 'z'; allowed is 'n', 'x [um]'" in refusal(path, columns=(1, "z"))
+
+
+def test_columns_that_are_not_chosen_may_hold_anything(tmp_path):
+    path = tmp_path / "trace.csv"
+    rows = "".join(
+        f"{x},12:30:0{i % 10},{z}\n" for i, (x, z) in enumerate(zip(X, RAW, strict=True))
+    )
+    path.write_text("x,time,z\n" + rows)
+    holds(path, RAW, columns=("x", "z"))
+    assert "is not a number" in refusal(path, columns=("x", "time"))
+
+
+def test_a_packed_file_is_read_as_what_is_in_it(tmp_path):
+    path = text(tmp_path, "x,z\n", X, RAW)
+    packed = tmp_path / "trace.csv.gz"
+    packed.write_bytes(gzip.compress(path.read_bytes()))
+    holds(packed, RAW)
+    packed.write_bytes(packed.read_bytes()[:-40])
+    assert "is a damaged gz file" in refusal(packed)
+    packed.write_bytes(gzip.compress(b"0" * 300_000_000, 1))
+    assert "is too large; a profile may have" in refusal(packed)
+
+
+@needs_spreadsheets
+def test_an_instruments_file_may_be_packed(tmp_path):
+    np.savetxt(tmp_path / "map.txt", np.outer([1.0, 2, 3, 4, 5, 6], RAW), fmt="%.9f")
+    body = (tmp_path / "map.txt").read_text()
+    head = "# Width: 20 µm\n# Height: 3 µm\n# Value units: µm\n"
+    (tmp_path / "map.txt.gz").write_bytes(gzip.compress((head + body).encode()))
+    found = read_measured(tmp_path / "map.txt.gz", chosen=MapLine(row=0))
+    np.testing.assert_allclose(found.profile.height, 1e-6 * RAW, atol=1e-12)
+
+
+def test_arrays_of_numpy(tmp_path):
+    np.save(tmp_path / "heights.npy", RAW)
+    holds(tmp_path / "heights.npy", RAW, spacing=0.5e-6, height_scale=1e-6)
+    np.save(tmp_path / "both.npy", np.column_stack([X, RAW]))
+    holds(tmp_path / "both.npy", RAW)
+    np.savez(tmp_path / "named.npz", z=RAW, x=X, gain=3.0, label="mine")
+    holds(tmp_path / "named.npz", RAW)
+    np.savez(tmp_path / "more.npz", z=RAW, x=X, level=LEVEL)
+    holds(tmp_path / "more.npz", LEVEL, columns=("x", "level"))
+    assert "by names, of 'x', 'z', 'level'" in refusal(tmp_path / "more.npz", ColumnsError)
+    np.save(tmp_path / "map.npy", np.outer(np.ones(40), RAW))
+    found = holds(tmp_path / "map.npy", RAW, spacing=0.5e-6, height_scale=1e-6,
+                  chosen=MapLine(row=3))  # fmt: skip
+    assert found.format == "npy"
+    assert "is npy, from whose header" in refusal(
+        tmp_path / "both.npy", MissingUnitError, x_scale=None
+    )
+
+
+def test_arrays_of_matlab(tmp_path):
+    savemat(tmp_path / "both.mat", {"z": RAW, "x": X, "name": "mine"})
+    holds(tmp_path / "both.mat", RAW)
+    savemat(tmp_path / "maps.mat", {"a": np.outer(np.ones(40), RAW), "b": np.eye(40)})
+    assert "holds 2 maps; allowed is channel, of 'a', 'b'" in refusal(tmp_path / "maps.mat")
+    options = {"channel": "a", "chosen": MapLine(row=0)}
+    holds(tmp_path / "maps.mat", RAW, spacing=0.5e-6, height_scale=1e-6, **options)
+    options["channel"] = "c"
+    assert "has no channel 'c'; allowed is 'a', 'b'" in refusal(tmp_path / "maps.mat", **options)
+
+
+def test_arrays_that_are_no_profile(tmp_path):
+    np.save(tmp_path / "objects.npy", np.array([{"a": 1}], dtype=object), allow_pickle=True)
+    assert "is a damaged npy file" in refusal(tmp_path / "objects.npy")
+    (tmp_path / "cut.npy").write_bytes((tmp_path / "objects.npy").read_bytes()[:30])
+    assert "is a damaged npy file" in refusal(tmp_path / "cut.npy")
+    np.savez(tmp_path / "words.npz", name="mine")
+    assert "holds no arrays of one or two dimensions" in refusal(tmp_path / "words.npz")
+    np.savez_compressed(tmp_path / "large.npz", x=np.zeros(100_000))
+    with pytest.raises(ProfileError, match="is too large"):
+        read_arrays(tmp_path / "large.npz", 700_000, None, None)
+
+
+PRF = """1 2
+ground 0.0 PRF
+CX M {count} MM 1.000000e+000 D
+CZ M {count} UM 1.000000e-006 L
+EOR
+STYLUS_RADIUS 0.000000e+000 MM
+SPACING CX 5.000000e-004
+EOR
+{rows}
+EOR
+EOF
+"""
+
+
+def test_prf(tmp_path):
+    path = tmp_path / "trace.prf"
+    rows = "\n".join(f"{1e6 * value:.0f}" for value in RAW)  # pm
+    path.write_text(PRF.format(count="4.000000e+001", rows=rows))
+    found = read_measured(path)
+    np.testing.assert_allclose(found.profile.x, 1e-6 * X, atol=1e-15)
+    np.testing.assert_allclose(found.profile.height, 1e-6 * RAW, atol=1e-12)
+    assert found.format == "PRF"
+    path.write_text(PRF.format(count="41", rows=rows))
+    assert "is a damaged PRF file: it holds 40 heights of 41" in refusal(path)
+    path.write_text(PRF.format(count="40", rows=rows).replace("UM", "YARD"))
+    assert "'YARD' is not known; known units are MM, UM" in refusal(path)
+    path.write_text(PRF.format(count="40", rows=rows).replace("SPACING", "SPACE"))
+    assert "its records are not axes, settings and heights" in refusal(path)
+
+
+@needs_spreadsheets
+def test_a_spreadsheet(tmp_path):
+    from openpyxl import Workbook
+
+    book = Workbook()
+    notes = book.active
+    notes.append(["a title of mine"])
+    sheet = book.create_sheet("trace")
+    sheet.append(["measured by me"])
+    sheet.append(["n", "x [um]", "z [um]", None])
+    for number, (x, z) in enumerate(zip(X, RAW, strict=True)):
+        sheet.append([number, float(x), float(z), "good"])
+    book.save(tmp_path / "trace.xlsx")
+    holds(tmp_path / "trace.xlsx", RAW, channel="trace", columns=("x [um]", "z [um]"))
+    message = refusal(tmp_path / "trace.xlsx", ColumnsError, channel="trace")
+    assert "line 3: 3 columns" in message and "'n', 'x [um]', 'z [um]'" in message
+    assert "holds no columns of numbers on the sheet 'Sheet' of ['Sheet', 'trace']" in refusal(
+        tmp_path / "trace.xlsx"
+    )
+    assert "has no channel 'none'; allowed is Sheet, trace" in refusal(
+        tmp_path / "trace.xlsx", channel="none"
+    )
+    assert open_measured(tmp_path / "trace.xlsx", channel="trace", columns=(1, 2)).head == (
+        "measured by me",
+        "n, x [um], z [um]",
+    )
+
+
+@needs_spreadsheets
+def test_a_spreadsheet_with_a_cell_far_away_is_not_filled_up_to_it(tmp_path):
+    from openpyxl import Workbook
+
+    book = Workbook()
+    book.active.cell(1_000_000, 16_000, 1.0)
+    book.save(tmp_path / "far.xlsx")
+    assert "reaches over more than 2e+07 cells" in refusal(tmp_path / "far.xlsx")
+
+
+def test_an_array_without_columns_holds_nothing(tmp_path):
+    np.save(tmp_path / "empty.npy", np.empty((5, 0)))
+    assert "holds no arrays of one or two dimensions" in refusal(tmp_path / "empty.npy")

@@ -1,0 +1,28 @@
+"""The benchmark of the laws of cost: it solves levels, and its demands can fail."""
+
+from comparisons.benchmarks.cost_laws import LevelCost, demands, main
+
+
+def level(seconds, unknowns=(100, 100), memory=(1e9, 1e9)):
+    return LevelCost("made", 3, unknowns, seconds, memory)
+
+
+def test_each_law_fails_beyond_a_factor_of_two():
+    good = level((2.0, 1.1))
+    assert all(demand.holds for demand in demands([good]))
+    for bad in (
+        level((2.0, 4.1)),
+        level((4.1, 2.0)),
+        level((2.0, 2.0), unknowns=(10, 21)),
+        level((2.0, 2.0), memory=(4.2e9, 2e9)),
+    ):
+        assert [demand.holds for demand in demands([good, bad])].count(False) == 1
+
+
+def test_short_levels_are_not_judged():
+    assert all(demand.holds for demand in demands([level((0.1, 0.9))]))
+
+
+def test_a_level_is_solved_in_its_own_process(capsys):
+    assert main(["smooth", "--levels", "1"]) == 0
+    assert "smooth 1" in capsys.readouterr().out

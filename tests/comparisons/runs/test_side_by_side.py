@@ -1,0 +1,69 @@
+"""A run in several processes: the figures of one process, to the last bit."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from scenes import PROJECT
+
+SCENE = """
+roller = {radius = "8 mm", rigid = true}
+body = {youngs_modulus = "210 GPa", poissons_ratio = 0.3}
+profile = {kind = "sinusoid", wavelength = "150 um", amplitude = "0.3 um"}
+load = {hertz_peak_pressure = "2 GPa", friction = 0.2}
+tolerance = {peak_pressure = 0.05, contact_length = 0.05}
+resolution = {pitch = "10 um", levels = 2}
+stress = {points = [40, 20]}
+finite_element = {block = 40}
+"""
+RUN = """
+import os, pathlib, sys
+import comparisons.report.page
+comparisons.report.page.render = lambda outcome: ""
+from comparisons.common import processes, tasks
+tasks.WORTH_A_FORK = 0.0
+os.sched_getaffinity = lambda process: set(range({cores}))
+start = processes.Worker.start
+def started(worker, others):
+    start(worker, others)
+    pathlib.Path("started").open("a").write("*")
+processes.Worker.start = started
+from comparisons.cli import main
+sys.argv = ["crosscheck", "run", "scene.toml", "--out", "out"]
+sys.exit(main())
+"""
+
+
+def test_figures_are_those_of_one_process(tmp_path):
+    found = {cores: result(tmp_path / str(cores), cores) for cores in (1, 2)}
+    assert "finite_strain" in found[1]["error_budget"]["effects"]
+    assert list(timeless(found[1])) == list(timeless(found[2]))
+
+
+def result(folder: Path, cores: int) -> dict:
+    """result.json of a run on so many cores."""
+    folder.mkdir()
+    (folder / "scene.toml").write_text(SCENE)
+    environment = os.environ | {"PYTHONPATH": str(PROJECT), "OMP_NUM_THREADS": "1"}
+    done = subprocess.run(
+        [sys.executable, "-c", RUN.format(cores=cores)],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode in (0, 1, 4), done.stderr
+    assert (folder / "started").exists() == (cores > 1)
+    return json.loads((folder / "out/result.json").read_text())
+
+
+def timeless(value: object, path: str = "") -> list[tuple[str, object]]:
+    """Every entry by its path, without times and memory, in order."""
+    if isinstance(value, dict):
+        return [each for name, part in value.items() for each in timeless(part, f"{path}.{name}")]
+    if isinstance(value, list):
+        return [each for part in value for each in timeless(part, f"{path}[]")]
+    return [] if re.search("seconds|peak_memory|cost", path) else [(path, value)]

@@ -1,0 +1,106 @@
+"""The scenes of the check, their solution by these finite elements, and what is kept of it.
+
+Nobody has tuned the project on them: pieces of the traces that come along, places and loads taken
+at once. `values.json` holds their figures, from meshes down to 1/16 um under the asperities,
+and of `ground-unrun` with friction, down to 1/4 um.
+"""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from comparisons.scenes.scene import ResolvedScene
+from tests.finite_strain_check.figures import ContactFigures, figures
+from tests.finite_strain_check.solve import Task, solutions
+
+HERE = Path(__file__).parent
+VALUES = HERE / "values.json"
+SIZES = np.array([8.0, 4.0, 2.0, 1.0])  # of elements, over the finest
+FINEST, WIDE = 0.0625, 300.0  # um; from that half-width on elements are four times as large
+REACH = 2.0  # half-widths of the smooth contact within which the coarsest mesh is fine
+# How figures are called in result.json, and their names and units here. The project's length at
+# finite deformation is that of the deformed surface.
+QUANTITIES = {
+    "peak_pressure": ("peak", 1e9),
+    "contact_length": ("deformed_length", 1e-6),
+    "undeformed_contact_length": ("length", 1e-6),
+    "tau1_max": ("tau1", 1e9),
+    "txz_max_abs": ("txz", 1e9),
+}
+
+
+def scene_paths() -> dict[str, Path]:
+    """By name."""
+    return {path.stem: path for path in sorted(HERE.glob("scenes/*.toml"))}
+
+
+def task_of(scene: ResolvedScene, friction: float, law: str = "neo-hookean") -> Task:
+    """The scene's trace, bodies and load per length."""
+
+    def constants(material) -> tuple[float, float]:
+        return material.youngs_modulus / 1e9, material.poissons_ratio
+
+    return Task(
+        x=scene.profile.x * 1e6,
+        height=scene.profile.height * 1e6,
+        body=constants(scene.body),
+        roller=scene.roller and constants(scene.roller),
+        radius=scene.roller_radius * 1e6,
+        load=scene.load.value / 1e3,
+        friction=friction,
+        law=law,
+    )
+
+
+def levels_of(task: Task) -> np.ndarray:
+    """Sizes [um] of the elements that touch, coarse to fine."""
+    return SIZES * FINEST * (4.0 if task.half_width > WIDE else 1.0)
+
+
+def solved(
+    task: Task, levels: Sequence[float], log: Callable[[str], None] = lambda text: None
+) -> list[ContactFigures]:
+    """Figures on every mesh, coarse to fine."""
+    return [figures(*each) for each in solutions(task, levels, REACH * task.half_width, log)]
+
+
+def kept(found: list[ContactFigures], levels: Sequence[float]) -> dict:
+    """For `values.json`, SI units: the finest mesh's figures, and as uncertainty of each what the
+    last refinement by two changed; all meshes; the largest tau1 of each asperity in contact."""
+    fine, coarse = found[-1], found[-2]
+
+    def figure(name: str, unit: float) -> dict[str, float]:
+        value = getattr(fine, name)
+        return {"value": value * unit, "uncertainty": abs(value - getattr(coarse, name)) * unit}
+
+    values = {key: figure(*each) for key, each in QUANTITIES.items()}
+    for key, name in (("peak_pressure", "peak"), ("tau1_max", "tau1"), ("txz_max_abs", "txz")):
+        places = (getattr(fine, f"{name}_{axis}", 0.0) * 1e-6 for axis in ("x", "depth"))
+        values[key]["x"], values[key]["depth"] = places
+    meshes = [
+        {"element": size * 1e-6} | {q: getattr(f, n) * unit for q, (n, unit) in QUANTITIES.items()}
+        for size, f in zip(levels, found, strict=True)
+    ]
+    names = ("start", "end", "peak_pressure", "tau1_max", "x", "depth")
+    units = np.array([1e-6, 1e-6, 1e9, 1e9, 1e-6, 1e-6])
+    patches = [dict(zip(names, (units * patch).tolist(), strict=True)) for patch in fine.patches]
+    return {"figures": values, "meshes": meshes, "patches": patches}
+
+
+def read_values() -> dict[str, dict]:
+    """By scene, as `kept` made them."""
+    return json.loads(VALUES.read_text())
+
+
+def write_values(values: dict[str, dict]) -> None:
+    """The whole file, with seven digits."""
+
+    def rounded(value):
+        if isinstance(value, dict):
+            return {name: rounded(each) for name, each in value.items()}
+        return [rounded(v) for v in value] if isinstance(value, list) else float(f"{value:.7g}")
+
+    scenes = (f'"{name}": {json.dumps(rounded(each))}' for name, each in sorted(values.items()))
+    VALUES.write_text("{\n" + ",\n".join(scenes) + "\n}\n")

@@ -1,0 +1,1 @@
+"""Wrong scenes, profiles and results by the thousand, from a seed."""

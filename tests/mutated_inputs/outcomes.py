@@ -1,0 +1,137 @@
+"""What becomes of an input, and what of that is a defect."""
+
+import io
+import random
+import re
+import shutil
+import signal
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+
+from comparisons.common.errors import InputError, SolverError
+from comparisons.common.progress import no_progress
+from comparisons.models.problem import problem_of
+from comparisons.report.redraw import draw_again
+from comparisons.report.saved import read_outcome
+from comparisons.report.terminal import summary
+from comparisons.results.flat_table import as_csv, tidy_rows
+from comparisons.results.plausibility import warnings_about, warnings_about_result
+from comparisons.results.recorded_run import read_record
+from comparisons.runs.run import run
+from comparisons.scenes.resolve import load_scene
+from comparisons.studies.init.first_scene import write_first_scene
+from comparisons.studies.init.profile_view import init_table
+from comparisons.studies.maps.place import first_answer
+
+PATIENCE = 20.0  # seconds of processor for one input
+LONGEST_LINE = 1500  # characters
+
+
+class Refusal(Exception):
+    """A defect in how an input was refused or resolved."""
+
+
+def resolve(path: Path) -> str:
+    """What becomes of a scene that is read, checked and resolved."""
+    scene = load_scene(path)
+    warnings_about(scene)
+    if scene.profile is not None:
+        figures = scene.profile_info.as_dict()
+        roughness = [v for v in figures["roughness"].values() if isinstance(v, float)]
+        values = (scene.profile.x, scene.profile.height, [scene.profile_info.length, *roughness])
+        if not all(np.all(np.isfinite(each)) for each in values):
+            raise Refusal("a resolved profile is not finite")
+    return "resolved"
+
+
+def look(path: Path) -> str:
+    """What becomes of a profile that `init` looks at."""
+    made = write_first_scene(path, None, {}, force=True)
+    shown = Console(file=io.StringIO(), width=100)
+    shown.print(init_table(made, 90, True), *first_answer(problem_of(made.scene)))
+    return "a scene of it"
+
+
+def solve(path: Path) -> str:
+    """What becomes of a scene that is solved by the half-plane; every tenth writes its files."""
+    out = path.with_name("out") if is_tenth(path) else None
+    found = run(load_scene(path), out, ("half_plane",))
+    warnings_about_result(found)
+    shown = Console(file=io.StringIO(), width=100)
+    shown.print(summary(found))
+    shutil.rmtree(path.with_name("out"), ignore_errors=True)
+    if re.search(r"\b(nan|inf)\b", shown.file.getvalue()):
+        raise Refusal("the table shows a number that is none")
+    return "solved" if found.converged else "not converged"
+
+
+def is_tenth(path: Path) -> bool:
+    """Of about every tenth file, by what is in it: for what takes a second."""
+    return random.Random(path.read_bytes()).random() < 0.1
+
+
+def _check_line(line: str, path: Path) -> None:
+    if path.name not in line:
+        raise Refusal(f"the line names no file: {line}")
+    if "\n" in line or not line.isprintable() or len(line) > LONGEST_LINE:
+        raise Refusal(f"not one line: {line[:LONGEST_LINE]}")
+    if re.search(r"(?<![\w/])(nan|inf) (m|by|to)\b", re.sub(r"[\"'][^\"']*[\"']", "", line)):
+        raise Refusal(f"a number that is none: {line}")
+
+
+def outcome(work: Callable[[Path], str], path: Path) -> tuple[str, str]:
+    """The outcome of one input in a word, and of a defect its account."""
+
+    def too_long(number: int, frame: object) -> None:
+        raise Refusal(f"takes more than {PATIENCE:g} s of processor")
+
+    signal.signal(signal.SIGPROF, too_long)
+    signal.setitimer(signal.ITIMER_PROF, PATIENCE)
+    try:
+        return work(path), ""
+    except (InputError, SolverError) as error:
+        try:
+            _check_line(str(error), path)
+        except Refusal as defect:
+            return "DEFECT", str(defect)
+        return "refused", ""
+    except Refusal as defect:
+        return "DEFECT", str(defect)
+    except BaseException as error:
+        if isinstance(error, KeyboardInterrupt):
+            raise
+        places = [
+            f"{Path(f.filename).name}:{f.lineno}" for f in traceback.extract_tb(error.__traceback__)
+        ]
+        return "DEFECT", f"{type(error).__name__}: {error} ({' '.join(places[-4:])})"
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+
+
+def read_results(path: Path) -> str:
+    """What becomes of a folder that `table`, `rerun` and `report` read; all must, or refuse it."""
+    words = set()
+    for read in (tidy_rows_of, read_record, read_and_show):
+        try:
+            read(path)
+            words.add("read")
+        except InputError as error:
+            _check_line(str(error), path)
+            words.add("refused")
+    return " or ".join(sorted(words))
+
+
+def tidy_rows_of(path: Path) -> None:
+    as_csv(tidy_rows([path]))
+
+
+def read_and_show(path: Path) -> None:
+    """As `report` does; the page itself, which takes a second, of every tenth."""
+    if is_tenth(path / "result.json"):
+        draw_again([path], None, False, no_progress)
+    else:
+        read_outcome(path)

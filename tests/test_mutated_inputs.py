@@ -1,0 +1,48 @@
+"""Mutated inputs: the same for a seed, and what counts as a defect."""
+
+import pytest
+from mutated_inputs.inputs import profiles, scenes
+from mutated_inputs.outcomes import Refusal, outcome, resolve
+
+from comparisons.common.errors import InputError
+
+
+def raising(error: BaseException):
+    def work(path):
+        raise error
+
+    return work
+
+
+@pytest.mark.parametrize("inputs", [scenes, profiles])
+def test_a_seed_gives_the_same_inputs_and_each_is_read_or_refused(tmp_path, inputs):
+    found = []
+    for again in ("first", "second"):
+        (tmp_path / again).mkdir()
+        made = inputs(tmp_path / again, range(40), 7)
+        found.append([(n, path.read_bytes(), outcome(resolve, path)) for n, path in made])
+    assert found[0] == found[1]
+    assert {word for _, _, (word, _) in found[0]} == {"resolved", "refused"}
+    assert len({content for _, content, _ in found[0]}) > 10
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (ZeroDivisionError("why"), "ZeroDivisionError: why"),
+        (SystemExit(1), "SystemExit: 1"),
+        (MemoryError(), "MemoryError"),
+        (Refusal("not finite"), "not finite"),
+        (InputError("is wrong"), "names no file"),
+        (InputError("scene.toml: a map of nan m by 1 m"), "a number that is none"),
+    ],
+)
+def test_what_is_a_defect(tmp_path, error, told):
+    word, account = outcome(raising(error), tmp_path / "scene.toml")
+    assert word == "DEFECT" and told in account
+
+
+@pytest.mark.parametrize("given", ['"nan m"', "'inf'", "4 infinitely small nanometres"])
+def test_what_the_user_gave_is_quoted_and_no_defect(tmp_path, given):
+    error = InputError(f"scene.toml: load.position: is {given}; allowed is a length")
+    assert outcome(raising(error), tmp_path / "scene.toml") == ("refused", "")
