@@ -3,7 +3,7 @@
     sum over |j| < J of sinc^4(c + j) F(|c + j|),   c cycles per pitch, 0 <= c <= 1/2
 
 sinc^4(c + j) is (sin pi c/pi)^4 / (c + j)^4. The nearest aliases are added one by one. What the
-others bring is, but for the sine, an even or odd function of c without a singularity as near as
+others bring is, but for the sine, an even function of c without a singularity as near as
 they are: it is found at a few c and interpolated in c^2. There the aliases are taken in ranges
 that double, by Gauss's rule for sums of equal steps (discrete Chebyshev polynomials), so the cost
 grows with log J. F has to be analytic in a sector about the positive axis.
@@ -31,23 +31,19 @@ def rounded_up(beyond: int) -> int:
     return rounded
 
 
-def alias_sum(wave: Wave, cycles: np.ndarray, beyond: int, odd: bool = False) -> np.ndarray:
-    """The sum above for F = `wave` and J = `beyond` from `rounded_up`, shaped as `cycles` (n,).
-
-    With `odd`, F of negative c + j counts with the other sign, and c must not be 0.
-    """
+def alias_sum(wave: Wave, cycles: np.ndarray, beyond: int) -> np.ndarray:
+    """The sum above for F = `wave` and J = `beyond` from `rounded_up`, shaped as `cycles` (n,)."""
     total = np.zeros(len(cycles))
     for alias in range(1 - _NEAREST, _NEAREST):
         seen = cycles + alias
-        sign = np.sign(seen) if odd else 1.0
-        total += sign * np.sinc(seen) ** 4 * wave(np.abs(seen))
+        total += np.sinc(seen) ** 4 * wave(np.abs(seen))
     if beyond == _NEAREST:
         return total
     power = (np.sin(np.pi * cycles) / np.pi) ** 4
-    return total + power * _farther(wave, cycles, beyond, odd)
+    return total + power * _farther(wave, cycles, beyond)
 
 
-def _farther(wave: Wave, cycles: np.ndarray, beyond: int, odd: bool) -> np.ndarray:
+def _farther(wave: Wave, cycles: np.ndarray, beyond: int) -> np.ndarray:
     """sum over J > |j| >= _NEAREST of F (c + j)^-4, by interpolation."""
     place = np.cos(np.pi * (np.arange(_CYCLES) + 0.5) / _CYCLES)  # 8 c^2 - 1
     few = np.sqrt(0.125 * (1.0 + place))[:, None]
@@ -56,14 +52,10 @@ def _farther(wave: Wave, cycles: np.ndarray, beyond: int, odd: bool) -> np.ndarr
     while first < beyond:
         steps, weights = _rule(first)
         right, left = first + steps + few, first + steps - few
-        sign = -1.0 if odd else 1.0
-        values += (wave(right) * right**-4.0 + sign * wave(left) * left**-4.0) @ weights
+        values += (wave(right) * right**-4.0 + wave(left) * left**-4.0) @ weights
         first *= 2
-    if odd:
-        values /= few[:, 0]
     series = chebyshev.chebfit(place, values, _CYCLES - 1)
-    found = chebyshev.chebval(8.0 * cycles**2 - 1.0, series)
-    return found * cycles if odd else found
+    return chebyshev.chebval(8.0 * cycles**2 - 1.0, series)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""Compliance of a layered body's surface: Galerkin hats on a free line and on a periodic one.
+"""Compliance of a layered body's surface: Galerkin hats on a free line.
 
     (C p)_i = int phi_i uz dx,   uz of the wave p e^ikx: C(k) p      (`analytic.layers.layered`)
 
@@ -9,7 +9,7 @@ summed by `analytic.layers.aliases`, at a cost that hardly depends on how thin t
 Displacements and an approach count from a rigid base. A half-plane below leaves them undefined up
 to a constant, as in `analytic.operators.half_plane`.
 
-    h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum or period [m]
+    h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum [m]
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ from analytic.layers.aliases import alias_sum, rounded_up
 from analytic.layers.kernel import hat_compliance
 from analytic.layers.layered import LayeredBody, normal_compliance
 from analytic.operators.convolution import Convolution, made_once
-from analytic.operators.periodic import FEWEST, hat_aliases
+from analytic.operators.periodic import hat_aliases
 
 _HALF_PLANE = 22.0  # k t from which a layer is a half-plane to rounding
 _FORGOTTEN = 50.0  # distance over t from which a rigid base leaves nothing: no slower than e^-0.739
@@ -52,39 +52,6 @@ class LayeredSurface(Convolution):
         if not self.body.rigid:  # the mean: any positive value
             cycles = np.where(cycles == 0.0, 0.5 * cycles[min(1, len(cycles) - 1)], cycles)
         return hat_symbol(cycles, self.pitch, self.body)
-
-
-class PeriodicLayeredSurface(Convolution):
-    """Compliance of a layered body under one period of `count` hats, applied by FFT.
-
-    count    number of elements      pitch    h [m]
-    body     the layer and its base; a half-plane below gives the mean pressure no displacement:
-             it gets that of the longest wave, as in `analytic.operators.periodic`
-    """
-
-    def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
-        self.pitch, self.body = pitch, body
-        longest = 2.0 * np.pi / (count * pitch)
-        self._mean = pitch * float(normal_compliance(body, 0.0 if body.rigid else longest))
-        column = irfft(self._symbol(np.arange(count // 2 + 1) / count), count)
-        super().__init__(column, self._symbol, periodic=True)
-
-    @made_once
-    def coarsened(self) -> "PeriodicLayeredSurface | None":
-        """The same body under elements twice as wide, centred on nodes 1, 3, 5, …
-
-        None for an odd number of elements and once few are left.
-        """
-        half, odd = divmod(self.count, 2)
-        if odd or half < FEWEST:
-            return None
-        return PeriodicLayeredSurface(half, 2.0 * self.pitch, self.body)
-
-    def _symbol(self, cycles: np.ndarray) -> np.ndarray:
-        """Eigenvalues of the circulant [m^2/Pa]; the first of `cycles` is 0."""
-        symbol = np.full(len(cycles), self._mean)
-        symbol[1:] = hat_symbol(cycles[1:], self.pitch, self.body)
-        return symbol
 
 
 def hat_symbol(cycles: np.ndarray, pitch: float, body: LayeredBody) -> np.ndarray:

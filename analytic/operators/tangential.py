@@ -67,41 +67,6 @@ def hat_sign(offset: ArrayLike) -> np.ndarray:
     return np.sign(offset) * np.where(x < 1.0, near, far)
 
 
-class TangentialHalfPlane(Convolution):
-    """T: normal displacement of two half-planes under hats of tangential traction in +x.
-
-    count     number of elements         pitch    h [m]
-    modulus   E* [Pa] of both bodies     dundurs  their beta; for one body alone
-              modulus E' and (1-2nu) / (2(1-nu))
-    periodic  the hats repeat after L = count h. What the mean traction would tilt the surface
-              by is taken off: it shears the bodies and leaves them level.
-    """
-
-    def __init__(
-        self, count: int, pitch: float, modulus: float, dundurs: float, periodic: bool = False
-    ) -> None:
-        self.pitch, self.modulus, self.dundurs = pitch, modulus, dundurs
-        offset = np.arange(count, dtype=float)
-        average = hat_sign(offset)
-        if periodic:
-            images = hat_sign(offset - count) + hat_sign(offset + count)
-            average = average + images - 2.0 * offset / count
-        column = dundurs * pitch**2 / modulus * average
-        # in a circulant the entries above the diagonal follow from the column
-        # a skew operator approximates no positive inverse
-        super().__init__(column, lambda c: np.full(len(c), np.inf), row=-column, periodic=periodic)
-
-    @made_once
-    def coarsened(self) -> "TangentialHalfPlane | None":
-        """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        if self.periodic and self.count % 2:
-            return None
-        half = self.count // 2
-        return TangentialHalfPlane(
-            half, 2.0 * self.pitch, self.modulus, self.dundurs, self.periodic
-        )
-
-
 class CoupledHalfPlane(Convolution):
     """C + mu T of two half-planes in one convolution: an application costs what C alone does.
 

@@ -51,12 +51,9 @@ class FrictionStress:
         """Under q = p in +x alone."""
         return StressState(sx=self.traction_sx, sz=self.normal.txz, txz=self.normal.sx)
 
-    def at(self, friction: float, besides: "FrictionStress | None" = None) -> StressState:
-        """Under p and q = friction * p + t together, `besides` being those of t as a pressure."""
-        stress = self.normal
-        if friction != 0.0:
-            stress = stress.plus(friction, self.traction)
-        return stress if besides is None else stress.plus(1.0, besides.traction)
+    def at(self, friction: float) -> StressState:
+        """Under p and q = friction * p together."""
+        return self.normal.plus(friction, self.traction) if friction != 0.0 else self.normal
 
 
 def strip_between(

@@ -11,17 +11,13 @@ import numpy as np
 from scipy.optimize import brentq
 
 from analytic.stress.convolution import (
-    EACH,
-    Products,
     StressGrid,
     convolve,
     free_convolution,
-    mixed,
     on_grid,
     surface_load,
 )
 from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
-from analytic.stress.periodic import periodic_convolution
 from analytic.stress.potential import Element
 from analytic.stress_state import StressState
 
@@ -48,52 +44,6 @@ class FrictionField:
         return StressField(self.x, self.z, self.stress.at(friction))
 
 
-def stress_field(
-    x_nodes: np.ndarray,
-    pressure: np.ndarray,
-    friction: float,
-    x_range: tuple[float, float],
-    z: np.ndarray,
-    subdivisions: int = 1,
-    element: Element = "hat",
-    *,
-    traction: np.ndarray | None = None,
-    periodic: bool = False,
-) -> StressField:
-    """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
-
-    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
-    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
-    any sign. The grid contains the nodes' places and divides each pitch into `subdivisions`,
-    within and beyond the nodes' extent. On z = 0, sz = -p and txz = -q exactly. Each level is
-    right to rounding of its own largest stress.
-
-    With `periodic` the nodes are one period of n pitches, repeated without end; see there
-    (`analytic.stress.periodic`) for the sx of their mean.
-
-    Raises ValueError for input out of these bounds, for a window without a grid point, and for
-    strips whose ends, where sx under q is infinite, fall on points of the surface.
-    """
-    load = np.array(pressure, dtype=float)
-    loads, products = load[None], mixed(0, friction)
-    if traction is not None:
-        uniform_pitch(x_nodes, traction)
-    own = traction is not None and np.any(traction)  # of its own shape
-    if own:
-        loads, products = np.array([load, friction * load + traction]), mixed(1, 1.0)
-    grid = _grid(x_nodes, load, x_range, z, subdivisions, element, 1)
-    parts, on_surface = _fields(grid, loads, products, periodic)
-    if on_surface is not None:
-        parts[1, 0] = -on_surface[0]
-        if own:
-            parts[2, 0] = -on_surface[1]
-        else:
-            parts[2, 0] = -friction * on_surface[0]
-            if friction == 0.0:
-                parts[0, 0] = -on_surface[0]
-    return StressField(grid.x, grid.z, StressState(*parts))
-
-
 def friction_field(
     x_nodes: np.ndarray,
     pressure: np.ndarray,
@@ -102,15 +52,26 @@ def friction_field(
     subdivisions: int = 1,
     element: Element = "hat",
     stride: int = 1,
-    *,
-    periodic: bool = False,
 ) -> FrictionField:
-    """`stress_field` for every friction at once; at every `stride`-th of the grid's points."""
+    """Stresses on the levels z (k,) [m], ascending from z >= 0, and on the grid within x_range.
+
+    x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The grid
+    contains the nodes' places and divides each pitch into `subdivisions`, within and beyond the
+    nodes' extent; every `stride`-th of its points counts. On z = 0, sz = -p and txz = -q exactly.
+    Each level is right to rounding of its own largest stress.
+
+    Raises ValueError for input out of these bounds, for a window without a grid point, and for
+    strips whose ends, where sx under q is infinite, fall on points of the surface.
+    """
     load = np.array(pressure, dtype=float)
     grid = _grid(x_nodes, load, x_range, z, subdivisions, element, stride)
-    parts, on_surface = _fields(grid, load[None], EACH, periodic)
-    if on_surface is not None:
-        parts[:2, 0] = -on_surface[0]
+    parts = np.zeros((4, len(grid.z), len(grid.x)))
+    source, start = on_grid(load, grid.subdivisions)
+    if source.size:
+        convolve(source, free_convolution(grid, len(source), start), parts)
+    if grid.z[0] == 0.0:
+        places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
+        parts[:2, 0] = -surface_load(source, places, grid.subdivisions, grid.element)
     return FrictionField(grid.x, grid.z, FrictionStress.of(parts))
 
 
@@ -141,29 +102,6 @@ def _grid(
     first, last = _window(x_range, x_nodes[0], pitch / subdivisions)
     x = x_nodes[0] + np.arange(first, last + 1, stride) * (pitch / subdivisions)
     return StressGrid(x, z, pitch, subdivisions, first, last, stride, element)
-
-
-def _fields(
-    grid: StressGrid, loads: np.ndarray, products: Products, periodic: bool
-) -> tuple[np.ndarray, np.ndarray | None]:
-    """Stresses (products, levels, columns) [Pa] under loads (k, n) [Pa].
-
-    And the loads (k, columns) [Pa] on the surface if that is the first level, else None.
-    """
-    parts = np.zeros((len(products), len(grid.z), len(grid.x)))
-    sources, start = on_grid(loads, grid.subdivisions, whole=periodic)
-    places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
-    if sources.size:
-        make = periodic_convolution if periodic else free_convolution
-        circular = make(grid, sources.shape[1], start)
-        convolve(sources, circular, products, parts)
-    if grid.z[0] > 0.0:
-        return parts, None
-    surface = [
-        surface_load(source, places, grid.subdivisions, grid.element, periodic)
-        for source in sources
-    ]
-    return parts, np.array(surface)
 
 
 def graded_depths(depth: float, count: int, first: float) -> np.ndarray:

@@ -44,8 +44,6 @@ def stress_maxima(
     poissons_ratio: float,
     element: Element = "hat",
     *,
-    traction: np.ndarray | None = None,
-    periodic: bool = False,
     beside: Callable[[np.ndarray, np.ndarray], StressState] | None = None,
     cells: Sequence[float] = (),
 ) -> StressMaxima:
@@ -87,8 +85,7 @@ def stress_maxima(
     def evaluate(place: np.ndarray, owner: np.ndarray) -> np.ndarray:
         """The quantity of each owner (k,) at its points (k, 9, 2)."""
         x, z = place[..., 0], place[..., 1]
-        loads = {"traction": traction, "periodic": periodic}
-        stress = stress_at(x_nodes, pressure, friction, x, z, element, **loads)
+        stress = stress_at(x_nodes, pressure, friction, x, z, element)
         stress = stress if beside is None else stress.plus(1.0, beside(x, z))
         value = np.empty(place.shape[:2])
         for index, quantity in enumerate(quantities):

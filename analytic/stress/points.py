@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from analytic.numerics import points_below
 from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
-from analytic.stress.periodic import periodic_stress
 from analytic.stress.potential import Element
 from analytic.stress.tree import LoadedLine, line_stress
 from analytic.stress_state import StressState
@@ -29,24 +28,15 @@ def stress_at(
     x: ArrayLike,
     z: ArrayLike,
     element: Element = "hat",
-    *,
-    traction: np.ndarray | None = None,
-    periodic: bool = False,
 ) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, tension positive.
 
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
-    traction in +x is friction * pressure + traction, with `traction` (n,) [Pa] nodal values of
-    any sign. With `periodic` the nodes are one period of n pitches, repeated without end; see
-    `analytic.stress.periodic` for the sx of their mean.
+    traction in +x is friction * pressure.
 
     Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
     """
-    stress = friction_stress_at(x_nodes, pressure, x, z, element, periodic=periodic)
-    if traction is None:
-        return stress.at(friction)
-    besides = friction_stress_at(x_nodes, traction, x, z, element, periodic=periodic)
-    return stress.at(friction, besides)
+    return friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
 
 
 def friction_stress_at(
@@ -55,14 +45,11 @@ def friction_stress_at(
     x: ArrayLike,
     z: ArrayLike,
     element: Element = "hat",
-    *,
-    periodic: bool = False,
 ) -> FrictionStress:
     """`stress_at` under q = friction * p, for every friction at once."""
     pitch = uniform_pitch(x_nodes, pressure)
     check_element(element)
     x, z = points_below(x, z)
-    sum_up = periodic_stress if periodic else line_stress
     line = LoadedLine(x_nodes, pressure, pitch, element)
-    parts = sum_up(line, x.ravel(), z.ravel())
+    parts = line_stress(line, x.ravel(), z.ravel())
     return FrictionStress.of(parts.reshape(4, *x.shape))

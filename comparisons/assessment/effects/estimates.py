@@ -261,8 +261,8 @@ def _layered_beta(problem: Problem) -> float:
 
 
 # Below first yield, p0 = 1.79 Y at a hardness of 2.8 Y to 3 Y, nothing flows; where the cap holds
-# the pressure, hardnesses from 2.4 Y to 3 Y fit what flow does, none of them everywhere
-# (`comparisons.benchmarks.hardness_cap`).
+# the pressure, hardnesses from 2.4 Y to 3 Y fit what finite elements that flow do, none everywhere:
+# 2.4 Y at 3 to 4 times first yield, 2.8 Y at 6 to 12 times, 3 Y beyond.
 FIRST_FLOW, CAP = 0.6, 0.1
 TABOR = 3.0  # hardness over yield stress (D. Tabor, The Hardness of Metals, 1951)
 

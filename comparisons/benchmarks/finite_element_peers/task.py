@@ -1,7 +1,6 @@
 """A contact problem of the benchmark on one mesh, and the answer of a code: what a peer imports."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,16 +18,10 @@ class FailedError(Exception):
     """A code found no pressures; the message is its own."""
 
 
-@dataclass(frozen=True)
-class BlockTask:
-    """One problem on one mesh.
-
-    waves     (k, 3) rows of A_k [m], lambda_k [m], phi_k [rad]
-    approach  d [m]
-    """
+class BlockTask(NamedTuple):
+    """The problem on one mesh, pressed by the approach d [m]."""
 
     mesh: BlockMesh
-    waves: np.ndarray
     approach: float
 
     @property
@@ -36,10 +29,6 @@ class BlockTask:
         """x [m] between which contact is possible; the mesh has equal edges there."""
         start, stop = self.mesh.spec.intervals[0]
         return float(start), float(stop)
-
-    def gap(self, x: np.ndarray) -> np.ndarray:
-        """g0 [m] at x [m], of any shape."""
-        return gap(x, self.waves)
 
     def fixed(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
         """Whether points are on the bottom or on one of the sides."""
@@ -53,40 +42,17 @@ class BlockTask:
         return (z <= slack) & (x >= start - slack) & (x <= stop + slack)
 
 
-@dataclass(frozen=True)
-class BlockAnswer:
-    """Contact pressures of one solution.
+class BlockAnswer(NamedTuple):
+    """The largest pressure [Pa] of a solution, and its displacement components.
 
-    x, pressure  (k,) ascending [m], and [Pa] there, linear between; zero elsewhere
-    unknowns     displacement components
-    steps        of the contact iteration
-    seconds      processor time, where the caller cannot measure it
-    whole        wall and processor time of the whole process, where the code is one
+    whole  wall and processor time [s] of the whole process, where the code is one
     """
 
-    x: np.ndarray
-    pressure: np.ndarray
+    peak: float
     unknowns: int
-    steps: int
-    seconds: float | None = None
     whole: tuple[float, float] | None = None
 
-    def at(self, x: np.ndarray) -> np.ndarray:
-        """Pressure [Pa] at x [m]."""
-        return np.interp(x, self.x, self.pressure, left=0.0, right=0.0)
 
-
-@dataclass(frozen=True)
-class BlockCode:
-    """One configuration of one code; `solve` raises FailedError."""
-
-    name: str
-    configuration: str
-    solve: Callable[[BlockTask], BlockAnswer]
-
-
-def gap(x: np.ndarray, waves: np.ndarray) -> np.ndarray:
-    """g0 [m] at x [m], of any shape, with (k, 3) rows A_k [m], lambda_k [m], phi_k of waves."""
-    x = np.asarray(x, dtype=float)
-    angle = 2.0 * np.pi * x[..., None] / waves[:, 1] + waves[:, 2]
-    return x**2 / (2.0 * RADIUS) + (1.0 - np.cos(angle)) @ waves[:, 0]
+def gap(x: np.ndarray) -> np.ndarray:
+    """g0 [m] at x [m]."""
+    return x**2 / (2.0 * RADIUS)

@@ -15,10 +15,11 @@ the time of the mesh counted for all.
 """
 
 import json
+import math
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from statistics import median
@@ -68,8 +69,8 @@ def solve(code: str, file: str | Path) -> None:
         from comparisons.benchmarks.finite_element_peers.cases import solved as solved_by_us
 
         solved = partial(solved_by_us, *CONFIGURATIONS[code])
-    answer = solved(given.BlockTask(mesh, found["waves"], float(found["approach"])))
-    print(json.dumps([int(answer.unknowns), float(answer.pressure.max())]))
+    answer = solved(given.BlockTask(mesh, float(found["approach"])))
+    print(json.dumps([int(answer.unknowns), answer.peak]))
 
 
 def stored(task: given.BlockTask, file: Path) -> Path:
@@ -77,7 +78,7 @@ def stored(task: given.BlockTask, file: Path) -> Path:
     spec, mesh = task.mesh.spec, task.mesh
     known = {"spec": [*task.ends, spec.surface_size, spec.growth], "approach": task.approach}
     mesh = {"points": mesh.points, "triangles": mesh.triangles}
-    np.savez(file, waves=task.waves, **known, **mesh)
+    np.savez(file, **known, **mesh)
     return file
 
 
@@ -93,26 +94,18 @@ def process(code: str, file: Path) -> tuple[Times, list]:
     return (median(walls), median(seconds)), json.loads(done.stdout or "[]")
 
 
-def calculix_process(solve_with: Callable, task: given.BlockTask) -> tuple[Times, list]:
-    """The same of ccx, which is a process of its own; once, it takes seconds."""
-    answer = solve_with(task)
-    return answer.whole, [answer.unknowns, float(answer.pressure.max())]
-
-
 def main() -> int:
     """Print every process and the least times; the exit status."""
-    from comparisons.benchmarks.finite_element_peers import cases
-    from comparisons.benchmarks.finite_element_peers.calculix import calculix
-    from comparisons.benchmarks.finite_element_peers.scikit_fem import scikit_fem
+    from comparisons.benchmarks.finite_element_peers import calculix, cases, scikit_fem
 
-    peers = {}
-    for name, find in (("CalculiX", calculix), (PEER, scikit_fem)):
+    peers = []
+    for name, peer in (("CalculiX", calculix), (PEER, scikit_fem)):
         try:
-            peers[name] = find()[0]
+            peer.check_installed()
+            peers.append(name)
         except AbsentError as absent:
             print(f"skipped: {absent}")
     case, rows, curves = cases.cylinder(), [], {}
-    exact = float(case.reference.pressure.max())
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "task.npz"
         for growth in GROWTHS:
@@ -121,23 +114,23 @@ def main() -> int:
                 stored(task, file)
                 (_, meshing), _ = process(MESH, file)
                 runs = {name: process(name, file) for name in CONFIGURATIONS}
-                for name, peer in peers.items():
+                if PEER in peers:
+                    runs[PEER] = process(PEER, file)
+                if "CalculiX" in peers:  # a process of its own; once, it takes seconds
                     try:
-                        own = name == PEER
-                        runs[name] = (
-                            process(PEER, file) if own else calculix_process(peer.solve, task)
-                        )
+                        peak, unknowns, whole = calculix.solve(task)
+                        runs["CalculiX"] = whole, [unknowns, peak]
                     except given.FailedError as failure:
-                        print(f"{name}, growth {growth:g}, {edges} edges: {failure}")
+                        print(f"CalculiX, growth {growth:g}, {edges} edges: {failure}")
                 for name, ((wall, seconds), (unknowns, peak)) in runs.items():
-                    error = abs(peak / exact - 1.0)
+                    error = abs(peak / case.peak - 1.0)
                     whole = seconds + (meshing if name in peers else 0.0)
                     code = name if name in peers else f"{OURS}, {name}"
                     curves.setdefault((code, growth), []).append((error, seconds, whole))
                     numbers = f"{growth:g}", str(edges), str(unknowns), f"{error:.1e}"
                     rows.append((code, *numbers, *(f"{t:.2f}" for t in (seconds, whole, wall))))
     print_table("Whole processes", COLUMNS, rows)
-    return print_demands(verdicts(curves, list(peers)), list(peers))
+    return print_demands(verdicts(curves, peers), peers)
 
 
 Curves = dict[tuple[str, float], list[tuple[float, float, float]]]
@@ -146,8 +139,6 @@ Curves = dict[tuple[str, float], list[tuple[float, float, float]]]
 def verdicts(curves: Curves, peers: list[str]) -> list[Demand]:
     """By code with its configuration, and growth: error, seconds, seconds with the mesh, coarse to
     fine."""
-    from comparisons.benchmarks.finite_element_peers.race import time_at
-
     least: dict[str, list[float]] = {}
     for (code, _), curve in curves.items():
         owner = code.partition(",")[0]
@@ -160,6 +151,20 @@ def verdicts(curves: Curves, peers: list[str]) -> list[Demand]:
         text += f"{meshed:.2g} times; {reading:.2g} times where it reads its mesh"
         found.append(Demand(meshed >= 1.0, text))
     return found
+
+
+def time_at(curve: Sequence[tuple[float, float]], target: float) -> float:
+    """Time at an error from (error, time) of each mesh, coarse to fine; inf if not reached."""
+    before = None
+    for mesh, (_, time) in enumerate(curve):
+        error = max(error for error, _ in curve[mesh:])
+        if error <= target:
+            if before is None or before[0] <= error:
+                return time
+            share = math.log(before[0] / target) / math.log(before[0] / error)
+            return before[1] * (time / before[1]) ** share
+        before = error, time
+    return math.inf
 
 
 if __name__ == "__main__":

@@ -15,8 +15,8 @@ from comparisons.studies.paper.pictures.depth import (
     peak_section_picture,
 )
 from comparisons.studies.paper.pictures.pressure import pressure_picture, trace_picture
-from comparisons.studies.paper.pictures.scales import Scales, scales_of
-from comparisons.studies.paper.pictures.shear import contour_picture, isometric_picture
+from comparisons.studies.paper.pictures.scales import scales_of
+from comparisons.studies.paper.pictures.shear import contour_picture
 
 LETTERS = {"txz": "bcd", "tau1": "efg"}
 
@@ -72,10 +72,12 @@ def sections_of(
             callback(f"drawing figure {number}")
             pressure = pressure_picture(outcomes[scene], scales, surface)
             blocks = lettered(number, ("pressure and surfaces under load", pressure))
-            for name, heading, pictures in _shear(outcomes[scene], scales, surface):
-                letters = LETTERS[name]
-                heading = f"Figure {number}({letters[0]}) to ({letters[-1]}): {heading}"
-                blocks += (Block(heading, pictures, claims(number, letters)),)
+            for component in reversed(COMPONENTS):  # orthogonal shear first, as in the paper
+                letters = LETTERS[component.name]
+                heading = f"Figure {number}({letters[0]}) to ({letters[-1]}): "
+                heading += f"{component.words} {component.symbol}"
+                picture = contour_picture(outcomes[scene], component, scales, surface)
+                blocks += (Block(heading, (picture,), claims(number, letters)),)
             found.append(Section(number, f"Figure {number}: {surface}", blocks))
         callback("drawing figure 11")
         blocks = lettered(
@@ -85,20 +87,3 @@ def sections_of(
         )
         found.append(Section("11", "Figure 11: principal shear over depth", blocks))
     return tuple(found)
-
-
-def _shear(
-    outcome: Outcome, scales: Scales, surface: str
-) -> list[tuple[str, str, tuple[Picture, ...]]]:
-    """Name, heading and pictures of both shear stresses, orthogonal shear first as in the paper."""
-    return [
-        (
-            component.name,
-            f"{component.words} {component.symbol}",
-            (
-                isometric_picture(outcome, component, scales, surface),
-                contour_picture(outcome, component, scales, surface),
-            ),
-        )
-        for component in reversed(COMPONENTS)
-    ]

@@ -13,11 +13,13 @@ from analytic.contact.patches import contact_patches
 from analytic.contact.problem import assessed
 from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
+from analytic.layers.layered import LayeredBody
+from analytic.layers.tangential import TangentialLayer
+from analytic.material import Material
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.operators.tangential import (
     CoupledHalfPlane,
     CoupledPair,
-    TangentialHalfPlane,
     hat_sign,
 )
 
@@ -191,7 +193,8 @@ def test_a_compliance_given_as_a_matrix_can_be_the_normal_part(roller):
     """The hook for other bodies: any symmetric operator with any tangential one."""
     grid = HatGrid.within(-1.1e-3, 1.1e-3, 8e-6)
     matrix = toeplitz(HalfPlane(grid.count, grid.pitch, roller.modulus).column)
-    tangential = TangentialHalfPlane(grid.count, grid.pitch, roller.modulus, 0.5)
+    layer = Material(roller.modulus, 0.0)  # beta 1/2
+    tangential = TangentialLayer(grid.count, grid.pitch, LayeredBody(layer, 1.0, layer))
     pair = CoupledPair(DenseCompliance(matrix), tangential, 0.6)
     weighted_gap = grid.hat_integrals(roller.rough(1))
     found = solve_coupled(pair, weighted_gap, grid.weights, Constraints(load=roller.load))

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from scipy.linalg import circulant, toeplitz
+from scipy.linalg import toeplitz
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
@@ -14,13 +14,11 @@ from analytic.layers.kernel import hat_compliance
 from analytic.layers.layered import LayeredBody, normal_compliance, wave_compliance
 from analytic.layers.operator import (
     LayeredSurface,
-    PeriodicLayeredSurface,
     free_coefficients,
     hat_symbol,
 )
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.periodic import PeriodicHalfPlane
 
 CASES = json.loads(TABLE.read_text())["cases"]
 LAYER = Material(210e9, 0.3)
@@ -71,9 +69,6 @@ def test_on_a_half_plane_of_its_own_material_it_is_the_half_plane(pitch):
     free = LayeredSurface(3000, pitch, body, datum=7.0)
     expected = HalfPlane(3000, pitch, LAYER.plane_strain_modulus, datum=7.0).column
     assert free.column == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
-    periodic = PeriodicLayeredSurface(300, pitch, body)
-    expected = PeriodicHalfPlane(300, pitch, LAYER.plane_strain_modulus).column
-    assert periodic.column == pytest.approx(expected, abs=2e-15 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("base", [*RIGID, SUBSTRATES[1]], ids=named)
@@ -97,11 +92,10 @@ def test_a_stiff_substrate_tends_to_the_rigid_base():
 
 @pytest.mark.parametrize("pitch", [1e-6, 1e-2, 1.0, 10.0])
 @pytest.mark.parametrize("base", RIGID + SUBSTRATES, ids=named)
-@pytest.mark.parametrize("kind", [LayeredSurface, PeriodicLayeredSurface])
-def test_operator_and_preconditioner_are_positive_definite(kind, base, pitch):
+def test_operator_and_preconditioner_are_positive_definite(base, pitch):
     count = 90
-    operator = kind(count, pitch, LayeredBody(LAYER, 1.0, base))
-    matrix = (circulant if operator.periodic else toeplitz)(operator.column)
+    operator = LayeredSurface(count, pitch, LayeredBody(LAYER, 1.0, base))
+    matrix = toeplitz(operator.column)
     columns = np.eye(count)
     applied = np.array([operator.apply(column) for column in columns]).T
     assert np.abs(applied - matrix).max() <= 1e-13 * np.abs(matrix).max()
@@ -114,18 +108,14 @@ def test_operator_and_preconditioner_are_positive_definite(kind, base, pitch):
 @pytest.mark.parametrize("base", [*RIGID, SUBSTRATES[1], SUBSTRATES[2]], ids=named)
 def test_coarsened_operators_agree_on_coarse_hats(base):
     body = LayeredBody(LAYER, 1.0, base)
-    for fine, matrix in (
-        (LayeredSurface(31, 0.1, body), toeplitz),
-        (PeriodicLayeredSurface(32, 0.1, body), circulant),
-    ):
-        coarse = fine.coarsened()
-        refine = np.zeros((fine.count, coarse.count))
-        for j in range(coarse.count):
-            refine[[2 * j, 2 * j + 1, (2 * j + 2) % fine.count], j] = 0.5, 1.0, 0.5
-        expected = refine.T @ matrix(fine.column) @ refine
-        scale = np.abs(expected).max()
-        assert matrix(coarse.column) == pytest.approx(expected, abs=1e-13 * scale)
-    assert PeriodicLayeredSurface(9, 0.1, body).coarsened() is None
+    fine = LayeredSurface(31, 0.1, body)
+    coarse = fine.coarsened()
+    refine = np.zeros((fine.count, coarse.count))
+    for j in range(coarse.count):
+        refine[[2 * j, 2 * j + 1, 2 * j + 2], j] = 0.5, 1.0, 0.5
+    expected = refine.T @ toeplitz(fine.column) @ refine
+    scale = np.abs(expected).max()
+    assert toeplitz(coarse.column) == pytest.approx(expected, abs=1e-13 * scale)
 
 
 def pressed(body, half_width, count, load, radius=1.0):
@@ -235,23 +225,6 @@ def test_finer_grids_cost_few_more_applications(base, half_width):
         for count in (512, 8192)
     ]
     assert spent[1]["applications"] - spent[0]["applications"] < 4 * 20
-
-
-@pytest.mark.parametrize("base", [*RIGID, SUBSTRATES[1], SUBSTRATES[2]], ids=named)
-def test_waves_on_a_periodic_layer_in_full_contact(base):
-    """p of a closed gap A cos kx is A cos kx over the layer's compliance, of fifth order in h."""
-    count, amplitude, k = 64, 1e-5, 2.0 * np.pi
-    body = LayeredBody(LAYER, 0.3, base)
-    grid = HatGrid(1.0 / count, 0, count - 1)
-    cosine = np.cos(k * grid.x)
-    seen = np.sinc(1.0 / count) ** 2
-    wave = amplitude / float(wave_compliance(body, k).normal)
-    operator = PeriodicLayeredSurface(count, grid.pitch, body)
-    gap = -amplitude * seen * grid.pitch * cosine
-    solution = solve_contact(operator, gap, grid.weights, Constraints(load=3.0 * wave))
-    assert solution.converged
-    assert 2.0 / count * seen * (cosine @ solution.pressure) == pytest.approx(wave, rel=5e-9)
-    assert np.mean(solution.pressure) == pytest.approx(3.0 * wave, rel=1e-12)
 
 
 def test_lengths_and_moduli_scale():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.stress.field import friction_field, graded_depths, stress_field
+from analytic.stress.field import friction_field, graded_depths
 from analytic.stress.points import friction_stress_at, stress_at
 
 NAMES = ("sx", "sz", "txz")
@@ -57,7 +57,7 @@ def test_field_on_a_grid_of_rounded_places():
 
 
 def test_grid_holds_the_nodes_and_stays_in_the_window():
-    field = stress_field(NODES, PRESSURE, 0.0, (-0.3, 1.0), LEVELS, 3)
+    field = friction_field(NODES, PRESSURE, (-0.3, 1.0), LEVELS, 3).at(0.0)
     assert field.x[0] >= -0.3 and field.x[0] - PITCH / 3.0 < -0.3
     assert field.x[-1] <= 1.0 and field.x[-1] + PITCH / 3.0 > 1.0
     np.testing.assert_allclose(np.diff(field.x), PITCH / 3.0, rtol=1e-12)
@@ -68,48 +68,39 @@ def test_grid_holds_the_nodes_and_stays_in_the_window():
 
 def test_window_that_ends_on_nodes_includes_them():
     nodes = 0.1 * np.arange(30)
-    field = stress_field(nodes, np.ones(30), 0.0, (nodes[3], nodes[11]), np.array([1.0]))
+    field = friction_field(nodes, np.ones(30), (nodes[3], nodes[11]), np.array([1.0])).at(0.0)
     np.testing.assert_allclose(field.x, nodes[3:12], rtol=1e-15)
 
 
 def test_surface_carries_pressure_and_traction_exactly():
-    field = stress_field(NODES, PRESSURE, 0.25, (-2.0, 2.0), LEVELS, 1)
+    field = friction_field(NODES, PRESSURE, (-2.0, 2.0), LEVELS, 1).at(0.25)
     expected = np.zeros(len(field.x))
     expected[np.searchsorted(field.x, NODES)] = PRESSURE
     np.testing.assert_array_equal(field.stress.sz[0], -expected)
     np.testing.assert_array_equal(field.stress.txz[0], -0.25 * expected)
-    finer = stress_field(NODES, PRESSURE, 0.25, (-0.4, 0.6), LEVELS, 4)
+    finer = friction_field(NODES, PRESSURE, (-0.4, 0.6), LEVELS, 4).at(0.25)
     between = np.interp(finer.x, NODES, PRESSURE)
     np.testing.assert_allclose(finer.stress.sz[0], -between, rtol=0.0, atol=1e-15)
-    without = stress_field(NODES, PRESSURE, 0.0, (-0.4, 0.6), LEVELS, 4)
+    without = friction_field(NODES, PRESSURE, (-0.4, 0.6), LEVELS, 4).at(0.0)
     np.testing.assert_array_equal(without.stress.sx[0], without.stress.sz[0])
     np.testing.assert_array_equal(without.stress.txz[0], 0.0)
 
 
 def test_strips_on_the_surface_need_points_off_their_ends():
     with pytest.raises(ValueError, match="no finite sx"):
-        stress_field(NODES, PRESSURE, 0.1, (-0.4, 0.6), LEVELS, 2, "strip")
-    field = stress_field(NODES, PRESSURE, 0.1, (NODES[0], NODES[-1]), LEVELS, 1, "strip")
+        friction_field(NODES, PRESSURE, (-0.4, 0.6), LEVELS, 2, "strip").at(0.1)
+    field = friction_field(NODES, PRESSURE, (NODES[0], NODES[-1]), LEVELS, 1, "strip").at(0.1)
     np.testing.assert_array_equal(field.stress.sz[0], -PRESSURE)
 
 
-def test_one_field_serves_every_friction():
-    field = friction_field(NODES, PRESSURE, (-1.0, 1.0), LEVELS)
-    for friction in (0.0, 0.1, -0.4):
-        alone = stress_field(NODES, PRESSURE, friction, (-1.0, 1.0), LEVELS)
-        for name in NAMES:
-            difference = getattr(field.at(friction).stress, name) - getattr(alone.stress, name)
-            assert np.abs(difference).max() < 3e-15 * PRESSURE.max()
-
-
 def test_no_pressure_no_stress():
-    field = stress_field(NODES, np.zeros(150), 0.2, (-1.0, 1.0), LEVELS)
+    field = friction_field(NODES, np.zeros(150), (-1.0, 1.0), LEVELS).at(0.2)
     assert not np.any(field.stress.sx) and not np.any(field.stress.txz)
 
 
 def test_deep_level_far_from_the_load_keeps_its_digits():
     """On a level by itself the sum is relative to that level's own stresses, not to p."""
-    field = stress_field(NODES, PRESSURE, 0.3, (-1.0, 1.0), np.array([1e4]))
+    field = friction_field(NODES, PRESSURE, (-1.0, 1.0), np.array([1e4])).at(0.3)
     direct = stress_at(NODES, PRESSURE, 0.3, field.x, 1e4)
     np.testing.assert_allclose(field.stress.sz[0], direct.sz, rtol=1e-12)
 
@@ -130,7 +121,7 @@ def test_deep_level_far_from_the_load_keeps_its_digits():
 def test_what_makes_no_field_is_refused(changed, said):
     given = {"x_range": (-1.0, 1.0), "z": LEVELS, "subdivisions": 1, "element": "hat"} | changed
     with pytest.raises(ValueError, match=said):
-        stress_field(NODES, PRESSURE, 0.0, **given)
+        friction_field(NODES, PRESSURE, **given).at(0.0)
 
 
 def test_graded_depths_grow_by_one_ratio():
@@ -183,25 +174,3 @@ def test_beside_the_load_each_level_keeps_its_digits():
     for name in NAMES:
         found, expected = getattr(field.stress.normal, name), getattr(direct.normal, name)
         np.testing.assert_allclose(found[:, ::40], expected, rtol=1e-12)
-
-
-@pytest.mark.parametrize("subdivisions", [1, 3])
-def test_traction_of_its_own_shape(subdivisions):
-    """Also where only one of the two is loaded."""
-    extra = np.zeros(150)
-    extra[100:140] = np.random.default_rng(5).uniform(-1.0, 1.0, 40)
-    pressure = np.where(np.arange(150) < 80, PRESSURE, 0.0)
-    window = (-0.8, 1.0)
-    field = stress_field(NODES, pressure, 0.2, window, LEVELS, subdivisions, traction=extra)
-    x, z = np.meshgrid(field.x, field.z)
-    direct = stress_at(NODES, pressure, 0.2, x, z, traction=extra)
-    for name in NAMES:
-        difference = getattr(field.stress, name) - getattr(direct, name)
-        assert np.abs(difference).max() < 5e-14 * pressure.max()
-    alone = stress_field(NODES, np.zeros(150), 0.2, window, LEVELS, 1, traction=extra)
-    assert np.array_equal(alone.stress.txz[0], np.interp(alone.x, NODES, -extra, 0, 0))
-    only = stress_field(NODES, pressure, 0.2, window, LEVELS, 1, traction=0.0 * extra)
-    plain = stress_field(NODES, pressure, 0.2, window, LEVELS, 1)
-    assert np.array_equal(only.stress.sx, plain.stress.sx)
-    with pytest.raises(ValueError, match="equal length"):
-        stress_field(NODES, pressure, 0.2, window, LEVELS, traction=extra[1:])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from analytic.exact.hertz import HertzContact, hertz_extremes, hertz_stress
-from analytic.stress.field import graded_depths, stress_field
+from analytic.stress.field import friction_field, graded_depths
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import stress_at
 
@@ -52,7 +52,7 @@ def test_maxima_of_the_smooth_contact_with_order_two(element, friction):
     for count in (16, 32, 64):
         x, pressure = elements(count, element)
         levels = np.linspace(0.0, 1.5, 31)
-        field = stress_field(x, pressure, friction, (-1.5, 1.5), levels, 1, element)
+        field = friction_field(x, pressure, (-1.5, 1.5), levels, 1, element).at(friction)
         found = stress_maxima(x, pressure, friction, field, 0.3, element)
         errors["tau1"].append(found.tau1.value - exact.tau1.value)
         errors["txz"].append(found.txz_abs.value + exact.txz_min.value)
@@ -69,7 +69,7 @@ def test_frictionless_maximum_extrapolates_to_the_exact_value():
     values, depths = [], []
     for count in (64, 128):
         x, pressure = elements(count, "hat")
-        field = stress_field(x, pressure, 0.0, (-0.2, 0.2), np.linspace(0.5, 1.0, 21))
+        field = friction_field(x, pressure, (-0.2, 0.2), np.linspace(0.5, 1.0, 21)).at(0.0)
         found = largest_tau1(x, pressure, 0.0, field)
         values.append(found.value)
         depths.append(found.z)
@@ -84,7 +84,7 @@ def test_field_below_the_contact_with_order_two(element):
     errors = {name: [] for name in NAMES}
     for count in (8, 16, 32):
         x, pressure = elements(count, element)
-        field = stress_field(x, pressure, 0.3, (-2.0, 2.0), levels, 64 // count, element)
+        field = friction_field(x, pressure, (-2.0, 2.0), levels, 64 // count, element).at(0.3)
         exact = hertz_stress(UNIT, field.x, field.z[:, None], 0.3)
         for name in NAMES:
             difference = getattr(field.stress, name) - getattr(exact, name)
@@ -137,9 +137,9 @@ def test_rough_pressure_against_a_much_finer_search():
     pressure = 1e9 * np.maximum(smooth, 0.0)
     levels = graded_depths(60e-6, 24, 0.5e-6)
     for friction in (0.0, 0.15):
-        field = stress_field(x, pressure, friction, (x[0], x[-1]), levels)
+        field = friction_field(x, pressure, (x[0], x[-1]), levels).at(friction)
         finer = np.unique(np.concatenate([levels, np.linspace(0.0, 30e-6, 301)]))
-        check = stress_field(x, pressure, friction, (x[0], x[-1]), finer, 10)
+        check = friction_field(x, pressure, (x[0], x[-1]), finer, 10).at(friction)
         found = stress_maxima(x, pressure, friction, field, 0.3)
         for extremum, values in (
             (found.tau1, check.stress.tau1),
@@ -157,7 +157,7 @@ def test_rough_pressure_against_a_much_finer_search():
 def highest_by_brute_force(x, pressure, friction, quantity):
     """Zooms on the five highest points of a fine field, each by 20 grids of 7 x 7 points."""
     levels, steps = np.linspace(0.0, 1.5, 121), 4
-    field = stress_field(x, pressure, friction, (x[0], x[-1]), levels, steps)
+    field = friction_field(x, pressure, (x[0], x[-1]), levels, steps).at(friction)
     values = quantity(field.stress)
     row, column = np.unravel_index(np.argsort(-values, axis=None)[:5], values.shape)
     at_x, at_z = field.x[column], levels[row]
@@ -191,7 +191,7 @@ def test_flat_ridges_under_little_friction_are_climbed_to_their_top(surface, fri
     At the surface, where friction leaves kinks, the top is good to 1e-6.
     """
     x, pressure = smooth_wavy_rough(surface)
-    field = stress_field(x, pressure, friction, (x[0], x[-1]), graded_depths(1.5, 24, 0.01))
+    field = friction_field(x, pressure, (x[0], x[-1]), graded_depths(1.5, 24, 0.01)).at(friction)
     found = stress_maxima(x, pressure, friction, field, 0.3)
     for extremum, quantity in (
         (found.tau1, lambda stress: stress.tau1),
@@ -206,7 +206,7 @@ def test_the_higher_peak_wins_though_the_grid_shows_the_lower_one():
     x = np.arange(-30, 840) * 0.05
     second = HertzContact(1.3, 1.01, 1.0, 1.0, 1.0)
     pressure = UNIT.pressure(x) + second.pressure(x - 40.0)
-    field = stress_field(x, pressure, 0.0, (-1.5, 41.5), np.array([0.2, 0.786, 1.4]))
+    field = friction_field(x, pressure, (-1.5, 41.5), np.array([0.2, 0.786, 1.4])).at(0.0)
     shown = np.unravel_index(np.argmax(field.stress.tau1), field.stress.tau1.shape)
     assert abs(field.x[shown[1]]) < 0.1
     found = largest_tau1(x, pressure, 0.0, field)
@@ -217,17 +217,17 @@ def test_the_higher_peak_wins_though_the_grid_shows_the_lower_one():
 
 def test_a_maximum_at_the_side_of_the_window_stays_inside_it():
     x, pressure = elements(32, "hat")
-    field = stress_field(x, pressure, 0.0, (0.5, 1.0), np.linspace(0.0, 0.5, 6))
+    field = friction_field(x, pressure, (0.5, 1.0), np.linspace(0.0, 0.5, 6)).at(0.0)
     found = largest_tau1(x, pressure, 0.0, field)
     assert (found.x, found.z) == pytest.approx((0.5, 0.5), abs=1e-12)
-    single = stress_field(x, pressure, 0.0, (0.0, 0.0), np.array([0.7]))
+    single = friction_field(x, pressure, (0.0, 0.0), np.array([0.7])).at(0.0)
     found = largest_tau1(x, pressure, 0.0, single)
     assert (found.x, found.z) == (0.0, 0.7)
 
 
 def test_no_pressure_has_its_maximum_at_zero():
     x = np.arange(8) * 1e-6
-    field = stress_field(x, np.zeros(8), 0.1, (0.0, 7e-6), np.array([0.0, 1e-6]))
+    field = friction_field(x, np.zeros(8), (0.0, 7e-6), np.array([0.0, 1e-6])).at(0.1)
     assert largest_tau1(x, np.zeros(8), 0.1, field).value == 0.0
 
 
@@ -241,10 +241,10 @@ def test_each_cell_of_x_has_its_own_maxima():
         loads[400 + at - len(x) // 2 : 400 + at + len(x) // 2 + 1] += height * pressure
     levels, ends = np.linspace(0.0, 1.5, 31), (-60.0 * pitch, 70.0 * pitch, 390.0 * pitch)
     window = nodes[0] + 60.0 * pitch, 330.0 * pitch
-    field = stress_field(nodes, loads, 0.1, window, levels, 1)
+    field = friction_field(nodes, loads, window, levels, 1).at(0.1)
     found = stress_maxima(nodes, loads, 0.1, field, 0.3, cells=ends)
     for k, part in ((0, (window[0], ends[0])), (2, (ends[1], window[1]))):
-        one = stress_field(nodes, loads, 0.1, part, levels, 1)
+        one = friction_field(nodes, loads, part, levels, 1).at(0.1)
         searched = stress_maxima(nodes, loads, 0.1, one, 0.3)
         for name, single in (("tau1", searched.tau1), ("txz_abs", searched.txz_abs)):
             assert found.cells[name][:, k] == pytest.approx((single.value, single.x, single.z))

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from analytic.stress.field import stress_field
+from analytic.stress.field import friction_field
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState
 
@@ -72,15 +72,6 @@ class TestPoints:
         parts = combined((1.0 - friction, none), (friction, unit))
         assert_equal(at(p, friction, x, z, kind), parts, 10.0)
 
-    @given(seed=seeds, friction=frictions)
-    @examples(20)
-    def test_a_traction_beside_is_added(self, seed, friction):
-        x, z = places(seed)
-        p, q = pressures(seed), pressures(seed + 1) - 0.5
-        both = stress_at(NODES, p, friction, x, z, traction=q)
-        alone = stress_at(NODES, np.zeros(COUNT), friction, x, z, traction=q)
-        assert_equal(both, combined((1.0, at(p, friction, x, z)), (1.0, alone)), 10.0)
-
     @given(seed=seeds, friction=frictions, kind=elements)
     @examples(30)
     def test_mirror(self, seed, friction, kind):
@@ -116,15 +107,6 @@ class TestPoints:
         stress = at(p, friction, np.array([x]), np.array([0.0]))
         assert stress.sz[0] == pytest.approx(-there, abs=EXACT)
         assert stress.txz[0] == pytest.approx(-friction * there, abs=EXACT)
-
-    @given(seed=seeds, turn=st.integers(0, COUNT - 1), friction=frictions)
-    @examples(15)
-    def test_a_periodic_line_may_begin_anywhere(self, seed, turn, friction):
-        x, z = places(seed)
-        p = pressures(seed)
-        here = stress_at(NODES, p, friction, x, z, periodic=True)
-        there = stress_at(NODES + turn * PITCH, np.roll(p, -turn), friction, x, z, periodic=True)
-        assert_equal(there, here, 10.0)
 
 
 class TestBalance:
@@ -169,7 +151,7 @@ class TestFields:
     LEVELS = np.array([0.0, 1e-3, 0.02, 0.3, 2.0])
 
     def field(self, pressure, friction, subdivisions=1):
-        return stress_field(NODES, pressure, friction, (-0.5, 0.5), self.LEVELS, subdivisions)
+        return friction_field(NODES, pressure, (-0.5, 0.5), self.LEVELS, subdivisions).at(friction)
 
     @given(seed=seeds, friction=frictions, subdivisions=st.integers(1, 4))
     @examples(15)

@@ -16,7 +16,6 @@ from analytic.stress.potential import (
     stresses,
 )
 from analytic.stress.tree import LoadedLine, direct_stress, tree_stress
-from analytic.stress_state import StressState
 
 PITCH = 2.0**-9
 
@@ -229,27 +228,3 @@ def test_potential_of_an_element_from_its_first_moments(start, terms, element):
     expected = direct_stress(LoadedLine(np.zeros(1), np.ones(1), 1.0, element), across, down)
     assert np.abs(found.reshape(4, -1) - expected).max() < 5e-16 / start
     assert len(element_moments(element, ORDER)) == ORDER
-
-
-def test_tractions_of_any_shape_are_superposed(rng):
-    """Under p, mu p and t of its own shape: the sum of what each does alone."""
-    nodes, load = line(rng, 80, signs=False)
-    extra = rng.uniform(-1.0, 1.0, 80)
-    for count in (3, 2000):
-        x, z = rng.uniform(-0.1, 0.2, count), rng.uniform(0.0, 0.1, count)
-        both = stress_at(nodes, load, 0.25, x, z, traction=extra)
-        under_p = friction_stress_at(nodes, load, x, z)
-        under_t = friction_stress_at(nodes, extra, x, z).traction
-        slid = under_p.at(0.25)
-        for name in ("sx", "sz", "txz"):
-            expected = getattr(slid, name) + getattr(under_t, name)
-            np.testing.assert_array_equal(getattr(both, name), expected)
-    # friction is one such shape
-    same = stress_at(nodes, load, 0.0, x, z, traction=0.25 * load)
-    assert isinstance(same, StressState)
-    for name in ("sx", "sz", "txz"):
-        assert np.abs(getattr(same, name) - getattr(slid, name)).max() < 1e-14
-    surface = stress_at(nodes, load, 0.1, nodes, 0.0, traction=extra)
-    np.testing.assert_allclose(surface.txz, -0.1 * load - extra, rtol=0.0, atol=1e-14)
-    with pytest.raises(ValueError, match="equal length"):
-        stress_at(nodes, load, 0.1, 0.0, 1.0, traction=extra[1:])

@@ -6,18 +6,11 @@ import numpy as np
 
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
-from analytic.stress.field import StressField, friction_field
 from comparisons.models.problem import mean_height
 from comparisons.report.figures.fields import COMPONENTS, Component, round_bands
 from comparisons.results.outcome import Outcome
 
 RANGE = 1.25  # a, to either side
-# Depths of the stacked lines [a], denser at the surface, where the asperities' stresses are.
-DEPTHS = np.concatenate(
-    [[0.0, 0.0025, 0.005, 0.0075], np.arange(0.01, 0.095, 0.01), np.arange(0.1, 1.001, 0.02)]
-)
-COLUMN = 0.004  # a, from one column of a line to the next
-STEP = 0.25  # p0, of the scales of stress
 
 
 @dataclass(frozen=True)
@@ -25,32 +18,13 @@ class Scales:
     """Shared by all surfaces.
 
     bands     of colour, by component's name [p0]
-    ceilings  highest tick of the isometric views, by component's name [p0]
-    floors    where their blocks end below, by component's name [p0]
     pressure  top of the pressures' axes [p0]
     relief    height of the surfaces' axes [m]
     """
 
     bands: dict[str, np.ndarray]
-    ceilings: dict[str, float]
-    floors: dict[str, float]
     pressure: float
     relief: float
-
-
-def layered(outcome: Outcome) -> StressField:
-    """The half-plane's stresses on the stacked lines, no friction: x and z [a], stresses [p0]."""
-    level, hertz = outcome.runs["half_plane"].finest, outcome.problem.hertz
-    a, pitch = hertz.half_width, level.grid.pitch
-    found = friction_field(
-        level.grid.x,
-        level.solution.pressure / hertz.peak_pressure,
-        (-RANGE * a, RANGE * a),
-        DEPTHS * a,
-        subdivisions=max(1, round(pitch / (COLUMN * a))),
-        stride=max(1, round(COLUMN * a / pitch)),
-    ).at(0.0)
-    return StressField(found.x / a, DEPTHS, found.stress)
 
 
 def values_of(outcome: Outcome, component: Component, model: str, friction: float) -> np.ndarray:
@@ -81,8 +55,7 @@ def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def scales_of(outcomes: dict[str, Outcome]) -> Scales:
-    stacked = {name: layered(outcome).stress for name, outcome in outcomes.items()}
-    bands, ceilings, floors = {}, {}, {}
+    bands = {}
     for component in COMPONENTS:
         fields = [
             values_of(outcome, component, "half_plane", friction)
@@ -90,14 +63,8 @@ def scales_of(outcomes: dict[str, Outcome]) -> Scales:
             for friction in outcome.problem.scene.friction
         ]
         bands[component.name] = round_bands(fields, component.signed)
-        lines = [component.of(stress) for stress in stacked.values()]
-        top = max(line.max() for line in lines)
-        ceilings[component.name] = STEP * float(np.ceil(top / STEP))
-        # of the block's two visible sides
-        low = min(min(line[-1].min(), line[:, -1].min()) for line in lines)
-        floors[component.name] = STEP * float(np.floor(low / STEP)) if component.signed else 0.0
     pressure = 1.12 * max(map(_highest, outcomes.values()))
-    return Scales(bands, ceilings, floors, pressure, max(map(_relief, outcomes.values())))
+    return Scales(bands, pressure, max(map(_relief, outcomes.values())))
 
 
 def _highest(outcome: Outcome) -> float:

@@ -1,4 +1,4 @@
-"""Shear stresses below a surface, as the paper shows them: isometric views and contours."""
+"""Contours of the shear stresses below a surface, which the paper also shows as landscapes."""
 
 import numpy as np
 
@@ -6,48 +6,11 @@ from comparisons.common.numbers import decimal, plain, significant
 from comparisons.report.figures.fields import Component, colour_bar, cross, fill
 from comparisons.report.figures.style import COLUMN, Picture, data_uri, figure
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.pictures.isometric import bounds, draw_isometric, draw_scales, frame
-from comparisons.studies.paper.pictures.scales import RANGE, STEP, Scales, layered, values_of
+from comparisons.studies.paper.pictures.scales import RANGE, Scales, values_of
 
 LINES = {"colors": "#111111", "linewidths": 0.55, "linestyles": "dashed"}
 TALL = (COLUMN - 0.75) / (2.0 * RANGE)  # inches: a half-width is as long down as along
 FOOT, TITLE, BAR = 0.86, 0.3, 0.1  # inches
-
-
-def isometric_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:
-    """A component without friction as stacked lines; `of`, the surface in words."""
-    import matplotlib
-    from matplotlib.colors import BoundaryNorm
-
-    field = layered(outcome)
-    values = component.of(field.stress)
-    floor, ceiling = scales.floors[component.name], scales.ceilings[component.name]
-    ends = np.array([-RANGE, RANGE])  # which the columns of each surface come near to
-    left, right, bottom, top = bounds(ends, field.z, floor, ceiling)
-    drawn = figure(COLUMN, COLUMN * (top - bottom) / (right - left))
-    axes = drawn.add_axes((0.0, 0.0, 1.0, 1.0))
-    colours = matplotlib.colormaps[component.colours]
-    norm = BoundaryNorm(
-        scales.bands[component.name], colours.N, extend="both" if component.signed else "max"
-    )
-    draw_isometric(axes, field.x, field.z, values, floor, colours, norm)
-    heights = np.arange(floor, ceiling + 0.5 * STEP, STEP)
-    draw_scales(axes, field.x, field.z, floor, heights, component.symbol)
-    frame(axes, ends, field.z, floor, ceiling)
-    row, column = np.unravel_index(np.argmax(np.abs(values)), values.shape)
-    largest = (
-        f"highest on the lines drawn: {significant(abs(values[row, column]), 3)} p₀ at "
-        f"x = {decimal(field.x[column], 2)} a, z = {significant(field.z[row], 2)} a"
-    )
-    words = f"{component.words.capitalize()} {component.symbol} below the {of}, no friction"
-    return Picture(
-        source=data_uri(drawn),
-        alternative=f"Isometric view. {words}; {largest}.",
-        caption=(
-            f"{words} (half-plane). Seen from inside the body: the surface lies at the back, each "
-            f"line is a depth, colours are those of the contours; {largest}."
-        ),
-    )
 
 
 def contour_picture(outcome: Outcome, component: Component, scales: Scales, of: str) -> Picture:

@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.stress.elements import hat_stress
-from analytic.stress.field import stress_field
+from analytic.stress.field import friction_field
 from analytic.stress.points import stress_at
 from comparisons.studies.checks import BoundedFigure, Findings, Groups
 from comparisons.studies.robustness.many_digits import hat_parts, hertz_parts
@@ -92,7 +92,7 @@ def line_findings(z: float) -> Findings:
 def surface_findings() -> Findings:
     """On the surface sz is the pressure and txz the traction, to the last bit."""
     nodes, pressure = line_pressure()
-    field = stress_field(nodes, pressure, 0.3, (-1.0, 1.0), np.array([0.0, NEAR]), 4)
+    field = friction_field(nodes, pressure, (-1.0, 1.0), np.array([0.0, NEAR]), 4).at(0.3)
     on_nodes = np.isin(field.x, nodes)
     carried = np.interp(field.x, nodes, pressure)
     off = np.abs(field.stress.sz[0] + carried)[on_nodes].max()

@@ -1,12 +1,11 @@
-"""A case whose reference is good enough for what is raced here."""
+"""A case whose reference is good enough for what is compared here."""
 
-import numpy as np
 import pytest
 
-from comparisons.benchmarks.finite_element_peers.cases import BlockCase, case_of
+from comparisons.benchmarks.finite_element_peers import cases
 
 
 @pytest.fixture(scope="package")
-def cylinder() -> BlockCase:
+def cylinder() -> cases.BlockCase:
     """Hertz's contact."""
-    return case_of("cylinder", np.zeros((0, 3)), (5, 10), finest=40)
+    return cases.cylinder(finest=40)

@@ -1,7 +1,0 @@
-"""Started by `python -m comparisons.benchmarks.finite_element_peers`."""
-
-from comparisons.benchmarks.finite_element_peers.race import main
-from comparisons.benchmarks.harness import run_on_one_thread
-
-if __name__ == "__main__":
-    run_on_one_thread(main)
