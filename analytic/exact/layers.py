@@ -7,26 +7,25 @@ r"""Rigid cylinder on an elastic layer of thickness t on a rigid base: the limit
 
 Nomenclature: E, nu constants of the layer, E' = E/(1 - nu^2) [Pa], M modulus of the thin layer
 [Pa], R radius [m], t thickness [m], a half-width [m], P load per length [N/m], p0 peak pressure
-[Pa], d approach of the cylinder to the base [m], w = k t with the wavenumber k, K(w) the layer's
-compliance over the half-plane's, u = (2/(E' k)) K p.
+[Pa], w = k t with the wavenumber k, K(w) the layer's compliance over the half-plane's,
+u = (2/(E' k)) K p.
 
 Thick, a << t. The base takes away 1 - K, which over a narrow contact bends the surface
 evenly, as if the cylinder had the curvature 1/R + 2 C P/(pi E' t^2). To first order in that,
 
     P = (pi E' a^2/4R) (1 + C a^2/(2 t^2)),  p0 = 2 P/(pi a),  C = int w (1 - K) dw
-    d = (2 P/(pi E')) (ln(2 t/a) + 1/2 + D + C a^2/(8 t^2)),  D = int (K - 1 + e^-w)/w dw
 
     bonded        K = (2 n sinh 2w - 4 w)/(2 n cosh 2w + 4 w^2 + 1 + n^2),   n = 3 - 4 nu
     frictionless  K = 2 sinh^2 w/(sinh 2w + 2 w)                    (Johnson 1985, section 5.8)
 
 Thin, a >> t (Johnson 1985, section 5.8):
 
-    compressible     p = (M/2Rt) (a^2 - x^2),  d = a^2/2R       M = E' on a frictionless base,
-                                                   M = E (1-nu)/((1+nu)(1-2nu)) on a bonded one
-    incompressible   p = (E/24Rt^3) (a^2 - x^2)^2,  d = a^2/6R  bonded, nu = 1/2
+    compressible     p = (M/2Rt) (a^2 - x^2)     M = E' on a frictionless base,
+                                 M = E (1-nu)/((1+nu)(1-2nu)) on a bonded one
+    incompressible   p = (E/24Rt^3) (a^2 - x^2)^2   bonded, nu = 1/2
 
 Range: what is left out of the load for a given half-width, relative to it
-    thick           below 0.23 (a/t)^4, of the approach too
+    thick           below 0.23 (a/t)^4
     compressible    0.53 t/a frictionless, 0.37 t/a bonded with nu = 0.3; the full load is larger.
                     No limit any more where (1 - 2 nu)(a/t)^2 is not large
     incompressible  8 t/a, the full load is larger
@@ -55,20 +54,12 @@ TABLE = Path(__file__).with_name("layer_contact.json")
 
 @dataclass(frozen=True)
 class LayerLimit:
-    """A contact in a limit: p0 (1 - x^2/a^2)^`exponent`, `half_width` a [m], `peak_pressure` p0
-    [Pa], `load_per_length` P [N/m], `approach` d [m] to the base."""
+    """A contact in a limit: `half_width` a [m], `peak_pressure` p0 [Pa], `load_per_length` P
+    [N/m]."""
 
     half_width: float
     peak_pressure: float
     load_per_length: float
-    approach: float
-    exponent: float
-
-    def pressure(self, x: ArrayLike) -> np.ndarray:
-        """Pressure [Pa] at x [m] from the middle, zero outside the contact."""
-        ratio = np.abs(np.asarray(x, dtype=float)) / self.half_width
-        inside = np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0)
-        return self.peak_pressure * inside**self.exponent
 
 
 def thick_layer(
@@ -79,13 +70,11 @@ def thick_layer(
     Raises ValueError for lengths that are not positive and for an unknown base.
     """
     check_positive(half_width=half_width, radius=radius, thickness=thickness)
-    bend, lift = _base_integrals(base, layer.poissons_ratio)
+    deficit = partial(base_deficit, base=base, poissons_ratio=layer.poissons_ratio)
+    bend, _ = quad(lambda w: w * deficit(w), 0.0, _LAST, epsabs=0.0, epsrel=1e-13, limit=200)
     modulus, ratio = layer.plane_strain_modulus, (half_width / thickness) ** 2
     peak = modulus * half_width / (2.0 * radius) * (1.0 + 0.5 * bend * ratio)
-    load = 0.5 * np.pi * half_width * peak
-    logarithm = np.log(2.0 * thickness / half_width)
-    approach = 2.0 * load / (np.pi * modulus) * (logarithm + 0.5 + lift + 0.125 * bend * ratio)
-    return LayerLimit(half_width, peak, float(load), float(approach), 0.5)
+    return LayerLimit(half_width, peak, float(0.5 * np.pi * half_width * peak))
 
 
 def thin_compressible_layer(
@@ -97,8 +86,7 @@ def thin_compressible_layer(
     """
     check_positive(half_width=half_width, radius=radius, thickness=thickness)
     peak = thin_modulus(layer, base) * half_width**2 / (2.0 * radius * thickness)
-    load = 4.0 / 3.0 * half_width * peak
-    return LayerLimit(half_width, peak, load, half_width**2 / (2.0 * radius), 1.0)
+    return LayerLimit(half_width, peak, 4.0 / 3.0 * half_width * peak)
 
 
 def thin_incompressible_layer(
@@ -112,8 +100,7 @@ def thin_incompressible_layer(
         half_width=half_width, radius=radius, thickness=thickness, youngs_modulus=youngs_modulus
     )
     peak = youngs_modulus * half_width**4 / (24.0 * radius * thickness**3)
-    load = 16.0 / 15.0 * half_width * peak
-    return LayerLimit(half_width, peak, load, half_width**2 / (6.0 * radius), 2.0)
+    return LayerLimit(half_width, peak, 16.0 / 15.0 * half_width * peak)
 
 
 def thin_modulus(layer: Material, base: Base) -> float:
@@ -137,16 +124,6 @@ def base_deficit(w: ArrayLike, base: Base, poissons_ratio: float) -> np.ndarray:
         return 2.0 * decay * (2.0 * w - np.expm1(-2.0 * w)) / (4.0 * w * decay - np.expm1(-4.0 * w))
     rest = 4.0 * w**2 + 1.0 + n**2
     return decay * (2.0 * n * decay + rest + 4.0 * w) / (n * (1.0 + decay**2) + rest * decay)
-
-
-def _base_integrals(base: Base, poissons_ratio: float) -> tuple[float, float]:
-    """C and D."""
-    deficit = partial(base_deficit, base=base, poissons_ratio=poissons_ratio)
-    bend, _ = quad(lambda w: w * deficit(w), 0.0, _LAST, epsabs=0.0, epsrel=1e-13, limit=200)
-    lift, _ = quad(
-        lambda w: (np.exp(-w) - deficit(w)) / w, 0.0, _LAST, epsabs=0.0, epsrel=1e-12, limit=200
-    )
-    return bend, lift
 
 
 def _check_base(base: str) -> None:

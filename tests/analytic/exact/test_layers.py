@@ -30,12 +30,11 @@ def material(nu: float) -> Material:
 
 
 @cache
-def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float, float]:
-    """Peak pressure, load and approach in E'a/R, E'a^2/R and a^2/R of the full layer.
+def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float]:
+    """Peak pressure and load in E'a/R and E'a^2/R of the full layer.
 
     Slope of the surface (1/pi) int p (1/(x-s) - L(x-s)) ds = x/2, L = int (1-K) sin kx dk, with
-    p = sqrt(1 - s^2) phi at Chebyshev's points; lengths in a. The approach is the displacement
-    at x = 0, (2/pi) int p int K cos(ks)/k dk ds.
+    p = sqrt(1 - s^2) phi at Chebyshev's points; lengths in a.
     """
     count = 60 if a_over_t < 8.0 else 160
     angle = np.arange(1, count + 1) * np.pi / (count + 1)
@@ -52,29 +51,21 @@ def full_problem(a_over_t: float, nu: float, base: str) -> tuple[float, float, f
         for at, weights in zip(w, dw, strict=True)
     )
     slope = np.sign(distance) * slope[back.reshape(distance.shape)]
-    w, dw = w.ravel(), dw.ravel()
     matrix = weight / np.pi * (1.0 / distance - slope)
     shape = np.linalg.lstsq(matrix, 0.5 * place, rcond=None)[0]
     pressure = shape * weight
-    # the series phi = sum c_n U_n: its value in the middle and its integral against ln|s|
+    # the series phi = sum c_n U_n: its value in the middle
     number = np.arange(count)
     waves = np.sin(np.multiply.outer(number + 1, angle)) / np.sin(angle)
     series = (2.0 / np.pi * waves @ pressure)[::2]
-    m, sign = np.arange(1, len(series)), (-1.0) ** np.arange(len(series))
-    logs = np.append(-0.5 * np.pi * (np.log(2.0) + 0.5), 0.0 * m)
-    logs[1:] = -0.25 * np.pi * sign[1:] * (1.0 / m + 1.0 / (m + 1))
-    # int K cos(k s)/k dk = -ln(s/t) + int (e^-w - (1 - K) cos(w s/t))/w dw
-    waves = base_deficit(w, base, nu) * np.cos(np.multiply.outer(point * a_over_t, w))
-    regular = ((np.exp(-w) - waves) / w) @ dw
-    load = pressure.sum()
-    approach = 2.0 / np.pi * (pressure @ regular - load * np.log(a_over_t) - series @ logs)
-    return float(series @ sign), float(load), float(approach)
+    sign = (-1.0) ** np.arange(len(series))
+    return float(series @ sign), float(pressure.sum())
 
 
 def errors(limit: LayerLimit, a_over_t: float, nu: float, base: str) -> np.ndarray:
-    """Full over limiting peak pressure, load and approach, less 1; the limit for a = R = 1."""
+    """Full over limiting peak pressure and load, less 1; the limit for a = R = 1."""
     full = np.array(full_problem(a_over_t, nu, base))
-    return full / [limit.peak_pressure, limit.load_per_length, limit.approach] - 1.0
+    return full / [limit.peak_pressure, limit.load_per_length] - 1.0
 
 
 @pytest.mark.parametrize(
@@ -83,7 +74,7 @@ def errors(limit: LayerLimit, a_over_t: float, nu: float, base: str) -> np.ndarr
 def test_full_problem_meets_the_reference(case):
     """What the limits are judged by; the reference states 1e-10 of itself."""
     a_over_t, nu = float(case["a_over_t"]), 0.3 if case["nu"] == "any" else float(case["nu"])
-    peak, load, _ = full_problem(a_over_t, nu, case["base"])
+    peak, load = full_problem(a_over_t, nu, case["base"])
     assert peak * a_over_t == pytest.approx(float(case["p0_R_over_Eprime_t"]), rel=1e-9)
     assert load * a_over_t**2 == pytest.approx(float(case["P_R_over_Eprime_t2"]), rel=1e-9)
 
@@ -114,8 +105,8 @@ def test_thick_limit_is_of_fourth_order(base, nu):
         errors(thick_layer(1.0, 1.0, 1.0 / a, material(nu), base), a, nu, base)
         for a in (0.125, 0.25)
     ]
-    assert np.log2(left[1][1:] / left[0][1:]) == pytest.approx([4.0, 4.0], abs=0.35)
-    assert np.all(np.abs(left[1][1:]) < 0.23 * 0.25**4)
+    assert np.log2(left[1][1] / left[0][1]) == pytest.approx(4.0, abs=0.35)
+    assert abs(left[1][1]) < 0.23 * 0.25**4
     # the peak's remainder is the difference of two: it may vanish in between
     assert abs(left[1][0]) < 0.12 * 0.25**4
     hertz = hertz_from_load(0.25 * np.pi, 1.0, 1.0)
@@ -133,7 +124,7 @@ def test_thin_compressible_limit_is_of_first_order(base, nu, stated):
             for a in (8.0, 16.0, 32.0)
         ]
     )
-    assert np.log2(left[0] / left[2]) / 2.0 == pytest.approx([1.0, 1.0, 1.0], abs=0.05)
+    assert np.log2(left[0] / left[2]) / 2.0 == pytest.approx([1.0, 1.0], abs=0.05)
     assert left[2][1] * 32.0 == pytest.approx(stated, abs=0.01)
 
 
@@ -149,38 +140,8 @@ def test_thin_incompressible_limit_is_of_first_order():
             for a in (8.0, 16.0, 32.0)
         ]
     )
-    assert np.log2(left[1] / left[2]) == pytest.approx([1.0, 1.0, 1.0], abs=0.15)
+    assert np.log2(left[1] / left[2]) == pytest.approx([1.0, 1.0], abs=0.15)
     assert left[2][1] * 32.0 == pytest.approx(8.0, abs=0.1)
-
-
-def test_pressures_carry_their_loads():
-    """Gauss-Legendre in x = cos t, where the square-root edge is smooth."""
-    layer = Material(3e9, 0.3)
-    t = 0.5 * np.pi * (1.0 + GAUSS)
-    for limit in (
-        thick_layer(2e-4, 0.01, 1e-3, layer, "bonded"),
-        thin_compressible_layer(5e-3, 0.01, 1e-3, layer, "bonded"),
-        thin_incompressible_layer(5e-3, 0.01, 1e-3, 3e9),
-    ):
-        pressure = limit.pressure(limit.half_width * np.cos(t))
-        load = 0.5 * np.pi * limit.half_width * np.sum(WEIGHT * np.sin(t) * pressure)
-        assert limit.load_per_length == pytest.approx(load, rel=1e-13)
-        assert limit.pressure([0.0, -2.0, 1.0]) == pytest.approx([limit.peak_pressure, 0.0, 0.0])
-
-
-def test_thin_layers_follow_from_their_own_equations():
-    """Springs under the cylinder; and squeezed sideways, u = -(t^3/E) p'' (incompressible)."""
-    springs = thin_compressible_layer(5e-3, 0.01, 1e-3, Material(3e9, 0.3), "frictionless")
-    x = np.array([0.0, 1e-3, 4e-3])
-    sunk = springs.approach - x**2 / 0.02
-    assert springs.pressure(x) == pytest.approx(3e9 / (1.0 - 0.09) * sunk / 1e-3)
-
-    flowing = thin_incompressible_layer(5e-3, 0.01, 1e-3, 3e9)
-    step = 1e-5
-    bend = (
-        flowing.pressure(x + step) - 2.0 * flowing.pressure(x) + flowing.pressure(x - step)
-    ) / step**2
-    assert -(1e-3**3) / 3e9 * bend == pytest.approx(flowing.approach - x**2 / 0.02, rel=1e-4)
 
 
 def test_what_makes_no_sense_is_refused():

@@ -32,6 +32,7 @@ COUNT = 512  # nodes of a rough line
 FEW = 48  # nodes that bounded least squares solve at once
 SLOPE = 0.05  # rms
 LOAD = 0.02 * SLOPE * COUNT  # [N/m] on nodes 1 m apart, modulus 1 Pa
+TRACE = 1e-3 / COUNT  # [m] pitch of a trace of 1 mm
 Shape = Callable[[int], np.ndarray]
 
 
@@ -143,17 +144,6 @@ def wave_findings(share: float) -> Findings:
     return contact.findings(*figures)
 
 
-def slope_findings(rms_slope: float) -> Findings:
-    """Steep roughness: the linear theory's pressures are in proportion to the slope."""
-    height = rough(COUNT, rms_slope)
-    load = 0.02 * rms_slope * COUNT
-    steep, gentle = pressed(height, load), pressed(height * 1e-3, 1e-3 * load)
-    return steep.findings(
-        deviation(steep.pressure, 1e3 * gentle.pressure, "pressure", SAME, "a thousandth of it"),
-        dense_violation(steep, 1.0),
-    )
-
-
 def mirrored_findings() -> Findings:
     contact = pressed(rough(COUNT), LOAD)
     behind, reference = mirrored(contact), "its mirror image"
@@ -164,31 +154,21 @@ def mirrored_findings() -> Findings:
     )
 
 
-def unit_findings(metre: float, pascal: float, same: float) -> Findings:
-    """All lengths times `metre`, all stresses times `pascal`; `same` is how well figures agree."""
+def scaled_findings(metre: float, pascal: float, same: float, slope: float = 1.0) -> Findings:
+    """All lengths times `metre`, all stresses times `pascal`, all slopes times `slope`, to which
+    pressures are in proportion; `same` is how well figures agree."""
     usual = pressed(rough(COUNT), LOAD)
-    other = pressed(rough(COUNT) * metre, LOAD * metre * pascal, metre, pascal)
+    height, load = rough(COUNT) * metre * slope, LOAD * metre * pascal * slope
+    other, reference = pressed(height, load, metre, pascal), "the ordinary line"
     length = other.contact_length / usual.contact_length
     approach = other.solution.approach / usual.solution.approach
     spent, most = (each.solution.iterations["applications"] for each in (other, usual))
+    pressure = other.pressure / (pascal * slope)
     return other.findings(
-        deviation(other.pressure / pascal, usual.pressure, "pressure", same, "in metres"),
-        relative_error("contact length", length, metre, max(1e2 * same, 1e-15), "in metres"),
-        relative_error("approach", approach, metre, same, "in metres"),
-        BoundedFigure("applications", spent / most, 1.0, "in metres", low=1.0),
-    )
-
-
-def amplitude_findings(amplitude: float) -> Findings:
-    """Heights of `amplitude` [m], peak to valley, on a trace of 1 mm, under a load to match."""
-    height, pitch = rough(COUNT), 1e-3 / COUNT
-    factor = amplitude / float(np.ptp(height))
-    usual, other = pressed(height, LOAD), pressed(height * factor, LOAD * factor, pitch)
-    length = other.contact_length / usual.contact_length
-    scaled = other.pressure / (factor / pitch)
-    return other.findings(
-        deviation(scaled, usual.pressure, "pressure", SAME, "amplitude 1"),
-        relative_error("contact length", length, pitch, 1e-7, "amplitude 1"),
+        deviation(pressure, usual.pressure, "pressure", same, reference),
+        relative_error("contact length", length, metre, max(1e2 * same, 1e-15), reference),
+        relative_error("approach", approach, metre * slope, same, reference),
+        BoundedFigure("applications", spent / most, 1.0, reference, low=1.0),
     )
 
 
@@ -217,14 +197,18 @@ def cases() -> Groups:
             "sinusoid, just closed": partial(wave_findings, 1.0 + 1e-4),
             "sinusoid, 1e6 times closing": partial(wave_findings, 1e6),
         },
-        "slope": {f"rms slope {slope:g}": partial(slope_findings, slope) for slope in (1e-6, 1.0)},
+        "slope": {
+            f"rms slope {slope:g}": partial(scaled_findings, 1.0, 1.0, SAME, slope / SLOPE)
+            for slope in (1e-6, 1.0)
+        },
         "mirror": {"profile reversed": mirrored_findings},
         "amplitude": {
-            f"amplitude {amplitude:g} m": partial(amplitude_findings, amplitude)
+            f"amplitude {amplitude:g} m": partial(scaled_findings, TRACE, 1.0, SAME, times)
             for amplitude in (1e-12, 1e-9, 1e-6, 1e-3, 1.0)
+            for times in (amplitude / TRACE / float(np.ptp(rough(COUNT))),)
         },
         "units": {
-            name: partial(unit_findings, metre, pascal, same)
+            name: partial(scaled_findings, metre, pascal, same)
             for name, metre, pascal, same in (
                 ("lengths in 2^-40 m, to the last bit", 2.0**-40, 1.0, 0.0),
                 ("stresses in 2^50 Pa, to the last bit", 1.0, 2.0**50, 0.0),

@@ -27,7 +27,7 @@ from comparisons.studies.robustness.cases import (
     stresses,
 )
 
-SLOW = ("1000000 p", "65536 points", "a line of hats")
+SLOW = ("1000000 p", "65536 points")
 
 
 @pytest.mark.parametrize("module", [smooth, rough, friction, layers, stresses, algebra])
@@ -47,7 +47,10 @@ def test_a_broken_kernel_fails_the_rows(monkeypatch, row_of):
     for each in cached:
         each.cache_clear()
     try:
-        broken = row_of(smooth, "ordinary: steel on steel"), row_of(rough, "rms slope 1")
+        broken = (
+            row_of(smooth, "ordinary: steel on steel"),
+            row_of(rough, "two equal highest peaks, heavy"),
+        )
         mirror = row_of(rough, "profile reversed")
     finally:
         for each in cached:
