@@ -216,7 +216,15 @@ def test_columns_and_arrays_are_those_that_the_files_hold(mine, folder):
         assert said["`<model>/contact.csv`"].split(", ") == header.split(",")
         arrays = meshio.read(out / model / "stress.vtu").point_data
         listed = said["`<model>/stress.vtu`"].partition(", for")[0].replace(" [Pa]", "").split(", ")
-        assert list(dict.fromkeys(name.partition(" (")[0] for name in arrays)) == listed
+        held = list(dict.fromkeys(name.partition(" (")[0] for name in arrays))
+        assert held[: len(listed)] == listed
+        # what the finite elements' have besides stands in the user guide
+        beside = [f"{who}_{name}" for name in listed[:-1] for who in ("half_plane", "difference")]
+        more = ["displacement", *beside] if model == "finite_element" else []
+        assert held[len(listed) :] == more
+        guide = (PROJECT / "comparisons/docs/user_guide.md").read_text(encoding="utf-8")
+        for name in ("displacement", "half_plane_tau1", "difference_tau1"):
+            assert f"`{name}`" in guide
 
 
 def test_a_stranger_reads_it_in_one_sitting():

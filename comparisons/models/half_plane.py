@@ -2,12 +2,17 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
+from analytic.stress.elements import FrictionStress
 from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
+from analytic.stress.points import friction_stress_at
+from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult
 from comparisons.models.nearest_operator import solve_on
@@ -93,3 +98,15 @@ def _stresses(
         maxima = {"tau1": found.cells["tau1"], "txz": found.cells["txz_abs"]}
         results.append(StressResult(friction, extremes, shown.at(friction).stress, maxima))
     return tuple(results)
+
+
+def stresses_at(
+    problem: Problem, level: Level, frictions: tuple[float, ...], x: np.ndarray, z: np.ndarray
+) -> dict[float, StressState]:
+    """A solved level's stresses by friction coefficient at x, z (n,) [m]; NaN where z < 0."""
+    below, parts = z >= 0.0, np.full((4, len(x)), np.nan)
+    at = x[below], z[below]
+    given = level.grid.x, level.solution.pressure
+    ends = ends_of(problem, level.grid, level.solution)
+    parts[:, below] = friction_stress_at(*given, *at).plus(ends.parts(*at)).parts
+    return {friction: FrictionStress.of(parts).at(friction) for friction in frictions}

@@ -58,11 +58,12 @@ def highest(maxima: np.ndarray) -> Extremum:
 
 @dataclass(frozen=True)
 class MeshField:
-    """A finite-element level's own mesh, with stresses at its points, one set a friction.
+    """A finite-element level's own mesh, with stresses and displacements, one set a friction.
 
     points          (n, 2) x and z [m] of the real body; twice where two materials meet
     triangles       (m, 6) quadratic triangles in gmsh order
     stresses        by friction coefficient, (n,) each
+    displacement    by friction coefficient, (n, 2) [m] in x and z, zero where the body is held
     poissons_ratio  (n,) of the material at each point
     others          further fields (n,) by name with their unit: what plastic flow leaves
     """
@@ -70,6 +71,7 @@ class MeshField:
     points: np.ndarray
     triangles: np.ndarray
     stresses: dict[float, StressState]
+    displacement: dict[float, np.ndarray]
     poissons_ratio: np.ndarray
     others: dict[str, np.ndarray] = field(default_factory=dict)
 
@@ -108,7 +110,10 @@ class RecoverableField:
         stresses = (StressState(*each.values.T) for each in found)
         nodes, nu = found[0].nodes, found[0].poissons_ratio
         by_friction = dict(zip(self.frictions, stresses, strict=True))
-        return MeshField(body.points[nodes.point], nodes.triangles, by_friction, nu)
+        moved = body.at_points(np.moveaxis(self.displacement, 1, 0))[:, nodes.point]
+        displacement = dict(zip(self.frictions, moved, strict=True))
+        points = body.points[nodes.point]
+        return MeshField(points, nodes.triangles, by_friction, displacement, nu)
 
 
 @dataclass(frozen=True)

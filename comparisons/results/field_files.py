@@ -1,12 +1,13 @@
-"""The stress field of a model as a file that other programs open.
+"""Stresses and displacements of a model as a file that other programs open.
 
 vtu      ParaView, PyVista, meshio
 vtkhdf   ParaView and PyVista; HDF5, read in pieces: for large fields
 msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
 
 Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
-they are field data of bytes, since meshio takes no text there: bytes(data["scene"]).decode(). In
-a vtkhdf they are texts. In a msh they stand in a section $Comments.
+they are field data of bytes, bytes(data["scene"]).decode(): meshio opens no file with a text there.
+In a vtkhdf they are texts. In a msh they stand in a section $Comments. The scene stands as text in
+contact.csv beside them, too.
 """
 
 import json
@@ -19,7 +20,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from analytic.stress_state import StressState
+from comparisons.models.half_plane import stresses_at
 from comparisons.models.level import Level
+from comparisons.models.problem import Problem
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ResolvedScene
 
@@ -28,8 +31,9 @@ if TYPE_CHECKING:
 
 AUTOMATIC = "auto"
 LARGE = 2_000_000  # points from which a field goes to vtkhdf unless the caller says otherwise
-# [Pa]; and the direction of s1, the largest principal stress in the plane, as a vector
-STRESSES = ("sx", "sz", "sy", "txz", "tau1", "von_mises", "s1_direction")
+COMPONENTS = ("sx", "sz", "sy", "txz", "tau1", "von_mises")  # [Pa]
+# with the direction of s1, the largest principal stress in the plane, as a vector
+STRESSES = (*COMPONENTS, "s1_direction")
 # Numbers that VTK and gmsh have for a kind of cell that meshio knows by name.
 CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
 
@@ -68,10 +72,14 @@ def scene_text(scene: ResolvedScene) -> str:
 def field_of(outcome: Outcome, level: Level) -> FieldFile:
     """Stresses at the points of a model's level, as STRESSES.
 
+    On a mesh of finite elements also their `displacement`, a vector (n, 3) [m] in the axes of the
+    points, zero where the body is held; and, in single precision, `half_plane_` and `difference_`
+    COMPONENTS: the half-plane's stresses at the same points, and these less the finite elements'.
     Of several friction coefficients each array has its own in the name. Where the body yields there
     are also what flow leaves behind when the roller is gone.
     """
-    nu = outcome.problem.scene.body.poissons_ratio
+    scene = outcome.problem.scene
+    nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh
     if on_mesh is not None:
         plane, stresses = on_mesh.points, on_mesh.stresses
@@ -88,23 +96,59 @@ def field_of(outcome: Outcome, level: Level) -> FieldFile:
         corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
         cells = np.column_stack([corner, corner + 1, corner + columns + 1, corner + columns])
         kind = "quad"
-    arrays = _arrays(stresses, nu)
-    units = {"points": "m"} | {name: "1" if v.ndim > 1 else "Pa" for name, v in arrays.items()}
+    arrays = _named(stresses, lambda s: _components(s, nu) | {"s1_direction": _direction(s)})
     if on_mesh is not None:
+        arrays |= _named(on_mesh.displacement, lambda u: {"displacement": _in_space(u)})
         arrays |= on_mesh.others
-        units |= {name: "1" if "strain" in name else "Pa" for name in on_mesh.others}
-    points = np.pad(plane, ((0, 0), (0, 1)))
-    scene = outcome.problem.scene
-    return FieldFile(points, kind, cells, arrays, units, scene.title, scene_text(scene))
+        half_plane = outcome.runs.get("half_plane")
+        if half_plane is not None:
+            arrays |= _beside(outcome.problem, half_plane.beside(level), plane, stresses, arrays)
+    units = {"points": "m"} | {name: _unit(name) for name in arrays}
+    return FieldFile(_in_space(plane), kind, cells, arrays, units, scene.title, scene_text(scene))
 
 
-def _arrays(stresses: Mapping[float, StressState], nu: float | np.ndarray) -> dict:
-    found = {}
-    for friction, s in stresses.items():
-        suffix = f" (friction {friction:g})" if len(stresses) > 1 else ""
-        values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu), _direction(s))
-        found |= {name + suffix: v for name, v in zip(STRESSES, values, strict=True)}
-    return found
+def _named(by_friction: Mapping, arrays: Callable[..., dict]) -> dict[str, np.ndarray]:
+    """The arrays of every friction coefficient, which is in their names where there are several."""
+    suffix = " (friction {:g})" if len(by_friction) > 1 else ""
+    return {
+        name + suffix.format(friction): values
+        for friction, of in by_friction.items()
+        for name, values in arrays(of).items()
+    }
+
+
+def _unit(name: str) -> str:
+    if name.startswith("displacement"):
+        return "m"
+    return "1" if "strain" in name or name.startswith("s1_") else "Pa"
+
+
+def _in_space(plane: np.ndarray) -> np.ndarray:
+    """x, z, 0 (n, 3) from x, z (n, 2)."""
+    return np.pad(plane, ((0, 0), (0, 1)))
+
+
+def _components(s: StressState, nu: float | np.ndarray) -> dict[str, np.ndarray]:
+    values = (s.sx, s.sz, s.sy(nu), s.txz, s.tau1, s.von_mises(nu))
+    return dict(zip(COMPONENTS, values, strict=True))
+
+
+def _beside(
+    problem: Problem,
+    half_plane: Level,
+    plane: np.ndarray,
+    stresses: Mapping[float, StressState],
+    own: Mapping[str, np.ndarray],
+) -> dict[str, np.ndarray]:
+    """The half-plane's stresses at points (n, 2) and their difference; NaN above the mean line."""
+    found = stresses_at(problem, half_plane, tuple(stresses), *plane.T)
+    nu = problem.scene.body.poissons_ratio
+    arrays = _named(found, lambda s: _components(s, nu))
+    return {
+        before + name: values.astype(np.float32)
+        for name, array in arrays.items()
+        for before, values in (("half_plane_", array), ("difference_", array - own[name]))
+    }
 
 
 def _direction(stress: StressState) -> np.ndarray:

@@ -114,7 +114,9 @@ def level_of(problem: Problem, name: str, pitch: float, window: Window | None) -
     if mesh is not None and window is not None:
         zero = np.zeros(len(mesh.points))
         nodal = {friction: StressState(zero, zero, zero) for friction in problem.scene.friction}
-        mesh_field = MeshField(mesh.points, mesh.triangles, nodal, np.full(len(mesh.points), 0.3))
+        moved = dict.fromkeys(problem.scene.friction, 0.001 * mesh.points[:, ::-1])
+        nu = np.full(len(mesh.points), 0.3)
+        mesh_field = MeshField(mesh.points, mesh.triangles, nodal, moved, nu)
     return Level(
         grid=grid,
         solution=solution,

@@ -81,6 +81,7 @@ def pressed_finitely(
         lambda frictions: (nodal,) * len(frictions),
         patches,
         others,
+        moved=found.displacement,
     )
     return on_undeformed_grid(problem, grid, found.place, depth, loaded)
 
@@ -152,5 +153,11 @@ def pressed_plastically(
     stress = at_mesh_points(rough.body, fields.stress)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return LoadedBody(
-        rough.body, solution, own, lambda frictions: (stress,) * len(frictions), patches, others
+        rough.body,
+        solution,
+        own,
+        lambda frictions: (stress,) * len(frictions),
+        patches,
+        others,
+        moved=loaded.displacement,
     )

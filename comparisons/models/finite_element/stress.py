@@ -30,6 +30,7 @@ class LoadedBody:
     stresses      one for each of some friction coefficients
     patches       (k, 2) [m] contact patches
     others        further fields at the mesh's points (n,), by name
+    moved         (n, 2) [m] at the nodes of the displacement; None: the stresses have it
     on_mesh       what stresses at all points of the mesh are recovered from, by displacements and
                   friction coefficients; None: these stresses are known already
     material      (count,) [m] where what now stands at the grid's nodes stood without load; None:
@@ -44,6 +45,7 @@ class LoadedBody:
     others: dict[str, np.ndarray] = field(default_factory=dict)
     material: np.ndarray | None = None
     on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
+    moved: np.ndarray | None = None
 
 
 def pressed_linearly(
@@ -159,9 +161,15 @@ def _stresses_of(
         results.append(StressResult(friction, extremes, on_window, found))
     if not on_mesh:
         return tuple(results), None
+    if pressed.moved is None:
+        moved = nodal[0].together[0].displacement
+    else:
+        moved = np.stack([pressed.moved] * len(frictions), axis=1)
     if pressed.on_mesh is not None:
-        return tuple(results), pressed.on_mesh(nodal[0].together[0].displacement, frictions)
+        return tuple(results), pressed.on_mesh(moved, frictions)
     stresses = {mu: StressState(*each.values.T) for mu, each in zip(frictions, nodal, strict=True)}
     nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
-    points = body.points[nodes.point]
-    return tuple(results), MeshField(points, nodes.triangles, stresses, nu, pressed.others)
+    at_nodes = body.at_points(np.moveaxis(moved, 1, 0))[:, nodes.point]
+    displacement = dict(zip(frictions, at_nodes, strict=True))
+    given = body.points[nodes.point], nodes.triangles, stresses, displacement, nu
+    return tuple(results), MeshField(*given, pressed.others)

@@ -9,10 +9,19 @@ import numpy as np
 import pytest
 import pyvista
 
+from analytic.exact.hertz import hertz_from_load, hertz_stress
 from comparisons.common.provenance import versions
 from comparisons.common.quantities import MODELS
+from comparisons.models.half_plane import stresses_at
 from comparisons.results import field_files as fields
-from comparisons.results.field_files import CELL_TYPES, FORMATS, STRESSES, field_of, write_field
+from comparisons.results.field_files import (
+    CELL_TYPES,
+    COMPONENTS,
+    FORMATS,
+    STRESSES,
+    field_of,
+    write_field,
+)
 from comparisons.runs.write import write_contact, write_mesh
 
 
@@ -43,7 +52,16 @@ def quietly(program: str, *arguments: object) -> str:
 
 
 def names(field) -> list[str]:
-    return [f"{name} (friction {mu})" for mu in ("0", "0.1") for name in STRESSES]
+    """Of the arrays: on the finite elements' mesh there are more."""
+    named = [STRESSES]
+    if field.kind == "triangle6":
+        beside = "half_plane", "difference"
+        named += [("displacement",), [f"{who}_{name}" for name in COMPONENTS for who in beside]]
+    return [f"{name} (friction {mu})" for some in named for mu in ("0", "0.1") for name in some]
+
+
+def unit_of(name: str) -> str:
+    return "m" if name.startswith("displacement") else "1" if name.startswith("s1_") else "Pa"
 
 
 OPENED = """
@@ -82,6 +100,17 @@ def test_vtu_in_meshio(field, tmp_path):
     assert notes == field.notes
 
 
+def test_meshio_takes_no_text(field, tmp_path, capsys):
+    """Why the notes of a vtu are bytes: with a text in it, a file is none that meshio opens."""
+    grid = pyvista.read(write_field(tmp_path, field))
+    grid.field_data["said"] = ["text"]
+    grid.save(tmp_path / "text.vtu", binary=True)
+    assert pyvista.read(tmp_path / "text.vtu").field_data["said"][0] == "text"
+    with pytest.raises(SystemExit):
+        meshio.read(tmp_path / "text.vtu")
+    assert "Illegal data type 'String'" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("ending", ["vtu", "vtkhdf"])
 def test_vtk_files_in_pyvista(field, tmp_path, ending):
     from vtkmodules.vtkCommonCore import vtkDataArray
@@ -91,7 +120,7 @@ def test_vtk_files_in_pyvista(field, tmp_path, ending):
     assert sorted(grid.point_data) == sorted(called)
     for name, shown in zip(names(field), called, strict=True):
         unit = field.units[name]
-        assert unit == ("1" if name.startswith("s1_") else "Pa")
+        assert unit == unit_of(name)
         assert np.array_equal(grid.point_data[shown], field.arrays[name])
         information = grid.GetPointData().GetArray(shown).GetInformation()
         if ending == "vtu":  # of a vtkhdf the units are in its notes alone
@@ -139,6 +168,39 @@ def test_mesh_and_fields_lie_in_one_plane(outcome, tmp_path):
         points = field_of(outcome, each.finest).points
         assert not points[:, 2].any() and not mesh[:, 2].any()
         assert mesh[:, 1].min() <= points[:, 1].min() and points[:, 1].max() <= mesh[:, 1].max()
+
+
+def test_one_file_holds_both_models_and_their_difference(outcome):
+    """At the finite elements' nodes, against Hertz's closed form between the nodes of pressure."""
+    problem, run = outcome.problem, outcome.runs["finite_element"]
+    field = field_of(outcome, run.finest)
+    x, z, _ = field.points.T
+    hertz = hertz_from_load(problem.hertz.load_per_length, 0.01, problem.modulus)
+    for friction in (0.0, 0.1):
+        exact = hertz_stress(hertz, x, z, friction)
+        values = exact.sx, exact.sz, exact.sy(0.25), exact.txz, exact.tau1, exact.von_mises(0.25)
+        for name, value in zip(COMPONENTS, values, strict=True):
+            named = f"{name} (friction {friction:g})"
+            half_plane = field.arrays[f"half_plane_{named}"]
+            difference = field.arrays[f"difference_{named}"]
+            assert half_plane.dtype == difference.dtype == np.float32
+            assert np.abs(half_plane - value).max() < 2e-3 * hertz.peak_pressure
+            rounding = 1e-6 * hertz.peak_pressure
+            assert half_plane - field.arrays[named] == pytest.approx(difference, abs=rounding)
+
+
+def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
+    level = outcome.runs["half_plane"].finest
+    found = stresses_at(outcome.problem, level, (0.1,), np.zeros(3), np.array([-1e-9, 0.0, 1e-6]))
+    assert np.isnan(found[0.1].tau1).tolist() == [True, False, False]
+    assert found[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
+
+
+def test_displacements_lie_in_the_plane_of_the_points(outcome):
+    field = field_of(outcome, outcome.runs["finite_element"].finest)
+    for friction in ("0", "0.1"):
+        moved = field.arrays[f"displacement (friction {friction})"]
+        assert np.array_equal(moved, 1e-3 * field.points[:, [1, 0, 2]])
 
 
 IN_GMSH = """
