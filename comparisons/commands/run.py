@@ -1,6 +1,7 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -21,6 +22,9 @@ from comparisons.common.mpi import from_first, is_first
 from comparisons.common.quantities import HYPHENATED, models_named
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from concurrent.futures import Executor
+
     from comparisons.scenes.scene import ResolvedScene
 
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
@@ -46,6 +50,10 @@ def run(
     junit: Annotated[
         Path | None, typer.Option(help="File for JUnit XML: a testcase for each judged figure.")
     ] = None,
+    workers: Annotated[
+        str | None,
+        typer.Option(help="A Dask scheduler's address: it solves the samples of [scatter]."),
+    ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
@@ -69,9 +77,9 @@ def run(
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
         _say_first_answer(resolved)
-    with progress() as callback:
+    with progress() as callback, _cluster(workers) as executor:
         try:
-            outcome = run_scene(resolved, directory, chosen, callback, fields)
+            outcome = run_scene(resolved, directory, chosen, callback, fields, executor)
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
         if pdf and is_first():
@@ -88,6 +96,18 @@ def run(
         show(summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
+
+
+@contextmanager
+def _cluster(address: str | None) -> "Iterator[Executor | None]":
+    """The executor of a Dask scheduler, None without one."""
+    if address is None:
+        yield None
+        return
+    from comparisons.studies.points import cluster
+
+    with cluster(address) as pool:
+        yield pool.executor
 
 
 def _say_warnings(warnings: list[str]) -> None:

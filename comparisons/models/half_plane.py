@@ -29,11 +29,12 @@ def expected_of(count: int) -> ExpectedCost:
 
 
 def half_plane_level(
-    problem: Problem, pitch: float, window: Window | None, stages: Stages
+    problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
 ) -> Level:
-    """Solve one level: contact, and where asked for the stresses on the window."""
+    """Solve one level: contact, and where asked for the stresses inside the window; without
+    `fields` their largest values alone."""
     frictions, grid = problem.scene.friction, problem.grid(pitch)
-    return half_plane_on(problem, grid, problem.coupling, frictions, window, stages)
+    return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
 
 
 def half_plane_on(
@@ -43,6 +44,7 @@ def half_plane_on(
     frictions: tuple[float, ...],
     window: Window | None,
     stages: Stages,
+    fields: bool = True,
 ) -> Level:
     """The half-plane on any pressure elements.
 
@@ -66,16 +68,17 @@ def half_plane_on(
     if window is None:
         return replace(level, peak_memory=peak_memory())
     with stages.stage("stresses", "half-plane: stresses"):
-        stresses = _stresses(problem, frictions, level, window)
+        stresses = _stresses(problem, frictions, level, window, fields)
     return replace(level, stresses=stresses, peak_memory=peak_memory())
 
 
 def _stresses(
-    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window
+    problem: Problem, frictions: tuple[float, ...], level: Level, window: Window, fields: bool
 ) -> tuple[StressResult, ...]:
-    """Fields on the window and extremes off the grid, one set for each friction coefficient."""
+    """Extremes off the grid and, where asked for, `fields` on the window, one set for each friction
+    coefficient."""
     x, pressure = level.grid.x, level.solution.pressure
-    shown, searched = (
+    *shown, searched = (
         friction_field(
             x,
             pressure,
@@ -84,11 +87,11 @@ def _stresses(
             subdivisions=points.subdivisions(level.grid.pitch),
             stride=points.stride(level.grid.pitch),
         )
-        for points in (window, search_window(problem, window))
+        for points in (*([window] if fields else []), search_window(problem, window))
     )
     ends = ends_of(problem, level.grid, level.solution)
-    shown, searched = (
-        replace(f, stress=f.stress.plus(ends.parts(f.x, f.z[:, None]))) for f in (shown, searched)
+    *shown, searched = (
+        replace(f, stress=f.stress.plus(ends.parts(f.x, f.z[:, None]))) for f in (*shown, searched)
     )
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
@@ -96,7 +99,8 @@ def _stresses(
         found = stress_maxima(x, pressure, friction, searched.at(friction), nu, **how)
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
         maxima = {"tau1": found.cells["tau1"], "txz": found.cells["txz_abs"]}
-        results.append(StressResult(friction, extremes, shown.at(friction).stress, maxima))
+        field = shown[0].at(friction).stress if shown else None
+        results.append(StressResult(friction, extremes, field, maxima))
     return tuple(results)
 
 

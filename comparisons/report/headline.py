@@ -9,6 +9,7 @@ from comparisons.assessment.effects.selection import law_leaned_on
 from comparisons.assessment.verdict import ToleranceCheck, validity_verdict
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
+from comparisons.report.tables.scatter import beside_inputs
 from comparisons.report.tables.text import error_text
 from comparisons.report.tables.yielding import flow_sentence
 from comparisons.results.outcome import Outcome
@@ -32,7 +33,20 @@ def headline(outcome: Outcome) -> Headline:
     if outcome.plan.compares and outcome.flow.beyond_doubt:
         rest = f"{said.sentence[0].lower()}{said.sentence[1:]}"
         return Headline("fails", f"{_sentence(flow)} Were it elastic: {rest}")
-    return Headline(said.kind, f"{said.sentence} {_sentence(flow)}")
+    return Headline(said.kind, f"{said.sentence} {_inputs(outcome)}{_sentence(flow)}")
+
+
+def _inputs(outcome: Outcome) -> str:
+    """What uncertain inputs do to the figure that decides, where that is more than its tolerance:
+    a model error below that is not what a user would see first."""
+    checks = outcome.tolerance_checks
+    if outcome.scatter is None or not checks:
+        return ""
+    check = _nearest(checks)
+    figure = outcome.scatter.of(check.quantity, check.friction)
+    if figure is None or figure.relative <= check.tolerance:
+        return ""
+    return beside_inputs(outcome, check.quantity, check.friction) + " "
 
 
 def _sentence(text: str) -> str:

@@ -24,6 +24,7 @@ from comparisons.report.tables.comparison import comparison_rows, coupling_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.tables.scatter import scatter_table
 from comparisons.report.tables.text import is_shown
 from comparisons.report.tables.verification import (
     check_table,
@@ -79,6 +80,8 @@ def render(outcome: Outcome) -> str:
         words=WORDS,
         domain=outcome.plan.domain_check,
         coupling=coupling_table(outcome),
+        scatter=scatter_table(outcome),
+        samples=outcome.scatter,
         model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),

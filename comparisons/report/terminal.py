@@ -14,6 +14,7 @@ from comparisons.report.headline import headline
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
 from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
+from comparisons.report.tables.scatter import scatter_lines
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
 
@@ -40,6 +41,7 @@ LISTED = 2  # effects in the terminal; the report has them all
 ABOVE = 1.05  # times the hardness of running-in: a peak that it should have flattened
 # Any terminal shows these.
 PLAIN = str.maketrans("µ²−–₀₁×", "u2--01x") | {ord("τ"): "tau", ord("ν"): "nu", ord("β"): "beta"}
+PLAIN |= {ord("±"): "+-"}
 
 
 def summary(outcome: Outcome) -> "RenderableType":
@@ -173,6 +175,7 @@ def _facts(outcome: Outcome) -> "Table":
         moves = [row for row in model_error_rows(outcome, judged=True) if row.moved]
         said = (f"{SHORT[row.quantity]}, friction {row.friction}: {row.moved}" for row in moves)
         rows += [("another asperity", line) for line in said]
+    rows += [("inputs", line) for line in scatter_lines(outcome)]
     if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
     if (flow := outcome.flow).ratio is not None:

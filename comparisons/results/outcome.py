@@ -7,6 +7,7 @@ from pathlib import Path
 from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
+from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.assessment.yielding import FlowAssessment, flow_assessment
 from comparisons.common.errors import ExitStatus
@@ -33,6 +34,7 @@ class Outcome:
     budget       of the difference, None for one model
     pairs        the norms of the difference on all levels, one a friction coefficient; empty for
                  one model
+    scatter      what uncertain inputs do, None without [scatter]
     """
 
     problem: Problem
@@ -46,6 +48,7 @@ class Outcome:
     couplings: tuple[Coupling, ...] = ()
     budget: ErrorBudget | None = None
     pairs: tuple[PairHistory, ...] = ()
+    scatter: InputScatter | None = None
 
     @cached_property
     def forecast(self) -> Forecast:

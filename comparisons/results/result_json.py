@@ -9,6 +9,7 @@ from comparisons.assessment.effects.catalogue import COUPLED, EFFECTS, KINEMATIC
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.effects.selection import law_leaned_on
 from comparisons.assessment.normal_tangential_coupling import Coupling
+from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.sideways import sideways_shift
 from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.assessment.verdict import Comparison, validity_verdict
@@ -31,12 +32,14 @@ def result_of(
     refinement: str,
     couplings: tuple[Coupling, ...] = (),
     budget: ErrorBudget | None = None,
+    scatter: InputScatter | None = None,
 ) -> dict:
     """All figures of a run: SI units, None for what is unknown.
 
     refinement  why it stopped
     couplings   of the half-plane, one a friction coefficient
     budget      of the comparison, None for one model
+    scatter     of uncertain inputs
     """
     hertz = problem.hertz
     tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
@@ -73,6 +76,8 @@ def result_of(
         "comparison": {name: rows for name, rows in by_quantity.items() if rows},
         "model_error": {} if budget is None else model_error_content(problem, runs, budget),
         "error_budget": budget and error_budget_content(problem, runs, comparisons, budget),
+        "scatter": scatter and scatter.by_quantity(),
+        "scatter_samples": scatter and scatter.counts(),
         "yield": flow.as_dict(),
         "validity": {"verdict": verdict, "why": why, "assumes": list(plan.assumptions)},
         "plan": forecast(problem, plan).as_dict(),

@@ -1,5 +1,7 @@
 """One scene from start to end: plan, both models level by level, comparison, files."""
 
+from collections.abc import Callable
+from concurrent.futures import Executor
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,6 +14,7 @@ from comparisons.assessment.effects.error_budget import (
 )
 from comparisons.assessment.normal_tangential_coupling import Coupling, couplings
 from comparisons.assessment.refinement import refined
+from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
@@ -20,7 +23,7 @@ from comparisons.common.progress import ProgressCallback, Stages, no_progress, w
 from comparisons.common.provenance import digest
 from comparisons.common.tasks import Tasks, tasks_of_a_run
 from comparisons.models.forecast import forecast
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -45,12 +48,14 @@ def run(
     models: tuple[str, ...],
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
+    executor: Executor | None = None,
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
     models    of half_plane, finite_element
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
+    executor  solves the samples of the scene's [scatter]; None: this machine's cores
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution; nothing is written then.
     """
@@ -64,7 +69,7 @@ def run(
             problem = _problem(scene, models, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        return solve(problem, plan, out, callback, fields)
+        return solve(problem, plan, out, callback, fields, executor)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except FemError as error:
@@ -108,19 +113,22 @@ def solve(
     out: Path | None,
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
+    executor: Executor | None = None,
 ) -> Outcome:
     """Carry out a plan, as `run` does with the plan that suits the problem."""
     window = window_of(problem) if plan.stress else None
     cache = level_cache(out, problem.scene, plan)
     try:
         with tasks_of_a_run(within(callback, 0.0, SOLVED), problem.scene.budget.memory) as tasks:
+            scattered = _announce_scatter(problem, plan, cache, tasks, executor)
             runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
+            scatter = scattered and scattered(runs["half_plane"].finest)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
         cache.discard()
         raise
-    result = result_of(problem, plan, runs, rows, stop, moved, budget)
+    result = result_of(problem, plan, runs, rows, stop, moved, budget, scatter)
     hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
     run_in = problem.scene.run_in
     if run_in is not None:
@@ -137,6 +145,7 @@ def solve(
         couplings=moved,
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
+        scatter=scatter,
     )
     try:
         if out is not None:
@@ -145,6 +154,17 @@ def solve(
         raise _interrupted(out) from None
     cache.discard()
     return outcome
+
+
+def _announce_scatter(
+    problem: Problem, plan: Plan, cache: Cache, tasks: Tasks, executor: Executor | None
+) -> Callable[[Level], InputScatter] | None:
+    """Begin with the samples of uncertain inputs; what is returned waits. None without any."""
+    if problem.scene.scatter is None or "half_plane" not in plan.models:
+        return None
+    from comparisons.assessment.scatter.study import announce_scatter
+
+    return announce_scatter(problem, cache, tasks, executor)
 
 
 def solved(

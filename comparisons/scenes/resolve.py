@@ -23,6 +23,7 @@ from comparisons.scenes.scene import (
 )
 from comparisons.scenes.schema.finite_element import settings_of
 from comparisons.scenes.schema.running_in import running_in_of
+from comparisons.scenes.schema.scatter import scatter_of
 from comparisons.scenes.schema.scene import (
     BodySection,
     CoatingSection,
@@ -119,6 +120,7 @@ def resolve_tables(
         resolution=Resolution(**dict(scene.resolution)),
         budget=Budget(**dict(scene.budget)),
         tables=plain,
+        scatter=scene.scatter and scatter_of(scene.scatter),
     )
 
 

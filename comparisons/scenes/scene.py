@@ -17,6 +17,7 @@ from analytic.surface.roughness import Roughness
 from analytic.surface.roughness_standard import StandardRoughness
 
 MOST_LEVELS = 8  # of a run
+CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
 
 
 @dataclass(frozen=True)
@@ -195,6 +196,39 @@ class Budget:
 
 
 @dataclass(frozen=True)
+class Spread:
+    """How uncertain an input is: normal by a standard `deviation`, `relative` to the scene's own
+    value or in SI, cut off at CUT_OFF deviations; or uniform over a `range` in SI."""
+
+    deviation: float = 0.0
+    relative: bool = False
+    range: tuple[float, float] | None = None
+
+    def size(self, own: float) -> float:
+        """Standard deviation about the scene's `own` value, in SI."""
+        return self.deviation * (abs(own) if self.relative else 1.0)
+
+    def ends(self, own: float) -> tuple[float, float]:
+        """The smallest and the largest value that is sampled."""
+        far = CUT_OFF * self.size(own)
+        return self.range or (own - far, own + far)
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Uncertain inputs of a scene, by name.
+
+    samples             of each of two independent designs
+    correlation_length  [m] of the noise, 0: white
+    """
+
+    samples: int
+    seed: int
+    inputs: dict[str, Spread]
+    correlation_length: float
+
+
+@dataclass(frozen=True)
 class ResolvedScene:
     """Everything one run needs.
 
@@ -215,6 +249,7 @@ class ResolvedScene:
     tolerance        relative, by the name of the compared quantity; others are not judged
     tables           the scene file with SI numbers and every default written out: resolving
                      them again, in a folder that holds the profile's file, gives this scene
+    scatter          None: inputs are taken as exact
     run_in           what running-in did to the surface, None until it was done; then the
                      profile and its figures are those after it
     """
@@ -244,6 +279,7 @@ class ResolvedScene:
     resolution: Resolution
     budget: Budget
     tables: dict = field(repr=False)
+    scatter: Scatter | None = None
     run_in: RunIn | None = field(default=None, compare=False, repr=False)
 
     @property

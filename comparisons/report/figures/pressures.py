@@ -186,6 +186,10 @@ def draw_pressures(
             markerfacecolor="none",
             **style.LINES[name],
         )
+    if outcome.scatter is not None:
+        x, (low, high) = outcome.scatter.x, outcome.scatter.band / hertz.peak_pressure
+        shown = style.near(x, across, outcome.scatter.pitch)
+        axes.fill_between(x[shown] / unit.factor, low[shown], high[shown], **style.BAND)
     ends = np.clip([-hertz.half_width, hertz.half_width], *across)
     x = np.union1d(np.linspace(*across, 600), ends)
     smooth = hertz.pressure(x) / hertz.peak_pressure

@@ -35,6 +35,7 @@ LINES = {
 }
 REFERENCE = {"color": "#222222", "linestyle": (0, (1, 1.3)), "linewidth": 1.3}
 DIFFERENCE = {"color": "#222222", "linestyle": "-", "linewidth": 0.9}
+BAND = {"color": "#0072B2", "alpha": 0.18, "linewidth": 0.0, "label": "inputs, 95 %"}
 BODY = {"facecolor": "#dcd6cb", "edgecolor": "none"}
 ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}

@@ -4,6 +4,7 @@ What is wrong is one line: "file: section.field: problem; allowed is …".
 """
 
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Annotated, ClassVar, get_args
 
 from pydantic import ValidationError
@@ -12,7 +13,7 @@ from analytic.material import LAWS
 from comparisons.common.errors import SceneError, nearest
 from comparisons.common.quantities import QUANTITIES
 from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME, describe
-from comparisons.scenes.scene import Extent
+from comparisons.scenes.scene import Extent, Spread
 from comparisons.scenes.schema.fields import (
     ExtentField,
     FieldError,
@@ -32,6 +33,7 @@ from comparisons.scenes.schema.fields import (
 from comparisons.scenes.schema.finite_element import SEVERAL_FRICTIONS, FiniteElementSection
 from comparisons.scenes.schema.profile import ProfileSection
 from comparisons.scenes.schema.running_in import RunningInSection
+from comparisons.scenes.schema.scatter import ScatterSection
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
@@ -163,6 +165,7 @@ class SceneFile(SceneSection):
     finite_element: FiniteElementSection = FiniteElementSection()
     resolution: ResolutionSection = ResolutionSection()
     budget: BudgetSection = BudgetSection()
+    scatter: ScatterSection | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         body, load, coating = self.body, self.load, self.coating
@@ -179,6 +182,8 @@ class SceneFile(SceneSection):
             self.roller, body, load, self.profile, coating
         ):
             yield f"finite_element.{field}", problem
+        if self.scatter is not None:
+            yield from self.scatter.misfits(self)
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             given = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
             yield "coating.thickness", f"{given}; allowed is less, the body's thickness contains it"
@@ -224,6 +229,9 @@ def _plain(value: object) -> object:
         return {name: _plain(item) for name, item in pairs if item is not None}
     if isinstance(value, Extent):
         return value.value if value.in_half_widths else f"{value.value!r} m"
+    if isinstance(value, Spread):
+        per_cent = f"{100 * Decimal(repr(value.deviation))} %" if value.relative else None
+        return {"range": list(value.range)} if value.range else per_cent or value.deviation
     return [_plain(item) for item in value] if isinstance(value, tuple) else value
 
 

@@ -1,0 +1,1 @@
+"""How far uncertain inputs move the figures, and which of them does (u_input of ASME V&V 20)."""

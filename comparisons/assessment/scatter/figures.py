@@ -1,0 +1,67 @@
+"""What uncertain inputs do to the half-plane's figures, as a run keeps it."""
+
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class ScatteredFigure:
+    """A figure of the half-plane over all samples, in SI.
+
+    nominal   with every input as the scene has it, on the finest pressure elements. The samples,
+              solved on the coarsest, are scaled to it: that error is in all of them alike
+    interval  from the 2.5th to the 97.5th percentile
+    shares    of its variance, by input; None where it does not vary
+    """
+
+    quantity: str
+    friction: float
+    nominal: float
+    mean: float
+    standard_deviation: float
+    interval: tuple[float, float]
+    shares: dict[str, dict[str, float]] | None
+
+    @property
+    def relative(self) -> float:
+        """Half the interval over the nominal value."""
+        return 0.5 * (self.interval[1] - self.interval[0]) / abs(self.nominal or 1.0)
+
+
+@dataclass(frozen=True)
+class InputScatter:
+    """All figures, and the samples that they are of.
+
+    solutions  of the half-plane; `failed` of them have no answer, the first of them `why`
+    pitch      [m] of the pressure elements
+    x, band    (k,) [m] and (2, k) [Pa]: the pressure's 2.5th and 97.5th percentile at each place
+    """
+
+    figures: tuple[ScatteredFigure, ...]
+    samples: int
+    solutions: int
+    failed: int
+    why: str | None
+    pitch: float
+    x: np.ndarray = field(repr=False)
+    band: np.ndarray = field(repr=False)
+
+    def of(self, quantity: str, friction: float) -> ScatteredFigure | None:
+        """The figure of a quantity at a friction coefficient, if it has one."""
+        named = ((f.quantity, f.friction) == (quantity, friction) for f in self.figures)
+        return next((f for f, wanted in zip(self.figures, named, strict=True) if wanted), None)
+
+    def counts(self) -> dict:
+        """Of the samples, for JSON."""
+        names = ("samples", "solutions", "failed", "why", "pitch")
+        how = {"design": "Sobol, scrambled", "shares": "Saltelli et al. 2010"}
+        return {name: getattr(self, name) for name in names} | how
+
+    def by_quantity(self) -> dict[str, list[dict]]:
+        """For JSON."""
+        found: dict[str, list[dict]] = {}
+        for figure in self.figures:
+            entry = asdict(figure) | {"relative": figure.relative}
+            found.setdefault(entry.pop("quantity"), []).append(entry)
+        return found

@@ -1,0 +1,147 @@
+"""The [scatter] section: by how much inputs of the scene are uncertain."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Annotated
+
+from comparisons.common.units import DIMENSIONLESS, LENGTH, PRESSURE, Dimension, describe
+from comparisons.scenes.scene import CUT_OFF, Scatter, Spread
+from comparisons.scenes.schema.fields import (
+    FieldType,
+    Length,
+    Number,
+    SceneSection,
+    Whole,
+    field_type,
+)
+
+FEWEST, MOST = 8, 4096  # samples
+LOADS = ("per_length", "hertz_peak_pressure")
+# Inputs that are fields of the scene, with their section; the load is a field of two kinds.
+FIELDS = {
+    "roller_radius": ("roller", "radius"),
+    "roller_youngs_modulus": ("roller", "youngs_modulus"),
+    "roller_poissons_ratio": ("roller", "poissons_ratio"),
+    "body_youngs_modulus": ("body", "youngs_modulus"),
+    "body_poissons_ratio": ("body", "poissons_ratio"),
+    "friction": ("load", "friction"),
+}
+OF_PROFILE = ("position", "noise", "tip_radius")
+
+
+@dataclass(frozen=True)
+class SpreadField(FieldType):
+    """A standard deviation, in the field's unit (`absolute`) or in per cent of the scene's own
+    value (`relative`), or {range = [low, high]} with all between as likely (`range`)."""
+
+    dimension: Dimension
+    ways: tuple[str, ...] = ("absolute", "relative", "range")
+
+    def read(self, given: object) -> Spread:
+        if isinstance(given, dict) and "range" in self.ways:
+            return self._range(given)
+        way = "relative" if isinstance(given, str) and given.rstrip().endswith("%") else "absolute"
+        if way not in self.ways:
+            raise self.wrong(f"is {describe(given)}")
+        value = self.in_si(given, self.dimension if way == "absolute" else DIMENSIONLESS)
+        if not value > 0.0:
+            raise self.wrong(f"is {describe(given)}")
+        return Spread(value, relative=way == "relative")
+
+    def _range(self, given: dict) -> Spread:
+        ends = given.get("range")
+        if set(given) != {"range"} or not isinstance(ends, list | tuple) or len(ends) != 2:
+            raise self.wrong("is a table that is no range of two values")
+        low, high = (self.in_si(end, self.dimension) for end in ends)
+        if not low < high:
+            raise self.wrong(f"has a range from {low:g} to {high:g}")
+        return Spread(range=(low, high))
+
+    def allowed(self) -> str:
+        number = Number(self.dimension, above=0.0).allowed()
+        words = {
+            "absolute": f"a standard deviation, {number}",
+            "relative": 'a standard deviation in per cent, as "2 %"',
+            "range": "{range = [low, high]}",
+        }
+        return ", or ".join(words[way] for way in self.ways)
+
+
+Modulus = Annotated[Spread, SpreadField(PRESSURE)] | None
+Ratio = Annotated[Spread, SpreadField(DIMENSIONLESS)] | None
+
+
+class ScatterSection(SceneSection):
+    """Inputs by name. `samples` of each of two independent designs, a power of two as Sobol's
+    sequence asks for."""
+
+    samples: Annotated[int, Whole(FEWEST, MOST)] = 64
+    seed: Annotated[int, Whole(0, 2**32 - 1)] = 0
+    roller_radius: Annotated[Spread, SpreadField(LENGTH)] | None = None
+    roller_youngs_modulus: Modulus = None
+    roller_poissons_ratio: Ratio = None
+    body_youngs_modulus: Modulus = None
+    body_poissons_ratio: Ratio = None
+    load: Annotated[Spread, SpreadField(PRESSURE, ("relative",))] | None = None
+    friction: Ratio = None
+    position: Annotated[Spread, SpreadField(LENGTH, ("absolute", "range"))] | None = None
+    noise: Length | None = None
+    correlation_length: Length | None = None
+    tip_radius: Annotated[Spread, SpreadField(LENGTH, ("range",))] | None = None
+
+    @property
+    def inputs(self) -> dict[str, Spread]:
+        """What is uncertain, by name; of the noise its deviation [m]."""
+        found = {name: spread for name, spread in self if isinstance(spread, Spread)}
+        return found if self.noise is None else found | {"noise": Spread(self.noise)}
+
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.samples & (self.samples - 1):
+            near = 1 << self.samples.bit_length()
+            allowed = f"allowed is a power of two, as {near // 2} or {near}"
+            yield "samples", f"is {self.samples}; {allowed}"
+        if not self.inputs:
+            yield "load", 'is missing, as every input is; allowed is at least one, as load = "2 %"'
+        if self.correlation_length is not None and self.noise is None:
+            yield "correlation_length", "is given without noise; allowed beside it"
+
+    def misfits(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        """Inputs that the scene does not have, and values that it could not have."""
+        if scene.load.approach is not None:
+            yield "scatter", "is given beside load.approach; allowed with another kind of load"
+        for name in OF_PROFILE:
+            if name in self.inputs and scene.profile is None:
+                yield f"scatter.{name}", "is given for a smooth surface; allowed with [profile]"
+        if self.friction is not None and len(scene.load.friction) > 1:
+            given = f"is given for {len(scene.load.friction)} coefficients"
+            yield "scatter.friction", f"{given}; allowed with one"
+        for name, (section, field) in FIELDS.items():
+            table, spread = getattr(scene, section), getattr(self, name)
+            own = getattr(table, field)
+            if spread is None:
+                continue
+            if own is None:
+                problem = f"is given without {section}.{field}; allowed beside it"
+                yield f"scatter.{name}", problem
+            else:
+                own = own[0] if isinstance(own, tuple) else own
+                yield from self._beyond(name, spread.ends(own), field_type(type(table), field))
+        if self.load is not None:
+            yield from self._beyond("load", self.load.ends(1.0), Number(DIMENSIONLESS, above=0.0))
+        if self.tip_radius is not None:
+            yield from self._beyond("tip_radius", self.tip_radius.range, Number(LENGTH, above=0.0))
+
+    def _beyond(self, name: str, ends: tuple, field: FieldType) -> Iterator[tuple[str, str]]:
+        """Where an input reaches values that its field cannot have."""
+        for end in ends:
+            try:
+                field.read(end)
+            except ValueError:
+                deviations = f" (normal, cut off at {CUT_OFF:g} deviations)"
+                how = "" if getattr(self, name).range else deviations
+                yield f"scatter.{name}", f"reaches {end:g}{how}; allowed is {field.allowed()}"
+
+
+def scatter_of(table: ScatterSection) -> Scatter:
+    """The section as both sides of the program know it."""
+    return Scatter(table.samples, table.seed, table.inputs, table.correlation_length or 0.0)
