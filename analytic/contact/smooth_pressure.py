@@ -6,74 +6,25 @@ curved p by h^2 |p''| / 12 at the nodes, and towards an end e of contact no hats
     p(x) ~ sqrt(x - e),    g(x) ~ (x - e)^(3/2)    (Johnson 1985, section 4.2).
 
 On each patch [b0, b1] the curve p = sqrt((x - b0) (b1 - x)) f(x) has both: b0, b1 from the gaps
-outside, f a cubic spline through the nodal values that the means give, but for the last few at
-each end. The distance of both curves is a measure of the error of p_h.
+outside, f a cubic spline through the nodal values that the means give.
 
     hats     (n + 2,) nodes [m], ascending, any spacing, with the feet of the outer two
     p, g     nodal pressures (n,) [Pa], gaps (n,) [m]: means weighted with the hats
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from analytic.numerics import runs_of
 
-# Nodes at each end of a patch whose values the end disturbs, and open nodes beyond an end likewise.
-DISTURBED = 2
-DISTURBED_OPEN = 1
-# Touching nodes that a patch needs: four undisturbed ones hold a cubic.
-LEAST_NODES = 2 * DISTURBED + 4
+DISTURBED_OPEN = 1  # open nodes beyond an end whose gaps the end disturbs
 # Where an end may lie, from the last touching node (0) to the first open one (1) and about; looked
 # for on as many steps, of which each halving takes a half.
 WITHIN, STEPS, HALVINGS = (-0.5, 1.5), 16, 40
 
 Interval = tuple[float, float]
-_AT, _WEIGHT = np.polynomial.legendre.leggauss(8)
-
-
-@dataclass(frozen=True)
-class Patch:
-    """One patch of contact.
-
-    ends      (2,) [m]                first, last   touching nodes, places in p
-    curve     pressure [Pa] at places (k,) [m]: the smooth one, or p_h itself where a patch has
-              fewer than LEAST_NODES nodes
-    smooth    which of the two
-    norm, error   root of the integral of p_h^2, of (curve - p_h)^2 [Pa m^(1/2)]; norm for error
-                  where there is no smooth curve
-    """
-
-    ends: Interval
-    first: int
-    last: int
-    curve: Callable[[np.ndarray], np.ndarray]
-    smooth: bool
-    norm: float
-    error: float
-
-    @property
-    def peak(self) -> tuple[float, float]:
-        """Largest pressure [Pa] and its place [m]."""
-        half, middle = 0.5 * (self.ends[1] - self.ends[0]), 0.5 * (self.ends[0] + self.ends[1])
-        samples = 16 * (self.last - self.first + 2)
-        x = middle - half * np.cos(np.linspace(0.0, np.pi, samples + 1))
-        value = self.curve(x)
-        best = int(np.argmax(value))
-        return float(value[best]), float(x[best])
-
-
-def smooth_pressure(hats: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> tuple[Patch, ...]:
-    """The patches of contact from left to right, with the curve of pressure on each."""
-    nodal = nodal_values(hats, pressure)
-    whole = np.concatenate([[0.0], pressure, [0.0]])
-    nodes, ends = contact_ends(hats, pressure, gap)
-    return tuple(
-        _patch(hats, whole, nodal, int(first), int(last), (float(start), float(stop)))
-        for (first, last), (start, stop) in zip(nodes, ends, strict=True)
-    )
 
 
 def contact_ends(
@@ -157,35 +108,3 @@ def curve_between(
         return np.sqrt(inside) * shape(np.clip(at, places[0], places[-1]))
 
     return curve
-
-
-def _patch(
-    hats: np.ndarray, whole: np.ndarray, nodal: np.ndarray, first: int, last: int, ends: Interval
-) -> Patch:
-    x = hats[1:-1]
-    held = slice(first + DISTURBED, last + 1 - DISTURBED)
-    places = x[held]
-    smooth = last - first + 1 >= LEAST_NODES and ends[0] < places[0] and places[-1] < ends[1]
-
-    def piecewise(at: np.ndarray) -> np.ndarray:
-        return np.interp(at, hats, whole)
-
-    curve = piecewise
-    if smooth:
-        curve = curve_between(ends, places, nodal[held])
-    low, high = hats[first], hats[last + 2]
-    breaks = np.unique(np.clip([*hats[first : last + 3], *ends], low, high))
-    middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0])
-    # Along the angle theta of x = middle - half cos(theta) the square root is smooth.
-    angle = np.arccos(np.clip((middle - breaks) / half, -1.0, 1.0))
-    a, s, far, wide = (
-        each[:, None] for each in (breaks[:-1], angle[:-1], np.diff(breaks), np.diff(angle))
-    )
-    share = 0.5 * (1.0 + _AT)
-    inside = ((breaks[:-1] >= ends[0]) & (breaks[1:] <= ends[1]))[:, None]
-    theta = s + share * wide
-    at = np.where(inside, middle - half * np.cos(theta), a + share * far)
-    amount = 0.5 * np.where(inside, wide * half * np.sin(theta), far) * _WEIGHT
-    norm = float(np.sqrt((amount * piecewise(at) ** 2).sum()))
-    error = float(np.sqrt((amount * (curve(at) - piecewise(at)) ** 2).sum())) if smooth else norm
-    return Patch(ends, first, last, curve, smooth, norm, error)

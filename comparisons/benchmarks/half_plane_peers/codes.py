@@ -15,9 +15,8 @@ import numpy as np
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from analytic.operators.half_plane import HalfPlane, ModelOperator
-from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.benchmarks.half_plane_peers.cases import LineCase
+from comparisons.benchmarks.half_plane_peers.yardstick import operator_of
 from comparisons.benchmarks.harness import AbsentError
 
 
@@ -57,18 +56,10 @@ def crosscheck() -> list[LineCode]:
     ]
 
 
-@cache
-def _operator(
-    periodic: bool, count: int, pitch: float, element: Literal["strip", "hat"]
-) -> ModelOperator:
-    kind = PeriodicHalfPlane if periodic else HalfPlane
-    return kind(count, pitch, 1.0, element=element)
-
-
 def _solved(
     element: Literal["strip", "hat"], case: LineCase, tolerance: float, _most: int
 ) -> LineAnswer:
-    operator = _operator(case.periodic, case.count, case.pitch, element)
+    operator = operator_of(case.count, element, case.periodic)
     gap = case.hat_averages if element == "hat" else case.gaps
     weights = np.full(case.count, case.pitch)
     constraints = Constraints(load=case.load)
