@@ -123,16 +123,27 @@ def close_workers() -> None:
         idle.pop().close()
 
 
+def _environment() -> dict[str, str]:
+    """Of a worker: without a launcher's variables, and with the project to import."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
+    root = str(Path(__file__).resolve().parents[1])
+    paths = [root, *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep))]
+    environment["PYTHONPATH"] = os.pathsep.join(paths)
+    return environment
+
+
+def start_worker() -> None:
+    """Start a worker, which loads gmsh while this process does something else."""
+    idle.append(GmshWorker(_environment()))
+
+
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
 
     Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
     waits for further tasks, but ends where this one fails or is interrupted.
     """
-    environment = {k: v for k, v in os.environ.items() if not k.startswith(LAUNCHER_VARIABLES)}
-    root = str(Path(__file__).resolve().parents[1])
-    paths = [root, *filter(None, environment.get("PYTHONPATH", "").split(os.pathsep))]
-    environment["PYTHONPATH"] = os.pathsep.join(paths)
+    environment = _environment()
     worker = idle.pop() if idle else GmshWorker(environment)
     try:
         if not worker.serves(environment):

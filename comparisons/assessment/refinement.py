@@ -9,7 +9,7 @@ from comparisons.assessment.comparison import discretisations
 from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages, no_progress
-from comparisons.common.tasks import FIRST, NEEDED, Here, Tasks
+from comparisons.common.tasks import AT_ONCE, FIRST, NEEDED, Here, Tasks
 from comparisons.models.forecast import expected_level
 from comparisons.models.level import ExpectedCost, Level, ModelRun
 from comparisons.models.plan import Plan
@@ -46,6 +46,8 @@ def refined(
     def add(name: str, number: int, key: str | None = None) -> str:
         key, half_block = key or f"{name}-{number}", key is not None
         cost, urgency = expected(name, number), FIRST if name == "half_plane" else NEEDED
+        if (name, number) == ("half_plane", 1):  # for which the others wait
+            urgency = AT_ONCE
         given = cache, key, name, problem, plan, window, number, half_block
         tasks.add(key, _level, *given, seconds=cost.seconds, memory=cost.memory, urgency=urgency)
         return key

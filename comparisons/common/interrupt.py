@@ -5,6 +5,7 @@ returns: after seconds, or minutes. So the command works in a child; its parent 
 signals on, and kills a child that does not end in time. What the child had finished is on disk.
 """
 
+import atexit
 import os
 import signal
 import sys
@@ -20,7 +21,8 @@ PR_SET_PDEATHSIG = 1  # of Linux's prctl
 
 
 def watched(work: Callable[[], int], message: str) -> int:
-    """The exit status of `work`, which a child carries out; both return from here.
+    """The exit status of `work`, which a child carries out; the child returns from here only where
+    it has to finalize MPI.
 
     message  one line for standard error where the child has to be killed
     """
@@ -37,6 +39,8 @@ def watched(work: Callable[[], int], message: str) -> int:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         status = work()
         os.write(ends, b"*")
+        if "mpi4py.MPI" not in sys.modules:
+            _leave(status)
         return status
     killed = _pass_signals_to(child)
     signal.pthread_sigmask(signal.SIG_SETMASK, mask)
@@ -51,6 +55,15 @@ def watched(work: Callable[[], int], message: str) -> int:
         signal.signal(-status, signal.SIG_DFL)
         os.kill(os.getpid(), -status)
     return status
+
+
+def _leave(status: int) -> None:
+    """End as Python does, but for taking apart all that was imported: a tenth of a second."""
+    atexit._run_exitfuncs()
+    with suppress(OSError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
 
 
 def _pass_signals_to(child: int) -> list[int]:

@@ -57,7 +57,7 @@ class Worker:
         ours = [end for each in (self, *others) for end in (each.pipe, each._held)]
         given = self._serve, self._theirs, self._alive, ours if self._forked else []
         self._process = self._context.Process(target=_work, args=given)
-        with _starting, environment(ONE_THREAD), _interrupts_later():
+        with _starting, environment(ONE_THREAD), interrupts_later():
             self._process.start()
         self._theirs.close()  # so that reading ends when the process does
 
@@ -131,8 +131,9 @@ def _work(
 
 
 @contextmanager
-def _interrupts_later() -> Iterator[None]:
-    """Delay Ctrl-C while a process starts: the new one must not get it before it ignores it."""
+def interrupts_later() -> Iterator[None]:
+    """Delay Ctrl-C while a process starts, which must not get it before it ignores it, or a module
+    is imported: a compiled one aborts the process."""
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -187,7 +188,7 @@ def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
     count = min(copies(), len(works))
     if count > 1:
         with suppress(BrokenProcessPool, OSError), processes(count, works) as pool:
-            with _interrupts_later(), warnings.catch_warnings():
+            with interrupts_later(), warnings.catch_warnings():
                 warnings.simplefilter("ignore", DeprecationWarning)  # of other threads: they wait
                 answers = pool.map(_copied, range(len(works)))
             return list(answers)  # an error of the work itself comes again below
@@ -200,7 +201,7 @@ def meanwhile(works: Works) -> Iterator[None]:
     copy = None
     if copies() > 1:
         copy = multiprocessing.get_context("fork").Process(target=_all_of, args=(works,))
-        with suppress(OSError), _interrupts_later(), warnings.catch_warnings():
+        with suppress(OSError), interrupts_later(), warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)
             copy.start()
     try:

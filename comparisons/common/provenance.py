@@ -6,20 +6,29 @@ import marshal
 import os
 import platform
 import subprocess
+import sys
+import time
 from contextlib import suppress
 from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
+from importlib.util import cache_from_source
 from pathlib import Path
 from types import CodeType
 
 import numpy as np
+
+from comparisons.common.files import write_whole
 
 PROJECT = Path(__file__).resolve().parents[2]
 # Folders and files whose code shapes a level of a scene.
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
 PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
 PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
+# Hashes of code stand beside Python's own of this module, and are good for the same sources: those
+# of equal time and size. What has just changed may change again at the same time [ns]: not kept.
+KNOWN_CODE = Path(cache_from_source(__file__)).with_suffix(".json")
+RACY = 2_000_000_000
 
 
 def versions() -> dict[str, str | None]:
@@ -83,14 +92,33 @@ def _processor() -> str | None:
 def program_code(*places: str) -> str:
     """Hash of the code in folders and files of the project: without comments, docstrings and places
     of lines, which shape no figure."""
-    total = hashlib.sha256()
+    known, found, settled = _known_code(), {}, time.time_ns() - RACY
     for place in places:
         path = PROJECT / place
         for source in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
-            code = compile(source.read_bytes(), source.name, "exec", dont_inherit=True, optimize=2)
-            # version 2 writes no references, so equal code gives equal bytes
-            total.update(marshal.dumps(_without_places(code), 2))
-    return total.hexdigest()
+            state = source.stat()
+            stamp = [state.st_mtime_ns, state.st_size]
+            *before, code = known.get(str(source), [None])
+            found[str(source)] = [*stamp, code if before == stamp else _code_of(source)]
+    kept = known | {name: each for name, each in found.items() if each[0] < settled}
+    if kept != known and not sys.dont_write_bytecode:
+        with suppress(OSError):
+            write_whole(KNOWN_CODE, json.dumps(kept))
+    codes = [code for *_, code in found.values()]
+    return hashlib.sha256("".join(codes).encode()).hexdigest()
+
+
+def _known_code() -> dict[str, list]:
+    """By path: time of change [ns], size and hash of the code of sources as they were compiled."""
+    with suppress(OSError, ValueError):
+        return json.loads(KNOWN_CODE.read_text(encoding="utf-8"))
+    return {}
+
+
+def _code_of(source: Path) -> str:
+    code = compile(source.read_bytes(), source.name, "exec", dont_inherit=True, optimize=2)
+    # version 2 writes no references, so equal code gives equal bytes
+    return hashlib.sha256(marshal.dumps(_without_places(code), 2)).hexdigest()
 
 
 def _without_places(code: CodeType) -> CodeType:

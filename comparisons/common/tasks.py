@@ -3,27 +3,31 @@
 The processes begin once, where what is known to do is worth them. They are forked from this one
 with all that it has loaded, as long as it has no MPI, which survives no fork, and its libraries are
 on one thread; else they are fresh. The answers are those of one process, in any order of work.
+
+Whoever waits may prepare what it will need: imports take as long as a small run's solution.
 """
 
 import multiprocessing
 import os
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from multiprocessing.connection import Connection, wait
 from typing import TypeVar
 
 from comparisons.common.mpi import from_first, is_several
-from comparisons.common.processes import ONE_THREAD, Worker, answered
+from comparisons.common.processes import ONE_THREAD, Worker, answered, interrupts_later
 from comparisons.common.progress import ProgressCallback, Step, machine_memory, no_progress
 
 Held = TypeVar("Held")
 
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
-WORTH_A_FORK, WORTH_A_START = 1.0, 10.0
+WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
-FIRST, NEEDED, LATER, PERHAPS = range(4)  # urgencies; the last may turn out to be for nothing
+# Urgencies: others wait for the first kind, and the last may turn out to be for nothing.
+AT_ONCE, FIRST, NEEDED, LATER, PERHAPS = range(5)
 
 
 class Here:
@@ -42,6 +46,7 @@ class Here:
 
 
 Work = Callable[..., object]  # work(here, *given)
+Preparation = Callable[[], object]  # what it raises comes again where it is needed
 
 
 @dataclass
@@ -60,12 +65,16 @@ class Tasks:
     callback   gets the stages of all tasks, with the share of the expected seconds that is done
     processes  that may work beside this one, which then only hands out; none: all is done here
     memory     [bytes] that tasks side by side may expect together
+    here       preparations for what follows the tasks, while this process waits
+    there      preparations of forked processes for their tasks, which are worth them then
     machine    [bytes] that the machine had to give at the start
     """
 
     callback: ProgressCallback = no_progress
     processes: int = 0
     memory: float = float("inf")
+    here: Sequence[Preparation] = ()
+    there: Sequence[Preparation] = ()
     machine: float = field(default_factory=lambda: from_first(machine_memory))
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict[Connection, str] = field(default_factory=dict)
@@ -77,6 +86,7 @@ class Tasks:
 
     def __post_init__(self) -> None:
         self._here = Here(self._tell)
+        self._left = list(self.here)
         self.memory = min(self.memory, SHARE_OF_MEMORY * self.machine)
 
     def add(
@@ -126,9 +136,10 @@ class Tasks:
         needed = [task for task in self._waiting.values() if task.urgency < PERHAPS]
         # what lies beyond the longest can be done beside it
         beside = sum(task.seconds for task in needed) - max((t.seconds for t in needed), default=0)
-        if self.processes and beside >= worth:
+        if self.processes and (beside >= worth or (forked and self.there)):
+            serve = partial(_serve, self.there)
             for _ in range(self.processes):
-                others, worker = list(self._workers.values()), Worker(_serve, forked)
+                others, worker = list(self._workers.values()), Worker(serve, forked)
                 self._workers[worker.pipe] = worker
                 worker.start(others)
             self.processes = 0
@@ -154,6 +165,7 @@ class Tasks:
 
     def _collect(self) -> None:
         """Wait for what the processes have to say."""
+        _prepare(self._left, lambda: wait(list(self._running), 0.0))
         for pipe in wait(list(self._running)):
             try:
                 kind, content = pipe.recv()
@@ -189,21 +201,34 @@ class Tasks:
 
 
 @contextmanager
-def tasks_of_a_run(callback: ProgressCallback, memory: float) -> Iterator[Tasks]:
+def tasks_of_a_run(
+    callback: ProgressCallback,
+    memory: float,
+    here: Sequence[Preparation] = (),
+    there: Sequence[Preparation] = (),
+) -> Iterator[Tasks]:
     """Tasks on all cores within `memory` [bytes]; in this process alone where it is one of several.
     What ends the block ends all of them."""
     alone = not is_several() and multiprocessing.parent_process() is None
     cores = len(os.sched_getaffinity(0)) if alone else 1
-    tasks = Tasks(callback, cores if cores > 1 else 0, memory)
+    tasks = Tasks(callback, cores if cores > 1 else 0, memory, here, there)
     try:
         yield tasks
     finally:
         tasks.end()
 
 
-def _serve(pipe: Connection) -> None:
+def _prepare(steps: list[Preparation], is_wanted: Callable[[], object]) -> None:
+    """Carry out steps, and drop them from the list, until this process is wanted."""
+    while steps and not is_wanted():
+        with suppress(Exception), interrupts_later():
+            steps.pop(0)()
+
+
+def _serve(preparations: Sequence[Preparation], pipe: Connection) -> None:
     """Work on what comes through the pipe, until it closes."""
     here = Here(lambda stage: pipe.send(("stage", str(stage))))
+    _prepare(list(preparations), pipe.poll)
     while True:
         work, given = pipe.recv()
         pipe.send(("answer", answered(work, here, *given)))

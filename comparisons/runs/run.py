@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from concurrent.futures import Executor
-from functools import lru_cache
+from functools import lru_cache, partial
+from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
@@ -21,7 +22,7 @@ from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest
-from comparisons.common.tasks import Tasks, tasks_of_a_run
+from comparisons.common.tasks import Preparation, Tasks, tasks_of_a_run
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.level_cache import level_cache
@@ -38,6 +39,11 @@ from comparisons.scenes.scene import ResolvedScene
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
+# Modules that write what was solved, those first that others would import at once.
+REPORT = (
+    *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
+    *("matplotlib.backends.backend_svg", "jinja2", "comparisons.report.page"),
+)
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
@@ -119,7 +125,10 @@ def solve(
     window = window_of(problem) if plan.stress else None
     cache = level_cache(out, problem.scene, plan)
     try:
-        with tasks_of_a_run(within(callback, 0.0, SOLVED), problem.scene.budget.memory) as tasks:
+        told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
+        there = _for_finite_elements() if "finite_element" in plan.models else ()
+        here = [partial(import_module, name) for name in REPORT if out is not None]
+        with tasks_of_a_run(told, memory, here, there) as tasks:
             scattered = _announce_scatter(problem, plan, cache, tasks, executor)
             runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
             scatter = scattered and scattered(runs["half_plane"].finest)
@@ -165,6 +174,14 @@ def _announce_scatter(
     from comparisons.assessment.scatter.study import announce_scatter
 
     return announce_scatter(problem, cache, tasks, executor)
+
+
+def _for_finite_elements() -> list[Preparation]:
+    from fem.solver.compilation import load_dolfinx
+    from meshes.build import start_worker
+
+    level = partial(import_module, "comparisons.models.finite_element.level")
+    return [start_worker, load_dolfinx, level]
 
 
 def solved(

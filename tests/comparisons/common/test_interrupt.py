@@ -69,12 +69,9 @@ def waits(*given):
     os._exit(5)
 mumps.factorised = waits
 """
-# Forked processes for the tasks, whatever these take.
-SIDE_BY_SIDE = """
-from comparisons.common import tasks
-tasks.WORTH_A_FORK = 0.0
-os.sched_getaffinity = lambda process: {0, 1}
-"""
+# One process for all tasks, and one for each core.
+ALONE = "os.sched_getaffinity = lambda process: {0}\n"
+SIDE_BY_SIDE = "os.sched_getaffinity = lambda process: {0, 1}\n"
 CRASH = """
 from fem.solver import mumps
 mumps.factorised = lambda *given: os.kill(os.getpid(), signal.SIGSEGV)
@@ -128,7 +125,7 @@ def count(folder: Path) -> int:
 
 @pytest.mark.parametrize("interrupt", [os.kill, os.killpg], ids=["a signal", "a terminal"])
 def test_in_the_middle_of_a_factorisation(folder, interrupt):
-    process = started(folder, STUCK.format(call=3))
+    process = started(folder, ALONE + STUCK.format(call=3))
     reached(folder, process)
     interrupt(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=PATIENT)
@@ -158,7 +155,7 @@ def test_in_the_middle_of_factorisations_side_by_side(folder):
     assert count(folder) == 3 - len(kept)
 
 
-@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
+@pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
 def test_in_the_middle_of_meshing(folder, beside):
     process = started(folder, beside + MESHER)
     reached(folder, process)
@@ -183,14 +180,14 @@ def test_while_the_report_is_drawn(folder, monkeypatch, capsys):
     assert (folder / ".out.unfinished" / "half_plane-1.npz").exists()
 
 
-@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
+@pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
 def test_a_crash_stays_a_crash(folder, beside):
     process = started(folder, beside + CRASH)
     process.communicate(timeout=PATIENT)
     assert process.returncode == -signal.SIGSEGV
 
 
-@pytest.mark.parametrize("beside", ["", SIDE_BY_SIDE], ids=["alone", "side by side"])
+@pytest.mark.parametrize("beside", [ALONE, SIDE_BY_SIDE], ids=["alone", "side by side"])
 @pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGKILL])
 def test_nothing_outlives_the_command(folder, sent, beside):
     process = started(folder, beside + STUCK.format(call=1))

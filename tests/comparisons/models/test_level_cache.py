@@ -1,5 +1,6 @@
 """Where a run's finished levels are, and what change of the program they survive."""
 
+import os
 from itertools import compress
 from pathlib import Path
 
@@ -100,3 +101,30 @@ def test_the_key_follows_the_code_and_not_its_text(project):
 def test_every_place_that_shapes_a_result_is_there():
     for place in {*CODE, *cost_study.CODE, *map_request.CODE}:
         assert (provenance.PROJECT / place).exists(), place
+
+
+def test_sources_are_compiled_again_only_when_they_have_changed(project, tmp_path, monkeypatch):
+    """Those that changed a moment ago always are: they may change again within the clock's step."""
+    compiled, code_of = [], provenance._code_of
+
+    def noted(source: Path) -> str:
+        compiled.append(source.relative_to(tmp_path).as_posix())
+        return code_of(source)
+
+    def compiled_now() -> list[str]:
+        compiled.clear()
+        provenance.program_code.cache_clear()
+        provenance.program_code("analytic", "meshes")
+        return compiled
+
+    monkeypatch.setattr(provenance, "_code_of", noted)
+    monkeypatch.setattr(provenance, "KNOWN_CODE", tmp_path / "known.json")
+    monkeypatch.setattr(provenance.sys, "dont_write_bytecode", False)
+    os.utime(project / "analytic/law.py", (1e9, 1e9))
+    assert compiled_now() == ["analytic/law.py", "meshes/law.py"]
+    assert compiled_now() == ["meshes/law.py"]
+    (project / "analytic/law.py").write_text(LAW.replace("2", "3"))
+    for path, time in ("analytic", 1e9 + 1.0), ("meshes", 1e9):
+        os.utime(project / path / "law.py", (time, time))
+    assert compiled_now() == ["analytic/law.py", "meshes/law.py"]
+    assert compiled_now() == []
