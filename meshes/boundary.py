@@ -7,7 +7,6 @@ import numpy as np
 
 from meshes.block import BlockSpec, MeshError
 from meshes.coating import LAYERS, core
-from meshes.size_field import SizeField
 from meshes.size_law import edges_per_size, own_vertices, wanted_size
 
 # A refined range may miss a whole number of edges by this part of an edge (rounding of its ends).
@@ -62,26 +61,23 @@ def refined_nodes(spec: BlockSpec) -> list[np.ndarray]:
     ]
 
 
-def sizes_on(
-    spec: BlockSpec, sizes: SizeField | None, axis: int, at: float
-) -> Callable[[np.ndarray], np.ndarray]:
+def sizes_on(spec: BlockSpec, axis: int, at: float) -> Callable[[np.ndarray], np.ndarray]:
     """Wanted sizes [m] on the line x = at (axis 0) or z = at (axis 1), at z or x [m]."""
 
     def wanted(place: np.ndarray) -> np.ndarray:
         line = np.full_like(place, at)
-        law = wanted_size(spec, *((line, place) if axis == 0 else (place, line)))
-        return law if sizes is None else np.minimum(law, sizes.along(axis, at, place))
+        return wanted_size(spec, *((line, place) if axis == 0 else (place, line)))
 
     return wanted
 
 
-def top_nodes(spec: BlockSpec, sizes: SizeField | None = None) -> np.ndarray:
+def top_nodes(spec: BlockSpec) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, with both corners and the ends of a coating's core.
 
     Raises MeshError if a refined range is not a whole number of edges or leaves too short a rest.
     """
 
-    size = sizes_on(spec, sizes, 1, 0.0)
+    size = sizes_on(spec, 1, 0.0)
     half, pieces = spec.half_width, []
     reached = -half
 
@@ -125,20 +121,19 @@ class Outline:
     beside: tuple[np.ndarray, ...] = ()  # x [m] of the columns of a coating's stretched layers
 
 
-def outline(spec: BlockSpec, sizes: SizeField | None = None) -> Outline:
-    """The four sides of the block; with a coating its core and the rest of the block below it.
-    Outside the refined ranges `sizes` prevail where they are smaller than the size law's."""
+def outline(spec: BlockSpec) -> Outline:
+    """The four sides of the block; with a coating its core and the rest of the block below it."""
 
     def line(x: np.ndarray | float, z: np.ndarray | float) -> np.ndarray:
         return np.column_stack(np.broadcast_arrays(x, z))
 
     def down(x: float, start: float, stop: float) -> np.ndarray:
-        return line(x, graded_line(start, stop, sizes_on(spec, sizes, 0, x)))
+        return line(x, graded_line(start, stop, sizes_on(spec, 0, x)))
 
     def across(start: float, stop: float, z: float) -> np.ndarray:
-        return line(graded_line(start, stop, sizes_on(spec, sizes, 1, z)), z)
+        return line(graded_line(start, stop, sizes_on(spec, 1, z)), z)
 
-    half, depth, top = spec.half_width, spec.depth, top_nodes(spec, sizes)
+    half, depth, top = spec.half_width, spec.depth, top_nodes(spec)
     bottom = across(-half, half, depth)[::-1]
     if spec.interface is None:
         sides = [line(top, 0.0), down(half, 0.0, depth), bottom, down(-half, 0.0, depth)[::-1]]

@@ -19,7 +19,6 @@ from meshes.block import BlockMesh, BlockSpec, MeshError, add_midpoints, check_s
 from meshes.boundary import outline
 from meshes.coating import with_layers
 from meshes.quality import check_quality
-from meshes.size_field import SizeField
 
 # By its path, and without the working folder's modules (-P).
 WORKER = (sys.executable, "-P", str(Path(__file__).with_name("gmsh_worker.py")))
@@ -40,12 +39,6 @@ def in_units(spec: BlockSpec, unit: float) -> BlockSpec:
 
     lengths = (each.name for each in fields(spec) if each.name != "growth")
     return replace(spec, **{name: scaled(getattr(spec, name)) for name in lengths})
-
-
-def field_in_units(sizes: SizeField, unit: float) -> SizeField:
-    """sizes with all lengths divided by unit [m] and rounded to UNIT_DECIMALS."""
-    vertices, size = (np.round(each / unit, UNIT_DECIMALS) for each in (sizes.vertices, sizes.size))
-    return replace(sizes, vertices=vertices, size=size)
 
 
 class GmshWorker:
@@ -186,9 +179,7 @@ def refuse_unfilled(vertices: np.ndarray, triangles: np.ndarray, area: float) ->
         )
 
 
-def build_block(
-    spec: BlockSpec, *, sizes: SizeField | None = None, timeout: float = 600.0
-) -> BlockMesh:
+def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     """Flat second-order mesh of the block, with element sizes by `meshes.size_law`.
 
     Each refined range has vertices at both ends and equal edges of surface_size, or of a whole
@@ -196,8 +187,6 @@ def build_block(
     sides and on the interface are exact. The same spec gives the same mesh to the last bit, and a
     spec in other units of length the same triangles.
 
-    sizes     from an earlier mesh of the same block: outside the refined ranges elements follow
-              them where they are smaller than the size law's
     timeout   of gmsh [s]
 
     Raises MeshError if spec cannot be meshed, if gmsh fails or runs out of time, or if the elements
@@ -206,14 +195,13 @@ def build_block(
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size
-    given, small = outline(spec, sizes), in_units(spec, unit)
-    field = None if sizes is None else field_in_units(sizes, unit)
+    given, small = outline(spec), in_units(spec, unit)
     # Rounding can give the scaled block another number of points.
-    scaled = outline(small, field).points
+    scaled = outline(small).points
     if scaled.shape != given.points.shape:
         scaled = given.points / unit
     points = np.round(scaled, UNIT_DECIMALS)
-    vertices, triangles = run_worker((points, given.lines, given.regions, small, field), timeout)
+    vertices, triangles = run_worker((points, given.lines, given.regions, small), timeout)
     vertices = vertices * unit
     vertices[: len(given.points)] = given.points
     vertices, triangles = with_layers(vertices, triangles, spec.interface, given.beside)

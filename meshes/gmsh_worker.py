@@ -13,12 +13,10 @@ import sys
 from contextlib import suppress
 from importlib import import_module
 from tempfile import TemporaryFile
-from types import ModuleType
 
 import numpy as np
 
 from meshes.block import BlockSpec
-from meshes.size_field import SizeField
 from meshes.size_law import point_size
 
 OPTIONS = {
@@ -54,7 +52,6 @@ def fill(
     lines: tuple[np.ndarray, ...],
     regions: tuple[tuple[int, ...], ...],
     spec: BlockSpec,
-    sizes: SizeField | None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2), the given points first, and triangles (m, 3) that fill all regions. points
     (k, 2), lines and regions as in `meshes.boundary.Outline`."""
@@ -86,11 +83,7 @@ def fill(
         model.mesh.addElementsByType(curve, 1, [], edges.ravel())
 
     size = point_size(spec)
-    if sizes is None:
-        model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
-    else:
-        show_sizes(gmsh, sizes)
-        model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: min(lc, size(x, y)))
+    model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: size(x, y))
     model.mesh.generate(2)
 
     node_tags, coordinates, _ = model.mesh.getNodes()
@@ -102,17 +95,6 @@ def fill(
     _, corner_tags = model.mesh.getElementsByType(2)
     triangles = np.searchsorted(node_tags, corner_tags).reshape(-1, 3)
     return vertices, triangles
-
-
-def show_sizes(gmsh: ModuleType, sizes: SizeField) -> None:
-    """Have gmsh interpolate the sizes for the callback, at 2 us each."""
-    corner = np.column_stack([sizes.vertices, np.zeros(len(sizes.vertices))])[sizes.triangles]
-    values = np.hstack([corner.transpose(0, 2, 1).reshape(-1, 9), sizes.size[sizes.triangles]])
-    view = gmsh.view.add("sizes")
-    gmsh.view.addListData(view, "ST", len(values), values.ravel())
-    field = gmsh.model.mesh.field.add("PostView")
-    gmsh.model.mesh.field.setNumber(field, "ViewTag", view)
-    gmsh.model.mesh.field.setAsBackgroundMesh(field)
 
 
 def answer(task: tuple) -> tuple[int, bytes, bytes, float]:

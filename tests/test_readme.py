@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import readme_picture as overview
 
 from comparisons.assessment.comparison import figures
 from comparisons.assessment.effects.estimates import BOUNDARY_PER_SLOPE_SQUARED, STRAIN, TILT
@@ -30,7 +31,6 @@ from comparisons.models.window import window_of
 from comparisons.report.figures.style import drawing
 from comparisons.report.terminal import SHORT
 from comparisons.results.outcome import Outcome
-from comparisons.runs import readme_picture as overview
 from comparisons.runs import run as run_module
 from comparisons.scenes.files import scene_names
 from comparisons.scenes.resolve import load_scene, resolve_tables

@@ -108,23 +108,3 @@ def westergaard_from_mean_pressure(
     return WestergaardContact(
         wavelength, amplitude, combined_modulus, mean_pressure, half_width, peak
     )
-
-
-def westergaard_from_half_width(
-    half_width: float, wavelength: float, amplitude: float, combined_modulus: float
-) -> WestergaardContact:
-    """Contact of half-width a [m] < lambda/2: pm = p* sin^2(pi a/lambda).
-
-    Raises ValueError unless all four are positive and the contact is partial.
-    """
-    check_positive(half_width=half_width, wavelength=wavelength)
-    check_positive(amplitude=amplitude, combined_modulus=combined_modulus)
-    if not half_width < 0.5 * wavelength:
-        raise ValueError(
-            f"half_width must be below half the wavelength, {0.5 * wavelength:g}, "
-            f"not {half_width:g}: full contact has no one load"
-        )
-    closing = np.pi * combined_modulus * amplitude / wavelength
-    sine = np.sin(np.pi * half_width / wavelength)
-    pressure, peak = float(closing * sine**2), float(2.0 * closing * sine)
-    return WestergaardContact(wavelength, amplitude, combined_modulus, pressure, half_width, peak)

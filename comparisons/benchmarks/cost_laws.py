@@ -40,7 +40,7 @@ class LevelCost(NamedTuple):
 
 def level_cost(name: str, number: int) -> LevelCost:
     """Solve the finite elements' level `number` of a scene that comes along."""
-    from comparisons.common.progress import Stages, peak_memory
+    from comparisons.common.progress import Stages, peak_memory, processor_seconds
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement, expected_unknowns
     from comparisons.models.plan import make_plan
@@ -56,9 +56,9 @@ def level_cost(name: str, number: int) -> LevelCost:
     plan = make_plan(problem, ("finite_element",))
     refinement = Refinement(problem.pitches[0] / 2.0 ** (number - 1))
     window = window_of(problem) if plan.stress else None
-    begin = harness.processor_seconds()
+    begin = processor_seconds()
     level = finite_element_level(problem, plan, refinement, window, Stages(), check=True)
-    seconds = harness.processor_seconds() - begin
+    seconds = processor_seconds() - begin
     return LevelCost(
         name,
         number,

@@ -1,13 +1,9 @@
-"""What the benchmarks share: a process on one thread, processor time, tables and demands."""
+"""What the benchmarks share: a process on one thread, tables and demands."""
 
-import math
 import os
-import statistics
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
-
-from comparisons.common.progress import processor_seconds
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 Result = TypeVar("Result")
@@ -43,19 +39,6 @@ def run_on_one_thread(main: Callable[[], int]) -> None:
     if not ONE_THREAD.items() <= os.environ.items():
         os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], os.environ | ONE_THREAD)
     sys.exit(main())
-
-
-def timed(
-    work: Callable[[], Result], repeats: int, budget: float = math.inf
-) -> tuple[float, Result]:
-    """Median processor time [s] of `repeats` calls, or of those that `budget` [s] allows, and the
-    last result."""
-    spent: list[float] = []
-    while len(spent) < repeats and sum(spent) < budget:
-        start = processor_seconds()
-        found = work()
-        spent.append(processor_seconds() - start)
-    return statistics.median(spent), found
 
 
 def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

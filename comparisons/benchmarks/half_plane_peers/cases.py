@@ -20,7 +20,7 @@ import numpy as np
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.exact.hertz import HertzContact, hertz_from_peak_pressure
-from analytic.exact.westergaard import westergaard_from_half_width
+from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.operators.periodic import PeriodicHalfPlane
 from analytic.surface.synthetic import self_affine
 
@@ -89,7 +89,8 @@ def _periodic_correction(hertz: HertzContact, x: np.ndarray) -> np.ndarray:
 def sinusoid(count: int) -> LineCase:
     """Westergaard: one wave, half of it in contact."""
     pitch = 1.0 / count
-    exact = westergaard_from_half_width(HALF_WIDTH, 1.0, HEIGHT, 1.0)
+    mean_pressure = np.pi * HEIGHT * np.sin(np.pi * HALF_WIDTH) ** 2
+    exact = westergaard_from_mean_pressure(mean_pressure, 1.0, HEIGHT, 1.0)
     wave = HEIGHT * np.cos(2.0 * np.pi * np.arange(count) * pitch)
     return LineCase(
         periodic=True,

@@ -1,27 +1,11 @@
-"""What the benchmarks share: times, peers that are absent, one thread, the exit status."""
+"""What the benchmarks share: peers that are absent, one thread, the exit status."""
 
 import subprocess
 import sys
-import time
 
 import pytest
 
-from comparisons.benchmarks.harness import AbsentError, Demand, installed, print_demands, timed
-
-
-def test_times_are_those_of_the_processor():
-    def busy(until: float) -> None:
-        while time.process_time() < until:
-            pass
-
-    assert timed(lambda: busy(time.process_time() + 0.1), 1)[0] == pytest.approx(0.1, rel=0.2)
-    assert timed(lambda: time.sleep(0.2), 1)[0] < 0.05
-
-
-def test_repeats_end_with_the_budget():
-    calls = []
-    timed(lambda: calls.append(sum(range(100_000))), 1000, budget=1e-3)
-    assert 1 <= len(calls) < 100
+from comparisons.benchmarks.harness import AbsentError, Demand, installed, print_demands
 
 
 def test_absent_peers_are_named(capsys):

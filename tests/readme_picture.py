@@ -4,7 +4,7 @@ From the top: all models' pressures with Hertz's, the half-plane's less the whol
 surfaces under load, and the principal shear stress below them by the whole model, all at the
 friction coefficient that decides. This command makes it again:
 
-    .venv/bin/python -c "from comparisons.runs.readme_picture import remake; remake()"
+    .venv/bin/python -m tests.readme_picture
 """
 
 from pathlib import Path
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-PICTURE = Path(__file__).parents[1] / "docs/ground-unrun.png"
+PICTURE = Path(__file__).parents[1] / "comparisons/docs/ground-unrun.png"
 PIXELS = 192  # to the inch: twice what 800 pixels across need
 WIDTH, LEFT, RIGHT = 8.35, 0.72, 0.12  # inches
 # Inches from panel to panel, and of the panel: pressures, differences, surfaces, shear, its bar.
@@ -94,3 +94,7 @@ def _shear(axes: "Axes", bar: "Axes", outcome: Outcome) -> None:
         f"{largest[last]} p₀ at + (half-plane {largest['half_plane']} p₀)"
     )
     colour_bar(axes.figure, bar, shown, "τ₁/p₀", bands)
+
+
+if __name__ == "__main__":
+    remake()

@@ -1,1 +1,0 @@
-"""Contact on finite elements beside CalculiX and scikit-fem."""
