@@ -3,40 +3,46 @@
 from comparisons.assessment.scatter.figures import ScatteredFigure
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.quantities import QUANTITIES, label
-from comparisons.report.tables.text import TextTable, error_text
+from comparisons.report.tables.text import TextTable, error_text, grouped, listed
 from comparisons.results.outcome import Outcome
 
-LISTED = 3  # inputs of a figure in the table
+LISTED = 2  # inputs of a figure in the table
 SMALL = 1.0 / 3.0  # a model error over what the inputs do, to be called small
+SHORT = {"youngs_modulus": "E", "poissons_ratio": "ν", "_": " "}
 
 
 def scatter_table(outcome: Outcome) -> TextTable | None:
-    """A row for each quantity and friction coefficient; None without [scatter]."""
+    """A row for each quantity, and each friction coefficient that matters; None without scatter."""
     if outcome.scatter is None:
         return None
-    rows = [
-        (
-            label(figure.quantity),
-            f"{figure.friction:g}",
-            *(with_unit(v, QUANTITIES[figure.quantity].unit)
-              for v in (figure.nominal, figure.mean, *figure.interval)),
-            percent(figure.relative),
-            ", ".join(largest_shares(figure)),
-        )
-        for figure in outcome.scatter.figures
-    ]  # fmt: skip
-    head = ("", "friction", "nominal", "mean", "2.5 %", "97.5 %", "± of nominal", "by input")
-    return TextTable("Uncertain inputs, half-plane", head, tuple(rows))
+    rows = []
+    for same in grouped(outcome.scatter.figures, _cells):
+        words, *cells = _cells(same[0])
+        rows.append((words, listed(figure.friction for figure in same), *cells))
+    head = ("", "friction", "nominal", "mean", "central 95 %", "of nominal", "by input")
+    return TextTable("Half-plane", head, tuple(rows))
+
+
+def _cells(figure: ScatteredFigure) -> tuple[str, ...]:
+    unit = QUANTITIES[figure.quantity].unit
+    nominal, mean, low, high = (
+        with_unit(value, unit) for value in (figure.nominal, figure.mean, *figure.interval)
+    )
+    parts = ", ".join(largest_shares(figure))
+    name = label(figure.quantity)
+    return name, nominal, mean, f"{low} to {high}", f"±{percent(figure.relative)}", parts
 
 
 def largest_shares(figure: ScatteredFigure, most: int = LISTED) -> list[str]:
     """The inputs with the largest total shares of the variance, each with its first-order one."""
     parts = sorted((figure.shares or {}).items(), key=lambda part: -part[1]["total"])
-    return [
-        f"{name.replace('_', ' ')} "
-        f"{percent(max(part['first'], 0.0), uncertainty=part['first_uncertainty'])}"
-        for name, part in parts[:most]
-    ]
+    found = []
+    for name, part in parts[:most]:
+        for long, short in SHORT.items():
+            name = name.replace(long, short)
+        size = percent(max(part["first"], 0.0), uncertainty=part["first_uncertainty"])
+        found.append(f"{name} {size}")
+    return found
 
 
 def scatter_lines(outcome: Outcome) -> list[str]:
