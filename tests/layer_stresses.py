@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from analytic.layers.kernel import finest_scale, wave_panels
-from analytic.layers.layered import LayeredBody, added_stress
+from analytic.layers.layered import LayeredBody, added_stress, coupling
 from analytic.stress.elements import uniform_pitch
 from analytic.stress.field import StressField, friction_field
 from analytic.stress_state import StressState
@@ -101,3 +101,10 @@ def _rows(body: LayeredBody, k: np.ndarray, depth: float) -> np.ndarray:
     """What the base adds to sx, sz, txz under p e^ikx and under q e^ikx, k > 0 (6, len(k))."""
     p, q = added_stress(body, k, np.full(len(k), depth))
     return np.array([p.sx + 0j, p.sz + 0j, -1j * p.txz, 1j * q.sx, 1j * q.sz, q.txz + 0j])
+
+
+def coupling_compliance(body: LayeredBody, wavenumber: np.ndarray) -> np.ndarray:
+    """uz of the surface under waves of traction [m/Pa]: uz cos kx under sin kx, k [1/m] > 0."""
+    scale = body.thickness / (2.0 * body.material.shear_modulus)
+    w = np.asarray(wavenumber * body.thickness, dtype=float)
+    return scale * coupling(body.contrast, w) / w

@@ -90,20 +90,6 @@ def coupling(layer: Contrast, w: np.ndarray) -> np.ndarray:
     return -total / _denominator(layer, wave)
 
 
-def tangential(layer: Contrast, w: np.ndarray) -> np.ndarray:
-    """m22."""
-    e, wave = layer.e, _Wave.of(w)
-    if layer.slides:
-        return (1.0 + e) * wave.cc / (wave.cs + wave.w)
-    total = (1.0 + 2.0 * e) * wave.cs + wave.w
-    if layer.softness:
-        e2, g = layer.base_e, layer.softness
-        total = total + 2.0 * g * e2 * (e * wave.cs + wave.w)
-        total = total + g**2 * (1.0 + 2.0 * e2) * wave.bulge
-        total = total + g * (1.0 + e) * (1.0 + e2) * (wave.cc + wave.ss)
-    return (1.0 + e) * total / _denominator(layer, wave)
-
-
 def added(layer: Contrast, w: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """r11, r12, r22 over 4 e^-2w."""
     e, wave, gap = layer.e, _Wave.of(w), -np.expm1(-2.0 * w)
@@ -213,44 +199,14 @@ class LayeredBody:
         return Contrast(e, 1.0 - 2.0 * self.base.poissons_ratio, softness)
 
 
-@dataclass(frozen=True)
-class WaveCompliance:
-    """Surface displacements a wave of unit amplitude makes [m/Pa], arrays shaped as k.
-
-    normal      uz under p: uz cos kx under cos kx
-    coupling    uz under q, uz cos kx under sin kx, and ux under p, ux sin kx under cos kx
-    tangential  ux under q: ux sin kx under sin kx
-
-    A load exp(ikx) of either sign of k therefore gives uz = normal p + i sign(k) coupling q.
-    """
-
-    normal: np.ndarray
-    coupling: np.ndarray
-    tangential: np.ndarray
-
-
-def wave_compliance(body: LayeredBody, wavenumber: ArrayLike) -> WaveCompliance:
-    """Displacements of the surface under waves of k [1/m], any shape, k >= 0.
-
-    At k = 0 they are the limits, infinite where the body gives way as a whole: on a half-plane,
-    and along a frictionless base.
-    """
-    k = np.asarray(wavenumber, dtype=float)
-    scale = body.thickness / (2.0 * body.material.shear_modulus)
-    w = np.maximum(k * body.thickness, _LONGEST)
-    layer = body.contrast
-    with np.errstate(over="ignore"):
-        return WaveCompliance(
-            normal_compliance(body, k),
-            scale * (coupling(layer, w) / w),
-            scale * (tangential(layer, w) / w),
-        )
-
-
 def normal_compliance(body: LayeredBody, wavenumber: ArrayLike) -> np.ndarray:
-    """`wave_compliance(…).normal` alone [m/Pa]."""
+    """uz of the surface under waves p cos kx over p [m/Pa], of k [1/m], any shape, k >= 0.
+
+    At k = 0 it is the limit, infinite where the body gives way as a whole, on a half-plane.
+    """
     w = np.maximum(np.asarray(wavenumber, dtype=float) * body.thickness, _LONGEST)
-    return body.thickness / (2.0 * body.material.shear_modulus) * normal(body.contrast, w)
+    with np.errstate(over="ignore"):
+        return body.thickness / (2.0 * body.material.shear_modulus) * normal(body.contrast, w)
 
 
 def added_stress(

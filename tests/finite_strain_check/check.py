@@ -23,8 +23,8 @@ import math
 from typing import NamedTuple
 
 from comparisons import api
-from comparisons.benchmarks.harness import Demand, print_demands, print_table
 from tests.finite_strain_check import cases
+from tests.harness import Demand, print_demands, print_table
 
 COLUMNS = ("scene", "mu", "figure", "stated %", "+-", "independent %", "+-", "ratio", "within")
 COVERAGE, WORST = 0.95, 3.0

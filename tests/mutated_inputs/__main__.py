@@ -25,7 +25,7 @@ from collections import Counter
 from pathlib import Path
 
 from analytic.surface.readers import instruments
-from comparisons.benchmarks.harness import Demand, print_demands, print_table, run_on_one_thread
+from tests.harness import Demand, print_demands, print_table, run_on_one_thread
 
 from .inputs import profiles, profiles_alone, results, scenes, tiny_scenes
 from .outcomes import look, outcome, read_results, resolve, solve

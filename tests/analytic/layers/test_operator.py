@@ -11,7 +11,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.layers import TABLE
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.kernel import hat_compliance
-from analytic.layers.layered import LayeredBody, normal_compliance, wave_compliance
+from analytic.layers.layered import LayeredBody, normal_compliance
 from analytic.layers.operator import (
     LayeredSurface,
     free_coefficients,
@@ -219,7 +219,7 @@ def test_approach_counts_from_the_base_and_not_from_the_grid():
 def test_finer_grids_cost_few_more_applications(base, half_width):
     """A dozen or so a grid, however fine."""
     body = LayeredBody(LAYER, 1.0, base)
-    modulus = 2.0 * half_width / wave_compliance(body, 1.0 / half_width).normal
+    modulus = 2.0 * half_width / normal_compliance(body, 1.0 / half_width)
     spent = [
         pressed(body, half_width, count, 0.3 * modulus * half_width**2)[0].iterations
         for count in (512, 8192)

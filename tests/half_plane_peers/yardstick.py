@@ -18,7 +18,7 @@ from scipy.fft import irfft, rfft
 
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
-from comparisons.benchmarks.half_plane_peers.cases import REFINED, LineCase
+from tests.half_plane_peers.cases import REFINED, LineCase
 
 TOLERANCE = 1e-8
 

@@ -1,11 +1,11 @@
-"""What the benchmarks share: peers that are absent, one thread, the exit status."""
+"""What programs that measure the project share: absent peers, one thread, the exit status."""
 
 import subprocess
 import sys
 
 import pytest
 
-from comparisons.benchmarks.harness import AbsentError, Demand, installed, print_demands
+from tests.harness import AbsentError, Demand, installed, print_demands
 
 
 def test_absent_peers_are_named(capsys):
@@ -24,7 +24,7 @@ def test_status_says_whether_all_demands_hold(holds, status, capsys):
 
 def test_libraries_use_one_thread():
     program = (
-        "import os, sys; from comparisons.benchmarks.harness import run_on_one_thread;"
+        "import os, sys; from tests.harness import run_on_one_thread;"
         "run_on_one_thread(lambda: os.environ['OMP_NUM_THREADS'] + sys.argv[1])"
     )
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""What the benchmarks share: a process on one thread, tables and demands."""
+"""What programs share that measure the project: a process on one thread, tables and demands."""
 
 import os
 import sys

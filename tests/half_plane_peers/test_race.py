@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from comparisons.benchmarks.half_plane_peers.cases import sinusoid
-from comparisons.benchmarks.half_plane_peers.codes import LineAnswer, LineCode, crosscheck, decades
-from comparisons.benchmarks.half_plane_peers.race import LineResult, demands, main, race
-from comparisons.benchmarks.half_plane_peers.yardstick import ContactResiduals
+from tests.half_plane_peers.cases import sinusoid
+from tests.half_plane_peers.codes import LineAnswer, LineCode, crosscheck, decades
+from tests.half_plane_peers.race import LineResult, demands, main, race
+from tests.half_plane_peers.yardstick import ContactResiduals
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,6 @@
 """The laws of cost beside what levels of finite elements take, over all scenes that come along.
 
-    python -m comparisons.benchmarks.cost_laws [SCENE ...] [--levels N]
+    python -m tests.cost_laws [SCENE ...] [--levels N]
 
 Every level is solved in a process of its own, on one thread, with its stresses. Printed are its
 unknowns, processor seconds and peak memory, and expected over measured. By these laws levels are
@@ -15,8 +15,8 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import NamedTuple
 
-from comparisons.benchmarks import harness
 from comparisons.scenes.files import scene_names
+from tests import harness
 
 WITHIN = 2.0
 LEAST = 1.0  # s

@@ -1,9 +1,9 @@
 """The half-plane solver beside other codes, on one thread.
 
-    python -m comparisons.benchmarks.half_plane_peers
+    python -m tests.half_plane_peers
 
 A smooth cylinder, a sinusoid and self-affine lines, at several sizes, each solved to the same
-contact conditions by one measure (`comparisons.benchmarks.half_plane_peers.yardstick`).
+contact conditions by one measure (`tests.half_plane_peers.yardstick`).
 
 A code stops by a criterion of its own: the loosest of its tolerances that meets the yardstick is
 searched, so that none pays for digits that are not required. Then all codes run in turn, several
@@ -19,16 +19,16 @@ import time
 from dataclasses import dataclass, replace
 from functools import partial
 
-from comparisons.benchmarks.half_plane_peers.cases import LineCase, cylinder, rough, sinusoid
-from comparisons.benchmarks.half_plane_peers.codes import (
+from tests.half_plane_peers.cases import LineCase, cylinder, rough, sinusoid
+from tests.half_plane_peers.codes import (
     LineAnswer,
     LineCode,
     contact_mechanics,
     crosscheck,
     tamaas,
 )
-from comparisons.benchmarks.half_plane_peers.yardstick import TOLERANCE, ContactResiduals, measure
-from comparisons.benchmarks.harness import Demand, installed, print_demands, print_table
+from tests.half_plane_peers.yardstick import TOLERANCE, ContactResiduals, measure
+from tests.harness import Demand, installed, print_demands, print_table
 
 SIZES = (256, 1024, 4096, 16384, 65536)
 SEEDS = (1, 2, 3)

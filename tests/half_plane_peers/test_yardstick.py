@@ -6,15 +6,15 @@ from functools import partial
 import numpy as np
 import pytest
 
-from comparisons.benchmarks.half_plane_peers.cases import (
+from tests.half_plane_peers.cases import (
     CONTACT_SHARE,
     REFINED,
     cylinder,
     rough,
     sinusoid,
 )
-from comparisons.benchmarks.half_plane_peers.codes import crosscheck
-from comparisons.benchmarks.half_plane_peers.yardstick import TOLERANCE, displacements, measure
+from tests.half_plane_peers.codes import crosscheck
+from tests.half_plane_peers.yardstick import TOLERANCE, displacements, measure
 
 COUNT = 128
 CASES = {"cylinder": cylinder, "sinusoid": sinusoid, "rough": partial(rough, seed=1)}

@@ -1,6 +1,6 @@
 """The benchmark of the laws of cost: it solves levels, and its demands can fail."""
 
-from comparisons.benchmarks.cost_laws import LevelCost, demands, main
+from tests.cost_laws import LevelCost, demands, main
 
 
 def level(seconds, unknowns=(100, 100), memory=(1e9, 1e9)):

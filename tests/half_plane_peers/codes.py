@@ -15,9 +15,9 @@ import numpy as np
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
-from comparisons.benchmarks.half_plane_peers.cases import LineCase
-from comparisons.benchmarks.half_plane_peers.yardstick import operator_of
-from comparisons.benchmarks.harness import AbsentError
+from tests.half_plane_peers.cases import LineCase
+from tests.half_plane_peers.yardstick import operator_of
+from tests.harness import AbsentError
 
 
 @dataclass(frozen=True)

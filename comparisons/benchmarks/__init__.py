@@ -1,1 +1,0 @@
-"""Run by hand: time and error beside other codes and other sizes, and measurements of models."""
