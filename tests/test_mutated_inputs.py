@@ -1,10 +1,14 @@
 """Mutated inputs: the same for a seed, and what counts as a defect."""
 
+from pathlib import Path
+
 import pytest
 from mutated_inputs.inputs import profiles, scenes
 from mutated_inputs.outcomes import Refusal, outcome, resolve
 
+from analytic.surface.readers import instrument_worker, instruments
 from comparisons.common.errors import InputError
+from comparisons.common.processes import fresh_process
 
 
 def raising(error: BaseException):
@@ -14,7 +18,24 @@ def raising(error: BaseException):
     return work
 
 
+@pytest.fixture
+def one_reader(monkeypatch):
+    """SurfaceTopography in one process for all files; another where that one ends or fails."""
+    ask = instruments._ask
+    with fresh_process() as call:
+
+        def asked(path: Path, target: Path, channel: str | None) -> dict:
+            try:
+                return call(instrument_worker.main, str(path), str(target), channel)
+            except Exception:
+                return ask(path, target, channel)
+
+        monkeypatch.setattr(instruments, "_ask", asked)
+        yield
+
+
 @pytest.mark.parametrize("inputs", [scenes, profiles])
+@pytest.mark.usefixtures("one_reader")
 def test_a_seed_gives_the_same_inputs_and_each_is_read_or_refused(tmp_path, inputs):
     found = []
     for again in ("first", "second"):

@@ -25,6 +25,7 @@ Held = TypeVar("Held")
 
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
 WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
+PREPARATION = 0.2  # seconds that forked processes save where they have something to prepare
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 # Urgencies: others wait for the first kind, and the last may turn out to be for nothing.
 AT_ONCE, FIRST, NEEDED, LATER, PERHAPS = range(5)
@@ -136,7 +137,8 @@ class Tasks:
         needed = [task for task in self._waiting.values() if task.urgency < PERHAPS]
         # what lies beyond the longest can be done beside it
         beside = sum(task.seconds for task in needed) - max((t.seconds for t in needed), default=0)
-        if self.processes and (beside >= worth or (forked and self.there)):
+        beside += PREPARATION if forked and self.there else 0.0
+        if self.processes and beside >= worth:
             serve = partial(_serve, self.there)
             for _ in range(self.processes):
                 others, worker = list(self._workers.values()), Worker(serve, forked)

@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 from concurrent.futures import BrokenExecutor, Executor, Future
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -265,8 +265,12 @@ def test_workers_have_one_thread_and_leave_the_environment_as_it_was(monkeypatch
     ("workers", "what"),
     [("0", "--workers: is 0"), ("two", "--workers: is 'two'"), ("tcp://127.0.0.1:1", "--workers:")],
 )
-def test_wrong_workers_leave_nothing(scene, tmp_path, capsys, workers, what):
+def test_wrong_workers_leave_nothing(scene, tmp_path, capsys, monkeypatch, workers, what):
     out = tmp_path / "out"
+    with suppress(ImportError):  # where it is not installed, that is said
+        from distributed.config import config
+
+        monkeypatch.setitem(config["distributed"]["comm"]["timeouts"], "connect", "1s")  # of 30
     assert main(["map", str(scene), *ASKED, "--workers", workers, "--out", str(out)]) == 2
     said = capsys.readouterr()
     assert said.out == "" and said.err.startswith(f"crosscheck: {what}")
