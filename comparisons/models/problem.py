@@ -42,6 +42,7 @@ WIDEST_CIRCLE = 0.8  # of the radius that pressures may extend to
 # Thickness of a body or its coating, in half-widths of the smooth contact: elements as fine as a
 # thinner one takes are more than can be held, and the rounding of a thicker one shows at its top.
 THINNEST, THICKEST = 1e-3, 1e6
+STIFFEST = 1e9  # times the body's modulus, of a coating; as soft at least: a gel on diamond is 1e-9
 LEAST_EXTENT = 8.0  # of the farthest pressure: width and depth of an unbounded block
 # Grid beyond the outermost contact, in half-widths. The edge of a contact is found from the six
 # elements beyond it, which are as wide as a smooth contact's are few.
@@ -150,7 +151,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     scene = run_in_scene(scene)
     modulus = combined_modulus(scene.roller, scene.body)
     hertz = _smooth_contact(scene, modulus, load)
-    _check_thickness(scene, hertz.half_width)
+    _check_layers(scene, hertz.half_width)
     curve = None if scene.profile is None else surface(scene.profile)
     problem = Problem(
         scene=scene,
@@ -179,8 +180,16 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
     return hertz_from_load(load, scene.roller_radius, modulus)
 
 
-def _check_thickness(scene: ResolvedScene, half_width: float) -> None:
-    """Refuse a layer whose thickness no mesh can show beside the contact."""
+def _check_layers(scene: ResolvedScene, half_width: float) -> None:
+    """Refuse a layer whose thickness no mesh can show beside the contact, and a coating that next
+    to the body is nothing, or rigid."""
+    if scene.coating is not None:
+        own, body = (each.youngs_modulus for each in (scene.coating.material, scene.body))
+        if not body / STIFFEST <= own <= body * STIFFEST:
+            raise SceneError(
+                f"{scene.source}: coating.youngs_modulus: is {own:g} Pa on a body of {body:.3g} "
+                f"Pa; allowed is from {body / STIFFEST:.3g} Pa to {body * STIFFEST:.3g} Pa"
+            )
     layers = {"body": scene.thickness, "coating": scene.coating and scene.coating.thickness}
     if scene.load.kind == "approach":  # without deformation; the load is not known yet
         half_width = np.sqrt(2.0 * scene.roller_radius * scene.load.value)

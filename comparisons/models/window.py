@@ -10,6 +10,7 @@ from comparisons.models.problem import Problem
 
 FIRST_DEPTH = 0.25  # of the third level's pitch: the layer next to the surface
 FINEST_SPACING = 1.0 / 16.0  # of the third level's pitch; finer points would show nothing new
+MOST_COLUMNS = 2**18  # of the coarsest pitch across a window: where extremes are searched
 SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searched
 
 
@@ -70,6 +71,12 @@ def window_of(problem: Problem) -> Window:
         least = f"{FINEST_SPACING * finest:.3g} m, a part of a pressure element"
         given = f"stress.half_range: is {half_range:.3g} m"
         raise SceneError(f"{scene.source}: {given}; allowed is at least {least}")
+    if 2.0 * half_range > MOST_COLUMNS * coarsest:
+        most = f"{0.5 * MOST_COLUMNS * coarsest:.3g} m at pressure elements of {coarsest:.3g} m"
+        raise SceneError(
+            f"{scene.source}: stress.half_range: is {half_range:.3g} m; allowed is at most {most}, "
+            "as the surface asks for: check x_unit and z_unit, or leave [stress] out"
+        )
     last = int(np.floor(half_range / spacing * (1.0 + 1e-12)))
     x = np.arange(-last, last + 1) * spacing
     first = min(FIRST_DEPTH * finest, depth / (rows - 1))

@@ -9,12 +9,15 @@ import json
 import sys
 import warnings
 import zipfile
+from importlib import metadata
 
 import numpy as np
 
 LONGEST_COMPLAINT = 200
 MOST_CELLS = 20_000_000  # of a spreadsheet
 TOO_LENIENT = ("hgt",)  # terrain: any file of twice a square number of bytes passes for it
+# Whose sizes are in m, and the unit that they name that of the heights alone.
+SIZED_IN_METRES = ("mi",)
 
 
 def main(path: str, target: str, wanted: str | None = None) -> dict:
@@ -36,7 +39,7 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
         )
     except ImportError as error:
         return {"absent": _line(error)}
-    version = SurfaceTopography.__version__
+    version = metadata.version("SurfaceTopography")  # its own is that of any git around
     known = set(SurfaceTopography.IO.lookup_reader_by_format) - {*TOO_LENIENT}
     formats = ", ".join(sorted(known))
     unknown = {
@@ -53,7 +56,7 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
     except Exception as error:
         return {"problem": f"cannot be read by SurfaceTopography {version} ({_line(error)})"}
     name = reader.format()
-    if name in TOO_LENIENT:
+    if name in TOO_LENIENT or not reader.channels:  # a reader of mat takes what begins like one
         return unknown
     try:
         channel, names = reader.default_channel, [str(each.name) for each in reader.channels]
@@ -71,8 +74,10 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
         return {"problem": f"is a damaged file of the format {name} ({_line(error)})"}
     pitch = None
     if sized and places is None:
-        steps = np.divide(surface.physical_sizes, surface.nb_grid_pts).tolist()
-        pitch = (steps[0], steps[-1])
+        steps = np.divide(surface.physical_sizes, surface.nb_grid_pts)
+        if name in SIZED_IN_METRES:
+            steps *= get_unit_conversion_factor("m", surface.unit)
+        pitch = (float(steps[0]), float(steps[-1]))
     arrays = {} if places is None else {"x": places}
     np.savez(target, heights=heights.T, **arrays)
     unit = surface.unit

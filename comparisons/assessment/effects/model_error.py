@@ -143,8 +143,8 @@ def model_errors(
         with_it, without = (each.figures.get(LARGEST.get(name)) for each in pair)
         if with_it is None:
             return found
-        there = (1.0 + max(found.uncertainty, numerical)) * with_it[np.argmax(without)]
-        return replace(found, moves_maximum=bool(with_it.max() > there))
+        certain = with_it.max() / (1.0 + max(found.uncertainty, numerical))  # which may be infinite
+        return replace(found, moves_maximum=bool(certain > with_it[np.argmax(without)]))
 
     def of_figure(row: Comparison, numerical: float, at: int) -> tuple[float, float]:
         """Error of a figure and its uncertainty."""

@@ -77,6 +77,15 @@ def test_a_layer_that_no_mesh_can_show_is_refused(layer, thickness):
         problem(tables)
 
 
+@pytest.mark.parametrize("modulus", [1e-30, 1.0, 1e30])
+def test_a_coating_that_is_nothing_or_rigid_beside_the_body_is_refused(modulus):
+    tables = changed(SMOOTH, coating=STEEL | {"thickness": 1e-5, "youngs_modulus": modulus})
+    with pytest.raises(
+        SceneError, match=r"coating.youngs_modulus: is .* Pa; allowed is from 2\d\d"
+    ):
+        problem(tables)
+
+
 def test_a_layer_under_a_prescribed_approach_is_measured_by_the_cut_that_it_makes():
     tables = SMOOTH | {"roller": {"radius": 8e-3, "rigid": True}, "load": {"approach": 1e-6}}
     for thickness in (1e-30, 1e30):

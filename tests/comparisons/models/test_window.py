@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scenes import STEEL, resolved
 
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import Stages
@@ -27,6 +28,21 @@ def test_extremes_do_not_depend_on_the_points_of_the_field(name):
         found.append([e.value for s in level.stresses for e in s.extremes.values()])
     assert found[0] == pytest.approx(found[2], rel=1e-9)
     assert found[1] == pytest.approx(found[2], rel=1e-9)
+
+
+def test_a_trace_that_is_nothing_beside_the_window_is_refused_before_it_is_searched(tmp_path):
+    """Nanometres high and picometres long: its waves ask for more points than there is memory."""
+    height = np.cumsum(np.random.default_rng(1).standard_normal(256))
+    np.savetxt(tmp_path / "trace.csv", np.column_stack([0.08 * np.arange(256), height]))
+    tables = {
+        "roller": {"radius": 1e-5, **STEEL},
+        "body": STEEL,
+        "profile": {"file": "trace.csv", "x_unit": "pm", "z_unit": "nm"},
+        "load": {"hertz_peak_pressure": 1e9},
+    }
+    given = problem_of(resolved(tables | {"stress": {}}, folder=tmp_path))
+    with pytest.raises(SceneError, match=r"stress.half_range: is 2.6e-07 m; .*: check x_unit and"):
+        window_of(given)
 
 
 @pytest.mark.parametrize("columns", [3, 10, 77, 600, 2500])

@@ -217,6 +217,7 @@ def test_a_title_cannot_add_markup(smooth_outcome: Outcome, page_of, monkeypatch
     assert page.open_tags == []
 
 
+@pytest.mark.filterwarnings("error::RuntimeWarning")  # of uncertainties that are infinite
 def test_the_page_of_a_field_of_full_size_stays_small(
     finish: Callable[..., Outcome], without_field: dict
 ):

@@ -5,6 +5,7 @@ import importlib.util
 import json
 import sys
 import zipfile
+from importlib import metadata
 
 import numpy as np
 import pytest
@@ -71,6 +72,27 @@ def test_text_of_a_map_with_its_size_and_unit(tmp_path):
     np.testing.assert_allclose(found.heights, HEIGHTS, rtol=1e-12)
     np.testing.assert_allclose(found.pitch, (2e-6, 2e-6), rtol=1e-12)
     assert found.unit == pytest.approx(1e-9)
+
+
+@needs_reader
+def test_the_sizes_of_an_mi_file_are_in_metres(tmp_path):
+    """The library names the unit of its heights for both: 20 um would be 20 pm long."""
+    head = {"fileType": "Image", "xPixels": 8, "yPixels": 8, "xLength": 2e-5, "yLength": 4e-5}
+    head |= {"scanUp": "FALSE", "bufferLabel": "Topography", "bufferUnit": "um", "bufferRange": 2.0}
+    lines = "".join(f"{name:14}{value}\n" for name, value in head.items())
+    counts = np.arange(64, dtype="<i2").reshape(8, 8)
+    (tmp_path / "a.mi").write_bytes(f"{lines}data          BINARY\n".encode() + counts.tobytes())
+    found = read_instrument_file(tmp_path / "a.mi")
+    assert found.format == f"mi, by SurfaceTopography {metadata.version('SurfaceTopography')}"
+    assert found.pitch == pytest.approx((2.5e-6, 5e-6), rel=1e-12)
+    assert np.ptp(found.heights) == pytest.approx(63 / 32768 * 2e-6, rel=1e-12)
+
+
+@needs_reader
+def test_what_begins_like_mat_and_holds_nothing_is_of_no_format_that_is_known(tmp_path):
+    (tmp_path / "a.nms").write_bytes(bytes([2, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 255, 255]) * 80)
+    with pytest.raises(ProfileError, match="is of no format that is known"):
+        read_instrument_file(tmp_path / "a.nms")
 
 
 @needs_reader
