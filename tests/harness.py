@@ -5,6 +5,8 @@ import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple, TypeVar
 
+from comparisons.common.progress import processor_seconds
+
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 Result = TypeVar("Result")
 
@@ -39,6 +41,13 @@ def run_on_one_thread(main: Callable[[], int]) -> None:
     if not ONE_THREAD.items() <= os.environ.items():
         os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], os.environ | ONE_THREAD)
     sys.exit(main())
+
+
+def timed(work: Callable[[], Result]) -> tuple[float, Result]:
+    """Processor time [s] of a call, its child processes included, and what it returned."""
+    start = processor_seconds()
+    found = work()
+    return processor_seconds() - start, found
 
 
 def print_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

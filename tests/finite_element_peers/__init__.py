@@ -1,0 +1,1 @@
+"""Contact on finite elements beside CalculiX and scikit-fem."""
