@@ -1,19 +1,24 @@
 """The page's sections: the paper's figures in its order, each picture beside its claims."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from comparisons.common.progress import ProgressCallback
 from comparisons.report.figures.fields import COMPONENTS
+from comparisons.report.figures.sections import section_pictures
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.results.outcome import Outcome
 from comparisons.studies.paper.claim_table import ClaimRow, claim_row
-from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, SMOOTH, SURFACES, UNRUN
-from comparisons.studies.paper.claims.judgement import JudgedClaim
-from comparisons.studies.paper.pictures.depth import (
-    axis_pictures,
-    edge_section_picture,
-    peak_section_picture,
+from comparisons.studies.paper.claims.claim_list import (
+    FIGURES,
+    POLISHED,
+    SCENES,
+    SMOOTH,
+    SURFACES,
+    UNRUN,
 )
+from comparisons.studies.paper.claims.judgement import JudgedClaim
+from comparisons.studies.paper.pictures.depth import axis_pictures
 from comparisons.studies.paper.pictures.pressure import pressure_picture, trace_picture
 from comparisons.studies.paper.pictures.scales import scales_of
 from comparisons.studies.paper.pictures.shear import contour_picture
@@ -47,11 +52,11 @@ def sections_of(
         names = {f"{number}({letter})" for letter in letters} or {number}
         return tuple(claim_row(each) for each in judged if each.claim.figure in names)
 
-    def lettered(number: str, *pictures: tuple[str, Picture]) -> tuple[Block, ...]:
+    def lettered(number: str, *pictures: tuple[str, Sequence[Picture]]) -> tuple[Block, ...]:
         """A block a letter, from (a) on."""
         return tuple(
-            Block(f"Figure {number}({letter}): {words}", (picture,), claims(number, letter))
-            for letter, (words, picture) in zip("ab", pictures, strict=False)
+            Block(f"Figure {number}({letter}): {words}", tuple(drawn), claims(number, letter))
+            for letter, (words, drawn) in zip("ab", pictures, strict=False)
         )
 
     with drawing():
@@ -64,14 +69,14 @@ def sections_of(
         callback("drawing figure 5")
         axis, near = axis_pictures(outcomes[SMOOTH])
         blocks = lettered(
-            "5", ("stresses on the axis", axis), ("the same next to the surface", near)
+            "5", ("stresses on the axis", [axis]), ("the same next to the surface", [near])
         )
         found.append(Section("5", "Figure 5: right down to the surface", blocks))
         for scene in SCENES:
             number, surface = FIGURES[scene], SURFACES[scene]
             callback(f"drawing figure {number}")
             pressure = pressure_picture(outcomes[scene], scales, surface)
-            blocks = lettered(number, ("pressure and surfaces under load", pressure))
+            blocks = lettered(number, ("pressure and surfaces under load", [pressure]))
             for component in reversed(COMPONENTS):  # orthogonal shear first, as in the paper
                 letters = LETTERS[component.name]
                 heading = f"Figure {number}({letters[0]}) to ({letters[-1]}): "
@@ -82,8 +87,18 @@ def sections_of(
         callback("drawing figure 11")
         blocks = lettered(
             "11",
-            ("below the peak asperities", peak_section_picture(outcomes)),
-            ("below the edge of the contact", edge_section_picture(outcomes)),
+            ("below the peak asperities", _depths(outcomes, 0, UNRUN, POLISHED)),
+            ("below the edge of the contact", _depths(outcomes, 1, SMOOTH, UNRUN)),
         )
         found.append(Section("11", "Figure 11: principal shear over depth", blocks))
     return tuple(found)
+
+
+def _depths(outcomes: dict[str, Outcome], place: int, *scenes: str) -> list[Picture]:
+    """Principal shear over depth on one of the verticals that a report shows, by surface."""
+    found = []
+    for scene in scenes:
+        picture, of = section_pictures(outcomes[scene])[place], SURFACES[scene].capitalize()
+        said = f"{of}. {picture.alternative}", f"{of}. {picture.caption}"
+        found.append(replace(picture, alternative=said[0], caption=said[1]))
+    return found

@@ -14,8 +14,6 @@ from comparisons.studies.checks import (
     write_study,
 )
 from comparisons.studies.robustness.cases import algebra, friction, layers, rough, smooth, stresses
-from comparisons.studies.robustness.cases.rounding import cases as rounding_cases
-from comparisons.studies.robustness.cases.rounding import finite_element_cases
 from comparisons.studies.robustness.finite_element import extremes, scenes, stiffness
 
 
@@ -25,7 +23,6 @@ def all_cases() -> list[CheckedCase]:
     finite_elements = (stiffness, scenes, extremes)
     groups = [("half_plane", module.cases()) for module in analytic]
     groups += [("finite_element", module.cases()) for module in finite_elements]
-    groups += [("half_plane", rounding_cases()), ("finite_element", finite_element_cases())]
     return [case for model, given in groups for case in named_cases(model, given)]
 
 

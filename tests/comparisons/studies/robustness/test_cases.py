@@ -22,7 +22,6 @@ from comparisons.studies.robustness.cases import (
     friction,
     layers,
     rough,
-    rounding,
     smooth,
     stresses,
 )
@@ -102,23 +101,3 @@ def test_friction_towards_the_wrong_side_fails_the_row(monkeypatch, row_of):
         friction, "CoupledHalfPlane", lambda *given: original(*given[:3], -given[3])
     )
     assert not row_of(friction, "friction 1, rigid on nu = 0").holds
-
-
-def test_digits_are_those_that_perturbation_leaves():
-    def results(change, loss):
-        return {"sum": change(1.0) - loss}
-
-    whole = rounding.digits_findings(partial(results, loss=0.0), 14.0, 6.0)
-    digits = {figure.name: figure.value for figure in whole.figures}
-    assert digits["digits of sum"] > 14.5
-    cancelled = rounding.digits_findings(partial(results, loss=1.0 - 1e-6), 14.0, 6.0)
-    digits = {figure.name: figure.value for figure in cancelled.figures}
-    assert 8.5 < digits["digits of sum"] < 10.0
-    assert not all(figure.holds for figure in cancelled.figures)
-
-
-@pytest.mark.parametrize("name", ["smooth", "thin incompressible layer"])
-def test_digits_of_a_contact(name, row_of):
-    row = row_of(rounding, name)
-    [approach] = [f.value for f in row.findings.figures if f.name == "digits of approach"]
-    assert row.holds and approach > 12.0
