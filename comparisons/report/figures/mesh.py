@@ -39,7 +39,11 @@ def mesh_pictures(outcome: Outcome) -> list[Picture]:
     count = f"{integer(len(corners))} quadratic triangles, {integer(level.unknowns)} unknowns"
     under = f"Under the contact; edges at the surface are {with_unit(edge, 'm', 3)} long."
     views = (
-        ("the whole block", (-half, half, depth), f"Mesh of the whole block: {count}."),
+        (
+            "the whole block",
+            (-half, half, depth),
+            f"Mesh of the whole block: {count}; as a file: finite_element/mesh.msh.",
+        ),
         ("the body under the contact", (-reach, reach, min(reach, depth)), under),
         (
             "the body under the highest pressure",

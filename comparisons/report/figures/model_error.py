@@ -114,7 +114,23 @@ def model_error_picture(outcome: Outcome) -> style.Picture | None:
         "Black: the error with its uncertainty; thin: with what is not modelled, "
         f"cut off without an end where it would hide the steps{lines}.",
         wide=True,
+        data=("CSV", style.csv_uri(_table(panels))),
     )
+
+
+def _table(panels: list[Waterfall]) -> list[list[object]]:
+    """Every step of every panel, relative; then the error with what may be wrong with it."""
+    rows: list[list[object]] = [["quantity", "step", "relative size"]]
+    for panel in panels:
+        ends = {
+            ERROR: panel.error,
+            "uncertainty": panel.uncertainty,
+            "not modelled (estimate)": panel.not_modelled,
+            "tolerance": panel.tolerance,
+        }
+        sizes = (panel.steps | ends).items()
+        rows += [[panel.name, step, f"{size:.6g}"] for step, size in sizes if size is not None]
+    return rows
 
 
 def _large(panel: Waterfall) -> list[tuple[str, float]]:

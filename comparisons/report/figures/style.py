@@ -248,9 +248,14 @@ def csv_link(drawn: "Figure") -> tuple[str, str] | None:
             columns += [] if np.array_equal(x, last) else [(axes.get_xlabel() or across, x)]
             columns.append((" ".join(name.split()), y))
             last = x
-    text = io.StringIO()
     rows = zip_longest(*([f"{v:.6g}" for v in values] for _, values in columns), fillvalue="")
-    csv.writer(text, lineterminator="\n").writerows([[name for name, _ in columns], *rows])
-    content = base64.b64encode(text.getvalue().encode()).decode("ascii")
     words = "CSV" if step == 1 else f"CSV, 1 point in {step}"
-    return words, f"data:text/csv;charset=utf-8;base64,{content}"
+    return words, csv_uri([[name for name, _ in columns], *rows])
+
+
+def csv_uri(rows: Sequence[Sequence[object]]) -> str:
+    """Rows of a table as the data URI of a CSV file."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    content = base64.b64encode(text.getvalue().encode()).decode("ascii")
+    return f"data:text/csv;charset=utf-8;base64,{content}"

@@ -56,6 +56,22 @@ function look(fields) {
     return `${fields.components[component].symbol} at ${place}: ${values.join(", ")}`;
   }
 
+  // The points of a picture down to `deepest` half-widths, as the rows of a CSV file.
+  function table(component, friction, deepest) {
+    const { symbol } = fields.components[component];
+    const all = Object.entries(curves(component, friction));
+    const lines = [["x/a", "z/a", ...all.map(([name]) => `"${symbol}/p₀, ${name}"`)].join(",")];
+    fields.z.forEach((z, row) => {
+      if (z > deepest * (1 + 1e-5)) return;
+      fields.x.forEach((x, column) => {
+        const at = row * fields.x.length + column;
+        const shown = ([, v]) => (Number.isNaN(v[at]) ? "" : Number(v[at].toPrecision(5)));
+        lines.push([x, z, ...all.map(shown)].join(","));
+      });
+    });
+    return `${lines.join("\n")}\n`;
+  }
+
   const box = document.querySelector("#look");
   const [component, friction] = box.querySelectorAll("select");
   const [depth, place] = box.querySelectorAll("input");
@@ -178,6 +194,17 @@ function look(fields) {
   document.body.append(tip);
   for (const picture of document.querySelectorAll("img[data-field]")) {
     const drawn = JSON.parse(picture.dataset.field);
+    const link = document.createElement("a");
+    const rows = fields.z.filter((z) => z <= drawn.z[1] * (1 + 1e-5)).length;
+    link.className = "data";
+    link.textContent = `CSV, ${fields.x.length} × ${rows} points`;
+    link.href = "#look";
+    link.download = `${fields.components[drawn.component].symbol}.csv`;
+    link.addEventListener("click", () => {
+      const content = table(drawn.component, drawn.friction, drawn.z[1]);
+      link.href = URL.createObjectURL(new Blob([content], { type: "text/csv;charset=utf-8" }));
+    });
+    picture.closest("figure").querySelector("figcaption").append(" ", link);
     picture.addEventListener("pointerleave", () => (tip.hidden = true));
     picture.addEventListener("pointermove", (event) => {
       const frame = picture.getBoundingClientRect();

@@ -13,6 +13,7 @@ from dataclasses import replace
 import pytest
 
 from comparisons.common.quantities import QUANTITIES, label
+from comparisons.report.figures.model_error import waterfalls
 from comparisons.report.page import render
 from comparisons.report.tables.text import is_shown
 from comparisons.results.outcome import Outcome
@@ -98,6 +99,26 @@ def test_curves_are_there_as_csv(wavy_page, wavy_outcome):
     highest = level.solution.pressure.max() / wavy_outcome.problem.hertz.peak_pressure
     assert max(float(text) for text in shown.values() if text) == pytest.approx(highest, rel=1e-5)
     assert {len(row) for row in curves} == {len(curves[0])}
+    [steps] = [
+        list(csv.reader(text.splitlines()))
+        for name, text in zip(names, texts, strict=True)
+        if name.startswith("the-half-plane-s-model-error")
+    ]
+    panels = waterfalls(wavy_outcome)
+    assert steps[0] == ["quantity", "step", "relative size"]
+    assert {row[0] for row in steps[1:]} == {panel.name for panel in panels}
+    for panel in panels:
+        sizes = {step: float(size) for name, step, size in steps[1:] if name == panel.name}
+        assert sizes["model error"] == pytest.approx(panel.error, rel=1e-5)
+        assert sizes["uncertainty"] == pytest.approx(panel.uncertainty, rel=1e-5)
+        if not panel.is_norm:
+            assert sum(sizes[step] for step in panel.steps) == pytest.approx(
+                panel.error, rel=1e-4, abs=1e-6
+            )
+
+
+def test_the_mesh_says_where_its_file_is(wavy_page):
+    assert "as a file: finite_element/mesh.msh" in wavy_page.text
 
 
 def test_one_meaning_of_left_out(wavy_page, smooth_page, half_plane_page):

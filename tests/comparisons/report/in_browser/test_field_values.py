@@ -1,5 +1,6 @@
 """Values and sections that a reader takes from the fields are those of the run."""
 
+import csv
 import re
 
 import numpy as np
@@ -96,6 +97,48 @@ def test_the_places_to_point_at_are_where_the_fields_are_drawn(tab, wavy_file):
         assert sum(low[:3]) < 700 or not models, (number, low)
         for outside in (above, beside):
             assert outside[3] == 0 or sum(outside[:3]) > 740, (number, outside)
+
+
+def test_every_picture_of_a_field_gives_its_points_as_csv(tab, wavy_file, wavy_outcome: Outcome):
+    page = tab(wavy_file, WIDTH)
+    files = page.value(
+        """(async () => {
+          const blobs = [];
+          URL.createObjectURL = (blob) => (blobs.push(blob), "#look");
+          const links = [...document.querySelectorAll("figcaption a.data[href='#look']")];
+          for (const link of links) link.click();
+          const texts = await Promise.all(blobs.map((blob) => blob.text()));
+          const drawn = (link) =>
+            JSON.parse(link.closest("figure").querySelector("img").dataset.field);
+          return links.map((link, k) => [drawn(link), link.textContent, link.download, texts[k]]);
+        })()"""
+    )
+    frictions, a = wavy_outcome.problem.scene.friction, wavy_outcome.problem.hertz.half_width
+    assert len(files) == 6
+    for drawn, words, name, text in files:
+        header, *rows = csv.reader(text.splitlines())
+        symbol = COMPONENTS[drawn["component"]].symbol
+        names = "half-plane", "finite elements", "difference"
+        assert header == ["x/a", "z/a", *(f"{symbol}/p₀, {name}" for name in names)]
+        assert name == f"{symbol}.csv"
+        numbers = np.array(rows, dtype=float)
+        deep = np.unique(numbers[:, 1])
+        assert words == f"CSV, {len(rows) // len(deep)} × {len(deep)} points"
+        assert deep[-1] == pytest.approx(drawn["z"][1], rel=1e-4)
+        given = drawn["component"], frictions[drawn["friction"]]
+        row, column = (
+            np.argmin(np.abs(places[:, None] / a - at), axis=0)
+            for places, at in zip(
+                (wavy_outcome.window.z, wavy_outcome.window.x), numbers[:, [1, 0]].T, strict=True
+            )
+        )
+        one, other = (
+            field(wavy_outcome, model, *given)[row, column]
+            for model in ("half_plane", "finite_element")
+        )
+        assert numbers[:, 2] == pytest.approx(one, abs=1e-4)
+        assert numbers[:, 3] == pytest.approx(other, abs=1e-4)
+        assert numbers[:, 4] == pytest.approx(one - other, abs=1e-4 * np.abs(one - other).max())
 
 
 def test_a_pointer_on_a_picture_reads_both_models(tab, wavy_file, wavy_outcome: Outcome):
