@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from comparisons.commands.arguments import job, json_option
-from comparisons.commands.output import is_watched, show, show_json
+from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus
 
 
@@ -67,15 +67,13 @@ def init(
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE
-    from rich.console import Console
-
     from comparisons.models.problem import problem_of
     from comparisons.report.terminal import PLAIN
     from comparisons.studies.init.profile_view import init_table
     from comparisons.studies.maps.place import first_answer
 
     unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
-    show(init_table(made, Console().width - 1 if is_watched() else None, unicode))
+    show(init_table(made))
     for line in first_answer(problem_of(made.scene)):
         print(line if unicode else line.translate(PLAIN))
     return ExitStatus.DONE

@@ -52,7 +52,7 @@ def look(path: Path) -> str:
     """What becomes of a profile that `init` looks at."""
     made = write_first_scene(path, None, {}, force=True)
     shown = Console(file=io.StringIO(), width=100)
-    shown.print(init_table(made, 90, True), *first_answer(problem_of(made.scene)))
+    shown.print(init_table(made), *first_answer(problem_of(made.scene)))
     return "a scene of it"
 
 

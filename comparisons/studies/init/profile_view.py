@@ -1,4 +1,4 @@
-"""What `crosscheck init` shows: how the profile was read, its roughness, a picture of it."""
+"""What `crosscheck init` shows: how the profile was read, and its roughness."""
 
 from typing import TYPE_CHECKING
 
@@ -16,16 +16,12 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
-# Bits of a braille character's dots: rows from the top, columns from the left (Unicode, U+2800).
-BRAILLE = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
-ASCII = {(False, False): " ", (True, False): "'", (False, True): ".", (True, True): ":"}
-ROWS, MOST_COLUMNS = 6, 100  # of the picture
 NONE = "-"
 UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not even
 
 
-def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "RenderableType":
-    """For rich to print; with a picture that is `columns` wide, without one where it is None."""
+def init_table(made: FirstScene) -> "RenderableType":
+    """For rich to print."""
     from rich.console import Group
     from rich.text import Text
 
@@ -36,8 +32,6 @@ def init_table(made: FirstScene, columns: int | None, unicode: bool) -> "Rendera
     if info.place:
         parts.append(Text(info.place))
     parts.append("")
-    if columns:
-        parts += [*_picture(made, min(columns, MOST_COLUMNS), not unicode), ""]
     table = plain_table("roughness", numbers=("as pressed", "ISO 21920-2"))
     for row in _rows(info):
         table.add_row(*(cell.translate(PLAIN) for cell in row))
@@ -109,54 +103,3 @@ def _figure(value: float | None, is_length: bool) -> str:
 
 def _length(value: float) -> str:
     return with_unit(value, "m")
-
-
-def _picture(made: FirstScene, columns: int, plain: bool) -> "list[RenderableType]":
-    """The profile as it is pressed, its heights at the left and its ends below."""
-    from rich.text import Text
-
-    profile = made.scene.profile
-    x, height = profile.x + made.scene.position, profile.height
-    marks = [with_unit(v, "m", 3).translate(PLAIN) for v in (height.max(), height.min())]
-    margin = max(map(len, marks)) + 1
-    lines = curve(x, height, columns - margin, ROWS, plain)
-    labels = [marks[0], *[""] * (ROWS - 2), marks[1]]
-    ends = [with_unit(v, "m", 3).translate(PLAIN) for v in (x[0], x[-1])]
-    below = f"{ends[0]}{ends[1]:>{columns - margin - len(ends[0])}}"
-    return [
-        *(Text(f"{label:>{margin - 1}} {line}", no_wrap=True)
-          for label, line in zip(labels, lines, strict=True)),
-        Text(" " * margin + below, no_wrap=True),
-    ]  # fmt: skip
-
-
-def curve(x: np.ndarray, y: np.ndarray, columns: int, rows: int, plain: bool = False) -> list[str]:
-    """The curve through (x, y), x ascending, as `rows` lines of `columns` characters.
-
-    In each column of dots it spans from its lowest to its highest value there.
-    plain   ASCII: a character has two dots, one above the other, instead of braille's four by two
-    """
-    across, down = (1, 2) if plain else (2, 4)
-    dots = _dots(x, y, columns * across, rows * down)
-    blocks = dots.reshape(rows, down, columns, across).transpose(0, 2, 1, 3)
-    if plain:
-        return ["".join(ASCII[tuple(block[:, 0])] for block in line) for line in blocks]
-    codes = 0x2800 + np.sum(blocks * BRAILLE, axis=(2, 3))
-    return ["".join(map(chr, line)) for line in codes]
-
-
-def _dots(x: np.ndarray, y: np.ndarray, width: int, height: int) -> np.ndarray:
-    """(height, width) bool: the dots that the curve covers, the top row first."""
-    ends = np.linspace(x[0], x[-1], width + 1)
-    at_ends = np.interp(ends, x, y)
-    column = np.clip(np.searchsorted(ends, x, side="right") - 1, 0, width - 1)
-    low = np.minimum(at_ends[:-1], at_ends[1:])
-    high = np.maximum(at_ends[:-1], at_ends[1:])
-    np.minimum.at(low, column, y)
-    np.maximum.at(high, column, y)
-    bottom, top = float(y.min()), float(y.max())
-    size = (top - bottom) or 1.0
-    first = np.minimum(height * (low - bottom) / size, height - 1).astype(int)
-    last = np.maximum(np.ceil(height * (high - bottom) / size).astype(int) - 1, first)
-    level = np.arange(height)[::-1, None]
-    return (level >= first) & (level <= last)
