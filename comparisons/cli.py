@@ -78,6 +78,7 @@ for name, command in {
     "verify": verify.verify,
     "paper": paper.paper,
     "scenes": scenes.scenes,
+    "deck": scenes.deck,
     "init": init.init,
     "doctor": doctor.doctor,
 }.items():

@@ -166,7 +166,7 @@ def test_commands_in_passing_work(tmp_path):
         for command in re.findall(r"`\./crosscheck ([^`]+)`", README + GUIDE + LIMITS)
     }
     studies = {"run", "cost", "map", "sweep", "verify", "stability", "paper", "rerun"}
-    assert named == {"scenes", "doctor", "init", "report", "table", *studies}
+    assert named == {"scenes", "deck", "doctor", "init", "report", "table", *studies}
     for arguments in (["scenes"], *([name, "--help"] for name in sorted(named - {"scenes"}))):
         done = call(arguments, tmp_path)
         assert done.status == ExitStatus.DONE and done.printed

@@ -1,0 +1,1 @@
+"""Scenes as complete inputs of other codes."""

@@ -1,0 +1,217 @@
+"""What a deck of any code is written from: bodies on the project's own meshes, load and kinematics.
+
+Millimetre, newton and megapascal. x along the surface, y up, out of the rough body; the origin is
+on the mean line under the roller's centre.
+
+A linear scene assumes a flat boundary and keeps the roughness in the gap. Its deck has the whole
+initial gap on the rough body's top, under a flat roller, in heights divided by FLATTER, and moduli
+that are FLATTER times as large: pressures, stresses and forces of linear elasticity stay what they
+are, and whatever another code does on the deformed or rough surface is FLATTER times as small.
+Otherwise both bodies have their own shapes, as the project's finite elements do.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from analytic.contact.patches import contact_patches
+from analytic.material import Material
+from comparisons.common.errors import SceneError
+from comparisons.models.finite_element.bodies import UNBOUNDED_SIDES
+from comparisons.models.finite_element.contact import roller_of
+from comparisons.models.finite_element.mesh import (
+    Refinement,
+    block_spec,
+    levelled,
+    roller_spec,
+    rough_mesh,
+)
+from comparisons.models.nearest_operator import nearest_operator, solve_on
+from comparisons.models.problem import Problem
+from fem.body.support import Support, held_components
+from fem.body.surface import boundary_points
+from meshes.block import EDGES, BlockMesh, BlockSpec, real_points, structured
+from meshes.build import build_block
+from meshes.real_shape import bent, roughen
+from meshes.size_law import surface_edge
+
+MM, MPA, N_PER_MM = 1e3, 1e-6, 1e-3  # of 1 m, 1 Pa, 1 N/m
+FLATTER = 1e3
+WIDER = 0.1  # of a predicted patch of contact: the refined ranges reach so far beyond it
+FINER = 2.0  # edges of a rigid roller's curve to one of the rough body
+RIGID = Material(210e9, 0.3)  # of elements whose nodes are all held
+TOUCH_POINTS = 100_001
+LEVEL = 1.5  # of the extent: half-width of a rigid roller
+
+
+@dataclass(frozen=True)
+class DeckBody:
+    """A body of six-node triangles.
+
+    points     (n, 2) x and y [mm]
+    triangles  (m, 6) anticlockwise: corners, then midpoints of the edges (0, 1), (1, 2), (2, 0)
+    coated     (m,) whether a triangle is in the coating
+    materials  of the body and of its coating, moduli [Pa] as in the deck
+    held       (n, 2) components of displacement that the far boundary holds
+    faces      (k, 2) triangle and local edge of each face that may touch
+    """
+
+    points: np.ndarray
+    triangles: np.ndarray
+    coated: np.ndarray
+    materials: tuple[Material, ...]
+    held: np.ndarray
+    faces: np.ndarray
+
+    @property
+    def surface(self) -> np.ndarray:
+        """Places (k,) among the points of the nodes that may touch, ascending along x."""
+        triangle, edge = self.faces.T
+        local = np.column_stack([edge, (edge + 1) % 3, edge + 3])
+        nodes = np.unique(self.triangles[triangle[:, None], local])
+        return nodes[np.argsort(self.points[nodes, 0])]
+
+
+@dataclass(frozen=True)
+class DeckProblem:
+    """What a deck describes.
+
+    problem        the scene's
+    rough, roller  bodies; the held nodes of the roller move as one
+    finite         finite deformation
+    flatter        what heights are divided by and moduli multiplied with
+    load           [N/mm]
+    edge           of the elements on the contact [mm]
+    ranges         (k, 2) stretches of the surface with such elements [mm]
+    overlap        how deep the roller would have to stand in the undeformed body to cut off as much
+                   of its surface as is predicted to touch [mm]
+    """
+
+    problem: Problem
+    rough: DeckBody
+    roller: DeckBody
+    finite: bool
+    flatter: float
+    load: float
+    edge: float
+    ranges: np.ndarray
+    overlap: float
+
+    @property
+    def bodies(self) -> dict[str, DeckBody]:
+        return {"ROUGH": self.rough, "ROLLER": self.roller}
+
+
+def deck_problem(problem: Problem, pitch: float) -> DeckProblem:
+    """The deck of a problem with elements of `pitch` [m] on the contact, in meshes like those of
+    the finite elements' level. Raises SceneError for what decks do not describe."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    refuse_undescribed(problem)
+    grid = problem.grid(pitch)
+    weighted = grid.hat_integrals(problem.finite_element_gap, problem.knots)
+    operator = nearest_operator(scene, grid)
+    found = solve_on(operator, weighted, grid.weights, problem.constraints())
+    patches = contact_patches(grid.x, found.pressure, found.gap)
+    wider = patches + WIDER * np.diff(patches, axis=1) * [-1.0, 1.0]
+    spec = block_spec(problem, Refinement(pitch), np.clip(wider, *problem.extent))
+    finite = settings.deformation == "finite"
+    shaped = finite or settings.roller_body == "disc"
+    shaped = shaped or settings.geometry == "rough" or settings.gap == "displaced"
+    flatter = 1.0 if shaped else FLATTER
+    gaps = np.sort(problem.finite_element_gap(np.linspace(*problem.extent, TOUCH_POINTS)))
+    first, touching = float(gaps[0]), np.diff(patches, axis=1).sum() / np.ptp(problem.extent)
+    flat = build_block(spec)
+    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
+    support = Support(scene.base or "bonded", sides)
+    rough = _body(problem, rough_mesh(problem, flat), support, flatter)
+    if not shaped:
+        top = flat.points[:, 1] == 0.0
+        reach = np.clip(flat.points[top, 0], *problem.extent)
+        rough.points[top, 1] = (first - problem.finite_element_gap(reach)) * MM / flatter
+    roller = _roller(problem, spec, flat, shaped, flatter)
+    roller.points[:, 1] -= first * MM if shaped else 0.0
+    return DeckProblem(
+        problem=problem,
+        rough=rough,
+        roller=roller,
+        finite=finite,
+        flatter=flatter,
+        load=problem.hertz.load_per_length * N_PER_MM,
+        edge=surface_edge(spec) * MM,
+        ranges=spec.intervals * MM,
+        overlap=float(gaps[int(touching * (TOUCH_POINTS - 1))] - first) * MM / flatter,
+    )
+
+
+def refuse_undescribed(problem: Problem) -> None:
+    """Raise SceneError for what no deck has."""
+    scene = problem.scene
+    if scene.finite_element.plastic or scene.hardness is not None:
+        field = "finite_element.plastic" if scene.finite_element.plastic else "body.hardness"
+        raise SceneError(f"{scene.source}: {field}: is given; allowed in a deck are elastic bodies")
+
+
+def _body(problem: Problem, mesh: BlockMesh, support: Support, flatter: float) -> DeckBody:
+    """The rough body: y = -z, which turns the triangles over."""
+    scene, coated = problem.scene, np.zeros(len(mesh.triangles), dtype=bool)
+    materials = [scene.body]
+    if scene.coating is not None:
+        coated = mesh.points[mesh.triangles[:, :3], 1].mean(axis=1) < scene.coating.thickness
+        materials.append(scene.coating.material)
+    points, triangles = real_points(mesh) * [MM, -MM], mesh.triangles[:, [0, 2, 1, 5, 4, 3]]
+    return _deck_body(problem, mesh, points, triangles, coated, materials, support, flatter)
+
+
+def _roller(
+    problem: Problem, spec: BlockSpec, flat: BlockMesh, shaped: bool, flatter: float
+) -> DeckBody:
+    """The body above, its lowest point at the origin: flat, or of its own shape."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    reach = float(np.abs(problem.extent).max())
+    support, material = Support("bonded", UNBOUNDED_SIDES), scene.roller or RIGID
+    if scene.roller is None:
+        wide = LEVEL * reach
+        cells = int(np.ceil(2.0 * wide / spec.surface_size * FINER)) if shaped else 1
+        mesh = structured(np.linspace(-wide, wide, cells + 1), np.array([0.0, 0.5 * wide]))
+        if shaped:
+            rise = roller_of(problem)(mesh.points[:, 0])[0]
+            mesh = replace(mesh, shift=np.column_stack([np.zeros_like(rise), rise]))
+        support = Support("bonded", UNBOUNDED_SIDES, within=(1e-9 * wide, 1e-9 * wide))
+    else:
+        wanted = roller_spec(problem, spec)
+        if wanted is not spec:  # nodes face nodes, also where a coating asks for shorter edges
+            flat = build_block(replace(wanted, surface_size=surface_edge(spec)))
+        mesh = flat
+        if settings.roller_body == "disc":
+            mesh = bent(mesh, scene.roller_radius)
+            support = Support("bonded", "free")
+        elif shaped:
+            mesh = roughen(mesh, levelled(roller_of(problem), reach))
+    triangles, coated = mesh.triangles, np.zeros(len(mesh.triangles), dtype=bool)
+    given = real_points(mesh) * MM, triangles, coated, [material], support, flatter
+    return _deck_body(problem, mesh, *given)
+
+
+def _deck_body(
+    problem: Problem,
+    mesh: BlockMesh,
+    points: np.ndarray,
+    triangles: np.ndarray,
+    coated: np.ndarray,
+    materials: list[Material],
+    support: Support,
+    flatter: float,
+) -> DeckBody:
+    sides, beside = boundary_points(mesh.points, mesh.spec), mesh.spec.surface_size
+    start, stop = problem.extent
+    top = np.zeros(len(points), dtype=bool)
+    top[sides.top] = True
+    top &= (mesh.points[:, 0] > start - beside) & (mesh.points[:, 0] < stop + beside)
+    return DeckBody(
+        points,
+        triangles,
+        coated,
+        tuple(replace(m, youngs_modulus=flatter * m.youngs_modulus) for m in materials),
+        held_components(mesh.points, support, sides),
+        np.argwhere(top[triangles[:, EDGES]].all(axis=2)),
+    )
