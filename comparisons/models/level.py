@@ -63,7 +63,8 @@ class MeshField:
     points          (n, 2) x and z [m] of the real body; twice where two materials meet
     triangles       (m, 6) quadratic triangles in gmsh order
     stresses        by friction coefficient, (n,) each
-    displacement    by friction coefficient, (n, 2) [m] in x and z, zero where the body is held
+    displacement    by friction coefficient, (n, 2) [m] in x and z, zero where the body is held; at
+                    finite deformation but for a shift of all along x
     poissons_ratio  (n,) of the material at each point
     others          further fields (n,) by name with their unit: what plastic flow leaves
     """

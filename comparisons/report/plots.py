@@ -64,8 +64,9 @@ class Plots:
     def view(self, model: str = "finite_element", array: str = "tau1") -> "Plotter":
         """A field of a model on its own points in VTK, x to the right, z down; `.show()` shows it.
 
-        array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises; of several friction
-                coefficients the first's where none is in the name
+        array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises, or of finite elements such as
+                difference_tau1; of several friction coefficients the first's where none is in the
+                name
         """
         levels = self.outcome.levels(self.outcome.deciding_friction)
         if model not in levels:

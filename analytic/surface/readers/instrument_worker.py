@@ -10,14 +10,16 @@ import sys
 import warnings
 import zipfile
 from importlib import metadata
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from SurfaceTopography import Topography
 
 LONGEST_COMPLAINT = 200
 MOST_CELLS = 20_000_000  # of a spreadsheet
 TOO_LENIENT = ("hgt",)  # terrain: any file of twice a square number of bytes passes for it
-# Whose sizes are in m, and the unit that they name that of the heights alone.
-SIZED_IN_METRES = ("mi",)
 
 
 def main(path: str, target: str, wanted: str | None = None) -> dict:
@@ -75,7 +77,7 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
     pitch = None
     if sized and places is None:
         steps = np.divide(surface.physical_sizes, surface.nb_grid_pts)
-        if name in SIZED_IN_METRES:
+        if name == "mi" and given_in_metres(surface):
             steps *= get_unit_conversion_factor("m", surface.unit)
         pitch = (float(steps[0]), float(steps[-1]))
     arrays = {} if places is None else {"x": places}
@@ -91,6 +93,12 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
         "channels": names,
         "channel": str(channel.name),
     }
+
+
+def given_in_metres(surface: "Topography") -> bool:
+    """Whether the size of a map from an MI file is as the file has it, in m; its unit is then that
+    of the heights alone."""
+    return surface.physical_sizes[0] == float(surface.info["raw_metadata"]["xLength"])
 
 
 def is_spreadsheet(path: str) -> bool:

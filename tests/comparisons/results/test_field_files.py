@@ -196,11 +196,14 @@ def test_the_half_plane_has_no_stress_above_the_mean_line(outcome):
     assert found[0.1].sz[1] == pytest.approx(-level.solution.pressure.max(), rel=1e-3)
 
 
-def test_displacements_lie_in_the_plane_of_the_points(outcome):
+def test_displacements_warp_the_mesh_in_its_plane(outcome, tmp_path):
     field = field_of(outcome, outcome.runs["finite_element"].finest)
     for friction in ("0", "0.1"):
         moved = field.arrays[f"displacement (friction {friction})"]
         assert np.array_equal(moved, 1e-3 * field.points[:, [1, 0, 2]])
+    grid = pyvista.read(write_field(tmp_path, field))
+    warped = grid.warp_by_vector("displacement (friction 0.1)", factor=2.0).points
+    assert warped == pytest.approx(field.points + 2.0 * moved, rel=1e-6)
 
 
 IN_GMSH = """
