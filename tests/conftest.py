@@ -19,6 +19,8 @@ LAST = ("fem", "meshes", "analytic")  # folders of tests, by how long a file tak
 WORKER_MEMORY = 2.5e9  # bytes that one process with its share of the tests may take
 LAUNCHER_VARIABLES = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "HYDI_")
 
+# Tests start some hundred processes: what one has compiled, the next one need not.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 # A shell hands an ignored SIGINT down to what it runs in the background; tests send interrupts.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -41,8 +41,7 @@ ROLLER = {"facecolor": "#cfdbe6", "edgecolor": "none"}
 OUTLINE = {"color": "#444444", "linewidth": 1.0}
 
 _OUTLINE = re.compile(rb' d="([^"]*)"')
-_DECIMALS = re.compile(rb"(\.\d\d)\d+")
-_BLANKS = re.compile(rb"\s*([MLCQZz])\s*")
+_INVISIBLE = re.compile(rb"(?<=\.\d\d)\d+|\s+(?=[MLCQZz])|(?<=[MLCQZz])\s+")
 
 _SETTINGS = {
     "axes.axisbelow": True,
@@ -216,7 +215,7 @@ def svg(drawn: "Figure") -> str:
 
 def _shortened(outline: re.Match[bytes]) -> bytes:
     """An outline without invisible decimals and blanks."""
-    return b' d="' + _BLANKS.sub(rb"\1", _DECIMALS.sub(rb"\1", outline[1])).strip() + b'"'
+    return b' d="' + _INVISIBLE.sub(b"", outline[1]).strip() + b'"'
 
 
 def data_uri(drawn: "Figure") -> str:

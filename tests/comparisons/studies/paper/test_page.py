@@ -21,7 +21,7 @@ from comparisons.studies.paper.pictures import pressure as pressure_pictures
 from comparisons.studies.paper.pictures import shear as shear_pictures
 from comparisons.studies.paper.reproduce import FRICTIONS, Fineness
 
-COARSE = Fineness(pitch=40e-6, points=(60, 30))
+COARSE = Fineness(pitch=80e-6, points=(40, 20))
 PICTURES = 1 + 2 + 3 * len(SCENES) + 4
 DRAWING = (pressure_pictures, shear_pictures, depth_pictures)
 
