@@ -13,13 +13,13 @@ from comparisons.studies.checks import (
     run_cases,
     write_study,
 )
-from comparisons.studies.robustness.cases import algebra, friction, layers, rough, smooth, stresses
+from comparisons.studies.robustness.cases import algebra, friction, layers, rough, smooth
 from comparisons.studies.robustness.finite_element import extremes, scenes, stiffness
 
 
 def all_cases() -> list[CheckedCase]:
     """Every case; cheap ones first."""
-    analytic = (smooth, rough, friction, layers, stresses, algebra)
+    analytic = (smooth, rough, friction, layers, algebra)
     finite_elements = (stiffness, scenes, extremes)
     groups = [("half_plane", module.cases()) for module in analytic]
     groups += [("finite_element", module.cases()) for module in finite_elements]

@@ -13,31 +13,11 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.convolution import Convolution
-from analytic.operators.elements import at_whole_offsets, hat_galerkin
 from analytic.operators.half_plane import DenseCompliance, HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.studies.checks import BoundedFigure, Findings, Groups
 from comparisons.studies.robustness.backward_error import THRESHOLD, backward_ratio
 from comparisons.studies.robustness.loaded_contact import deviation
-from comparisons.studies.robustness.many_digits import galerkin_log
-
-OFFSETS = (0, 1, 2, 3, 4, 7, 30, 1000, 65_536, 10**6, 10**8)
-
-
-def coefficient_findings() -> Findings:
-    """Coefficients of hats at whole offsets up to 1e8, where closed forms cancel altogether."""
-    found = hat_galerkin(np.array(OFFSETS, dtype=float))
-    exact = np.array([float(galerkin_log(offset)) for offset in OFFSETS])
-    error = float(np.abs(found / exact - 1.0).max())
-    table = at_whole_offsets(hat_galerkin, 1024)
-    few = np.array([float(galerkin_log(offset)) for offset in range(0, 1024, 93)])
-    tabled = float(np.abs(table[::93] / few - 1.0).max())
-    return Findings(
-        (
-            BoundedFigure("coefficient", error, 4e-15, "a hundred digits"),
-            BoundedFigure("tabled coefficient", tabled, 4e-15, "a hundred digits"),
-        )
-    )
 
 
 def direct_findings(make: Callable[[], Convolution], nodes: np.ndarray) -> Findings:
@@ -106,8 +86,7 @@ def cases() -> Groups:
         "product, incompressible layer": (partial(soft_layer, 4096),),
         "product, sliding, mu beta = 1": (partial(sliding, 4096),),
     }
-    named = {"coefficients at offsets to 1e8": coefficient_findings}
-    named |= {name: partial(direct_findings, *given) for name, given in direct.items()}
+    named = {name: partial(direct_findings, *given) for name, given in direct.items()}
     named |= {name: partial(product_findings, *given) for name, given in products.items()}
     named["more hats than what deforms"] = dense_findings
     return {"algebra": named}
