@@ -59,9 +59,13 @@ def run(
 ) -> int:
     """Solve a scene with both models, compare them and judge."""
     from comparisons.common.files import check_writable
-    from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
-    from comparisons.results.plausibility import warnings_about, warnings_about_result
-    from comparisons.scenes.resolve import load_scene, with_tolerance
+    from comparisons.common.processes import uncollected
+
+    with uncollected():
+        from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
+        from comparisons.results.plausibility import warnings_about, warnings_about_result
+        from comparisons.runs.run import run as run_scene
+        from comparisons.scenes.resolve import load_scene, with_tolerance
 
     began = perf_counter()
     chosen = models_named(models, "--models")
@@ -71,8 +75,6 @@ def run(
     directory = out or RESULTS / resolved.name
     from_first(lambda: check_writable(directory))
     from_first(lambda: check_place(junit))
-    from comparisons.runs.run import run as run_scene
-
     warnings = warnings_about(resolved)
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)

@@ -18,7 +18,7 @@ from multiprocessing.connection import Connection, wait
 from typing import TypeVar
 
 from comparisons.common.mpi import from_first, is_several
-from comparisons.common.processes import ONE_THREAD, Worker, answered, interrupts_later
+from comparisons.common.processes import ONE_THREAD, Worker, answered, interrupts_later, uncollected
 from comparisons.common.progress import ProgressCallback, Step, machine_memory, no_progress
 
 Held = TypeVar("Held")
@@ -223,7 +223,7 @@ def tasks_of_a_run(
 def _prepare(steps: list[Preparation], is_wanted: Callable[[], object]) -> None:
     """Carry out steps, and drop them from the list, until this process is wanted."""
     while steps and not is_wanted():
-        with suppress(Exception), interrupts_later():
+        with suppress(Exception), interrupts_later(), uncollected():
             steps.pop(0)()
 
 
