@@ -39,7 +39,8 @@ ROOMS = {
     "analytic": "running_in exact layers contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "nonlinear contact compliance stress body solver compat",
-    "comparisons": "cli commands api studies runs report results assessment models scenes common",
+    "comparisons": "cli commands api studies runs report results answers assessment "
+    "models scenes common",
 }
 MOST_ENTRIES = 16  # of a folder
 HEAVY = {

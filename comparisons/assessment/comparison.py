@@ -133,10 +133,20 @@ def differences(
     reference's vanishes, and the norms; in the order of QUANTITIES."""
     one, other = (figures(each, problem, friction) for each in (level, reference))
     found = norms(level, reference, problem, friction, window)
-    for name, value in one.items():
-        scale = abs(other[name]) or QUANTITIES[name].scale(problem.hertz)
-        found[name] = (value - other[name]) / scale
+    found |= relative_differences(one, other, problem)
     return {name: found[name] for name in QUANTITIES if name in found}
+
+
+def relative_differences(
+    one: dict[str, float], reference: dict[str, float], problem: Problem
+) -> dict[str, float]:
+    """(one - reference) / reference of figures by name, over the Hertz contact's where the
+    reference's vanishes."""
+    found = {}
+    for name, value in one.items():
+        scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)
+        found[name] = (value - reference[name]) / scale
+    return found
 
 
 def pair_history(

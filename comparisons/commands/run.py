@@ -54,6 +54,10 @@ def run(
         str | None,
         typer.Option(help="A Dask scheduler's address: it solves the samples of [scatter]."),
     ] = None,
+    answer: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
+    ] = None,
     pdf: Annotated[bool, typer.Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
@@ -69,7 +73,7 @@ def run(
 
     began = perf_counter()
     chosen = models_named(models, "--models")
-    resolved = from_first(lambda: load_scene(scene))
+    resolved = from_first(lambda: load_scene(scene, answer or ()))
     if tolerance is not None:
         resolved = with_tolerance(resolved, tolerance, "--tolerance")
     directory = out or RESULTS / resolved.name

@@ -90,6 +90,12 @@ def run_cases_of(outcome: Outcome) -> list[JunitCase]:
     for row in outcome.tolerance_checks:
         parts = row.value, row.total_uncertainty, row.tolerance, row.verdict
         cases.append(_judged(f"{scene}.model_error", row.quantity, row.friction, *parts))
+    for answer in outcome.answers:
+        for row in answer.rows:
+            if row.verdict is not None:
+                parts = row.difference, row.uncertainty, row.tolerance, row.verdict
+                where = f"{scene}.answers.{answer.name}"
+                cases.append(_judged(where, row.quantity, row.friction, *parts))
     if outcome.converged:
         return cases
     return [replace(case, result="error", message=sentence) for case in cases]

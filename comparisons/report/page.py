@@ -7,6 +7,7 @@ from importlib import import_module
 from comparisons.common.processes import side_by_side
 from comparisons.common.quantities import HYPHENATED
 from comparisons.report.field_values import field_explorer
+from comparisons.report.figures.answers import answer_pictures
 from comparisons.report.figures.convergence import convergence_picture
 from comparisons.report.figures.cost import cost_picture
 from comparisons.report.figures.fields import field_pictures, near_surface_pictures
@@ -20,6 +21,7 @@ from comparisons.report.figures.style import drawing
 from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
+from comparisons.report.tables.answers import answer_facts, answer_table, measured_table
 from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
@@ -53,6 +55,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
     "surface": surface_picture,
     "running_in": running_in_picture,
     "cost": cost_picture,
+    "answers": answer_pictures,
 }
 
 
@@ -85,6 +88,10 @@ def render(outcome: Outcome) -> str:
         model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),
+        answers=[
+            (each.name, answer_table(outcome, each), answer_facts(each), measured_table(each))
+            for each in outcome.answers
+        ],
         checks=check_table(outcome),
         operator=operator_table(outcome),
         operator_note=operator_note(outcome),

@@ -5,12 +5,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from comparisons.answers.answer import ComparedAnswer
 from comparisons.assessment.yielding import FlowAssessment
 from comparisons.common.errors import one_line
 from comparisons.common.numbers import significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
+from comparisons.report.tables.answers import answer_facts, answer_rows
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
 from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
@@ -56,6 +58,8 @@ def summary(outcome: Outcome) -> "RenderableType":
     tables = [_comparison(outcome)] if outcome.comparisons else [_figures(outcome)]
     if outcome.comparisons and outcome.problem.scene.tolerance:
         tables += ["", _model_errors(outcome)]
+    for answer in outcome.answers:
+        tables += ["", *_answer(outcome, answer)]
     return Group(title, "", *tables, "", verdict, "", _facts(outcome))
 
 
@@ -89,6 +93,21 @@ def _model_errors(outcome: Outcome) -> "Table":
         largest = "\n".join(row.contributions[:LISTED]).replace(" %", "")
         table.add_row(*map(_cell, cells), _cell(largest))
     return table
+
+
+def _answer(outcome: Outcome, answer: ComparedAnswer) -> "list[RenderableType]":
+    """An answer from outside beside its reference, and what is to be said of it."""
+    from rich.text import Text
+
+    numbers = ("mu", answer.name, LABELS[answer.reference].replace(" ", "\n"))
+    table = plain_table("quantity", numbers=(*numbers, "differ.\n%", "uncert.\n%", "tol.\n%"))
+    table.add_column("verdict", overflow="fold")
+    table.title = f"{answer.name}, from outside"
+    for quantity, *cells, _, tolerance, verdict in answer_rows(outcome, answer):
+        styled = _cell(verdict, STYLES.get(verdict, ""))
+        table.add_row(SHORT[quantity], *map(_cell, cells), _cell(tolerance), styled)
+    lines = (f"{name}: {text}" for name, text in answer_facts(answer))
+    return [table, *(Text(line.translate(PLAIN)) for line in lines)]
 
 
 def _figures(outcome: Outcome) -> "Table":

@@ -182,6 +182,12 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return Stated(abs(value), "itself", 1.0)
         case ("yield", "by_friction", int(_), str(part)) if part != "friction":
             return _largest(recorded, 1.0 if part == "share_at_hardness" else abs(value) or 1.0)
+        case ("answers", answer, "comparison", quantity, int(entry), "reference" | "difference"):
+            own = _number(recorded["answers"][answer]["comparison"][quantity][entry]["uncertainty"])
+            scale = 1.0 if name == "difference" else abs(value) or 1.0
+            return Stated(own * scale, quantity, scale)
+        case ("answers", *_):
+            return Stated(abs(value), "itself", abs(value) or 1.0)
         case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):

@@ -12,6 +12,8 @@ Columns
   effect_…               what of model_error is due to each assumption, relative, with the signs
                          of the report; empty where not computed
   interaction            what these change jointly beyond their sum, in the same way
+  answer, answer_figure  name of an answer from outside, and its figure; its row has the model's
+                         figure, and what the answer differs from that by
   a_over_radius, …       the run's dimensionless groups
 
 What is unknown is empty in a CSV and null in a Parquet file.
@@ -38,12 +40,13 @@ GROUPS = (
 EFFECT_COLUMNS = {name: f"effect_{name}" for name in EFFECTS if name != "law_of_elasticity"}
 FORMULA = ("=", "+", "-", "@")  # a cell that begins so is computed by spreadsheets
 TEXTS = ("run", "scene", "title", "quantity", "unit", "verdict", "validity", "model_error_verdict")
+TEXTS += ("answer",)
 COLUMNS = (
     *("run", "scene", "title", "friction", "quantity", "unit", "half_plane", "finite_element"),
     *("difference", "uncertainty", "tolerance", "verdict", "validity"),
     *("model_error", "model_error_uncertainty", "model_error_verdict"),
     *EFFECT_COLUMNS.values(),
-    *("interaction", "jump"),
+    *("interaction", "jump", "answer", "answer_figure"),
     *GROUPS,
 )
 
@@ -136,7 +139,8 @@ def rows_of(result: Mapping, run: str) -> list[Row]:
         **result["groups"],
     }
     rows = _compared(result) if result.get("comparison") else _of_one_model(result)
-    return [{name: (common | row).get(name) for name in COLUMNS} for row in rows]
+    every = [*rows, *_of_answers(result)]
+    return [{name: (common | row).get(name) for name in COLUMNS} for row in every]
 
 
 def _rows_in(path: Path) -> list[Row]:
@@ -173,6 +177,15 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "interaction": sign * error["interaction"],
                 "jump": error["jump"],
             }
+
+
+def _of_answers(result: Mapping) -> Iterable[Row]:
+    for name, answer in result.get("answers", {}).items():
+        for quantity, rows in answer["comparison"].items():
+            for row in rows:
+                own = {"answer": name, "answer_figure": row["answer"], "quantity": quantity}
+                unit = QUANTITIES[quantity].unit
+                yield row | own | {"unit": unit, answer["reference"]: row["reference"]}
 
 
 def _of_one_model(result: Mapping) -> Iterable[Row]:

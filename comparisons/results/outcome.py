@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from comparisons.answers.answer import ComparedAnswer
 from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
@@ -35,6 +36,7 @@ class Outcome:
     pairs        the norms of the difference on all levels, one a friction coefficient; empty for
                  one model
     scatter      what uncertain inputs do, None without [scatter]
+    answers      from outside, beside a model; empty where the scene has none
     """
 
     problem: Problem
@@ -49,6 +51,7 @@ class Outcome:
     budget: ErrorBudget | None = None
     pairs: tuple[PairHistory, ...] = ()
     scatter: InputScatter | None = None
+    answers: tuple[ComparedAnswer, ...] = ()
 
     @cached_property
     def forecast(self) -> Forecast:
@@ -102,11 +105,13 @@ class Outcome:
 
     @property
     def exit_status(self) -> ExitStatus:
-        """3: a solver did not converge; 1: a judged figure differs, the half-plane fails in it, or
-        the body flows beyond doubt; 4: none does, but one is inconclusive; else 0."""
+        """3: a solver did not converge; 1: a judged figure differs, of a model or of an answer from
+        outside, the half-plane fails in it, or the body flows beyond doubt; 4: none does, but one
+        is inconclusive; else 0."""
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
-        verdicts = {row.verdict for row in (*self.comparisons, *self.tolerance_checks)}
+        outside = [row for answer in self.answers for row in answer.rows]
+        verdicts = {r.verdict for r in (*self.comparisons, *self.tolerance_checks, *outside)}
         flows = self.budget is not None and self.flow.beyond_doubt
         if flows or verdicts & {"differ", "fails"}:
             return ExitStatus.OUTSIDE_TOLERANCE

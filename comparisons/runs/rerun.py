@@ -75,8 +75,14 @@ def rerun(
     written to.
     """
     record = from_first(lambda: read_record(folder))
+    answers = None
+    if record.scene.answers:  # as they were read: their files may have changed or gone
+        from comparisons.report.saved import read_outcome
+
+        recorded = read_outcome(folder, with_mesh=False).answers
+        answers = {each.name: each.answers for each in recorded}
     with _place(folder, out) as place:
-        outcome = run(record.scene, place, record.models, callback)
+        outcome = run(record.scene, place, record.models, callback, answers=answers)
     now = outcome.record
     return Repetition(
         record=record,

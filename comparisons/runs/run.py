@@ -1,12 +1,13 @@
 """One scene from start to end: plan, both models level by level, comparison, files."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from functools import lru_cache, partial
 from importlib import import_module
 from pathlib import Path
 
 from analytic.contact.problem import ContactError
+from comparisons.answers.answer import Answer
 from comparisons.assessment.comparison import compared, pair_histories
 from comparisons.assessment.effects.error_budget import (
     ErrorBudget,
@@ -44,6 +45,7 @@ REPORT = (
     *("PIL.Image", "pyparsing", "matplotlib.axes", "matplotlib.figure"),
     *("matplotlib.backends.backend_svg", "jinja2", "comparisons.report.page"),
 )
+Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
@@ -55,6 +57,7 @@ def run(
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
     executor: Executor | None = None,
+    answers: Answers | None = None,
 ) -> Outcome:
     """Solve a scene, compare, judge, and leave everything in `out`, or nothing anywhere (None).
 
@@ -62,6 +65,7 @@ def run(
     callback  gets each stage as it begins
     fields    format of the stress fields, as `write_files` takes it
     executor  solves the samples of the scene's [scatter]; None: this machine's cores
+    answers   from outside, read before; by default the scene's are read from their files
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
     SolverError where the finite elements find no solution; nothing is written then.
     """
@@ -75,7 +79,7 @@ def run(
             problem = _problem(scene, models, callback)
         plan = make_plan(problem, models)
         callback(forecast(problem, plan).text)
-        return solve(problem, plan, out, callback, fields, executor)
+        return solve(problem, plan, out, callback, fields, executor, answers)
     except (ContactError, MeshError) as error:
         raise SceneError(f"{scene.source}: {error}") from error
     except FemError as error:
@@ -120,9 +124,14 @@ def solve(
     callback: ProgressCallback = no_progress,
     fields: str = AUTOMATIC,
     executor: Executor | None = None,
+    answers: Answers | None = None,
 ) -> Outcome:
     """Carry out a plan, as `run` does with the plan that suits the problem."""
     window = window_of(problem) if plan.stress else None
+    if problem.scene.answers and answers is None:
+        from comparisons.answers.readers.files import read_answers
+
+        answers = read_answers(problem, window)
     cache = level_cache(out, problem.scene, plan)
     try:
         told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
@@ -142,6 +151,14 @@ def solve(
     run_in = problem.scene.run_in
     if run_in is not None:
         hashes["run_in_profile"] = digest(run_in.profile.x, run_in.profile.height)
+    compared_answers = ()
+    if answers:
+        from comparisons.answers.compare import compare_answers
+
+        given = problem, plan, runs, window, answers, result.get("scatter")
+        compared_answers = compare_answers(*given)
+        result["answers"] = {each.name: each.as_dict() for each in compared_answers}
+        hashes |= {f"answer_{n}": [each.sha256 for each in a] for n, a in answers.items()}
     outcome = Outcome(
         problem=problem,
         plan=plan,
@@ -155,6 +172,7 @@ def solve(
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
         scatter=scatter,
+        answers=compared_answers,
     )
     try:
         if out is not None:

@@ -1,7 +1,7 @@
 """From a scene file to a resolved scene: checked, in SI, with its profile read or made."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -21,6 +21,7 @@ from comparisons.scenes.scene import (
     StressWindow,
     Yielding,
 )
+from comparisons.scenes.schema.answers import answer_sources
 from comparisons.scenes.schema.finite_element import settings_of
 from comparisons.scenes.schema.running_in import running_in_of
 from comparisons.scenes.schema.scatter import scatter_of
@@ -37,16 +38,45 @@ from comparisons.scenes.schema.scene import (
 LOAD_KINDS = {"per_length": "load_per_length"}  # the others are called as in the file
 
 
-def load_scene(name_or_path: str | os.PathLike) -> ResolvedScene:
+def load_scene(name_or_path: str | os.PathLike, answers: Sequence[str] = ()) -> ResolvedScene:
     """The scene in a file, or of a name that comes with the project.
 
+    answers  from outside, NAME=FILE each, beside those of the file
     Raises SceneError, one line, for anything that is wrong with the file, with what it says, or
     with the profile that it names.
     """
     path = find_scene(name_or_path)
     name = name_of(path)
     source = os.fspath(name_or_path)  # as it was asked for: that is how to ask for it again
-    return resolve_tables(read_toml(path), name=name, folder=path.parent, source=source)
+    tables = read_toml(path)
+    if answers:
+        tables |= {"answers": answers_named(answers, tables.get("answers"))}
+    return resolve_tables(tables, name=name, folder=path.parent, source=source)
+
+
+def answers_named(given: Sequence[str], known: object) -> dict:
+    """The tables [answers.NAME] of answers given as NAME=FILE.
+
+    A FILE takes the place of those that the `known` tables have under its name; of several each
+    is a resolution. A FILE.toml holds the table itself, with files from its own folder. Raises
+    InputError for what is neither.
+    """
+    found = dict(known) if isinstance(known, dict) else {}
+    named: dict[str, list] = {}
+    for text in given:
+        name, _, file = text.partition("=")
+        if not (name and file):
+            raise InputError(f"--answer: is {describe(text)}; allowed is NAME=FILE")
+        path = Path(file).absolute()
+        files = [os.fspath(path)]
+        if path.suffix == ".toml":
+            found[name] = read_toml(path)
+            files = found[name].get("file", [])
+            files = [files] if isinstance(files, str) else files
+            files = [os.fspath(path.parent / each) for each in map(str, files)]
+        named.setdefault(name, []).extend(files)
+        found[name] = dict(found.get(name) or {}) | {"file": named[name]}
+    return found
 
 
 def resolve_tables(
@@ -121,6 +151,7 @@ def resolve_tables(
         budget=Budget(**dict(scene.budget)),
         tables=plain,
         scatter=scene.scatter and scatter_of(scene.scatter),
+        answers=answer_sources(scene.answers, folder),
     )
 
 

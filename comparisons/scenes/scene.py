@@ -136,6 +136,35 @@ class StressWindow:
 
 
 @dataclass(frozen=True)
+class AnswerSource:
+    """Where an answer from outside is, and how to read it.
+
+    files           one for each resolution
+    length, stress  the file's units [m], [Pa]
+    columns         of a table: those of x and pressure, by name or number
+    up              axis of the file out of the rough body, with its sign; None: found out
+    x_origin, z_origin  [m] where the scene's origin lies in the file: along x and along `up`
+    pressure        array of a mesh that holds the contact pressure; None: the stress on its top
+    step            of several in time, from 0; None: the last
+    friction        coefficient that it is of; None: the only one
+    scatter         relative, of measured data; None: not stated
+    """
+
+    name: str
+    files: tuple[str, ...]
+    length: float
+    stress: float
+    columns: tuple[str | int, ...]
+    up: str | None
+    x_origin: float
+    z_origin: float
+    pressure: str | None
+    step: int | None
+    friction: float | None
+    scatter: float | None
+
+
+@dataclass(frozen=True)
 class FiniteElementSettings:
     """Which of the half-plane's assumptions the finite-element model keeps.
 
@@ -252,6 +281,7 @@ class ResolvedScene:
     scatter          None: inputs are taken as exact
     run_in           what running-in did to the surface, None until it was done; then the
                      profile and its figures are those after it
+    answers          from outside, beside those of the models
     """
 
     name: str
@@ -281,6 +311,7 @@ class ResolvedScene:
     tables: dict = field(repr=False)
     scatter: Scatter | None = None
     run_in: RunIn | None = field(default=None, compare=False, repr=False)
+    answers: tuple[AnswerSource, ...] = ()
 
     @property
     def as_measured(self) -> Profile | None:

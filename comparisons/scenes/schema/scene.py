@@ -14,6 +14,7 @@ from comparisons.common.errors import SceneError, nearest
 from comparisons.common.quantities import QUANTITIES
 from comparisons.common.units import DIMENSIONLESS, LENGTH, LOAD, MEMORY, PRESSURE, TIME, describe
 from comparisons.scenes.scene import Extent, Spread
+from comparisons.scenes.schema.answers import AnswerSection, wrong_name
 from comparisons.scenes.schema.fields import (
     ExtentField,
     FieldError,
@@ -166,6 +167,7 @@ class SceneFile(SceneSection):
     resolution: ResolutionSection = ResolutionSection()
     budget: BudgetSection = BudgetSection()
     scatter: ScatterSection | None = None
+    answers: dict[str, AnswerSection] | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         body, load, coating = self.body, self.load, self.coating
@@ -178,6 +180,9 @@ class SceneFile(SceneSection):
                 yield "load.approach", f"{why}; allowed is per_length, or approach with {needed}"
         if self.running_in is not None:
             yield from self.running_in.missing(self.profile, body.hardness, load.kind)
+        if (name := wrong_name(self.answers)) is not None:
+            short = "a letter and up to 39 letters, digits, - and _, and no model's name"
+            yield "answers", f"has the name {describe(name)}; allowed is {short}"
         for field, problem in self.finite_element.conflicts(
             self.roller, body, load, self.profile, coating
         ):
@@ -203,7 +208,9 @@ class SceneFile(SceneSection):
 SECTIONS: dict[str, type[SceneSection]] = {
     name: part
     for name, info in SceneFile.model_fields.items()
-    for part in (info.annotation, *get_args(info.annotation))  # of a section, or one or None
+    # of a section, or one or None, or several by name
+    for outer in (info.annotation, *get_args(info.annotation))
+    for part in (outer, *get_args(outer))
     if isinstance(part, type) and issubclass(part, SceneSection)
 }
 
@@ -227,6 +234,8 @@ def _plain(value: object) -> object:
     if isinstance(value, SceneSection):
         pairs = ((name, getattr(value, name)) for name in type(value).model_fields)
         return {name: _plain(item) for name, item in pairs if item is not None}
+    if isinstance(value, dict):
+        return {name: _plain(item) for name, item in value.items()}
     if isinstance(value, Extent):
         return value.value if value.in_half_widths else f"{value.value!r} m"
     if isinstance(value, Spread):
@@ -252,9 +261,9 @@ def _line(problem: dict) -> str:
     if kind == "missing" and len(location) == 1:
         return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
     if kind == "missing":
-        section, name = location
-        return f"{section}.{name}: is missing; allowed is {allowed(SECTIONS[section], name)}"
-    if kind == "model_type":
+        section, name = location[0], location[-1]
+        return f"{'.'.join(location)}: is missing; allowed is {allowed(SECTIONS[section], name)}"
+    if kind in ("model_type", "dict_type"):
         name = location[0]
         return f"{name}: is {describe(problem['input'])}; allowed is a section [{name}]"
     cause = problem.get("ctx", {}).get("error")

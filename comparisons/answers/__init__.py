@@ -1,0 +1,1 @@
+"""Answers from outside: any code's pressures and stresses, or measured ones, beside the models'."""

@@ -1,0 +1,165 @@
+"""An answer from outside as data: in the project's axes and signs, in SI units."""
+
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+from analytic.numerics import runs_of
+from analytic.stress_state import Extremum, StressState
+from comparisons.assessment.verdict import Verdict
+
+TOUCHING = 0.02  # of the largest pressure: what stresses of a mesh leave beside a contact is less
+
+
+@dataclass(frozen=True)
+class OutsideStress:
+    """Stresses of an answer, as those of a model.
+
+    friction  coefficient that they are of
+    extremes  largest tau1, |txz| and von Mises stress at the nodes in the window [Pa], [m]
+    depth     [m] of the largest tau1 below the answer's own surface
+    field     (m, k) on the window, not a number outside the answer's mesh
+    """
+
+    friction: float
+    extremes: dict[str, Extremum]
+    depth: float
+    field: StressState
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One solution from outside, of one file.
+
+    file, sha256  that it was read from
+    x, pressure   (n,) [m], [Pa] along the surface, ascending, as given: also where it is negative
+    stress        None: pressures alone
+    """
+
+    file: str
+    sha256: str
+    x: np.ndarray
+    pressure: np.ndarray
+    stress: OutsideStress | None = None
+
+    @property
+    def load(self) -> float:
+        """[N/m] that the pressures carry."""
+        middle = 0.5 * (self.pressure[1:] + self.pressure[:-1])
+        return float(middle @ np.diff(self.x))
+
+    @property
+    def touching(self) -> np.ndarray:
+        """(n,) whether a point is in contact."""
+        least = TOUCHING if self.stress is not None else 0.0
+        return self.pressure > least * max(0.0, float(self.pressure.max()))
+
+    @property
+    def spacing(self) -> float:
+        """[m] from point to point in contact, median."""
+        steps = np.diff(self.x)
+        inside = self.touching[1:] & self.touching[:-1]
+        return float(np.median(steps[inside] if inside.any() else steps))
+
+    def on(self, x: np.ndarray) -> np.ndarray:
+        """Pressures [Pa] at places x [m], zero where nothing touches."""
+        pressure = np.where(self.touching, self.pressure, 0.0)
+        return np.interp(x, self.x, pressure, left=0.0, right=0.0)
+
+    @property
+    def patches(self) -> np.ndarray:
+        """Contact patches (k, 2) [m]: an edge where the line through the squares of the last two
+        pressures vanishes, as at a smooth edge the square root does, and before the next point."""
+        first, after = runs_of(self.touching)
+        edges = [
+            (self._edge(i, -1), self._edge(j - 1, 1)) for i, j in zip(first, after, strict=True)
+        ]
+        return np.array(edges).reshape(-1, 2)
+
+    def _edge(self, last: int, way: int) -> float:
+        x, squares, beyond = self.x, self.pressure**2, last + way
+        if not 0 <= beyond < len(x):
+            return float(x[last])
+        inner = last - way
+        edge = 0.5 * (x[last] + x[beyond])
+        if 0 <= inner < len(x) and squares[inner] > squares[last]:
+            step = (x[last] - x[inner]) / (squares[inner] - squares[last])
+            edge = x[last] + squares[last] * step
+        return float(np.clip(edge, *sorted((x[last], x[beyond]))))
+
+
+@dataclass(frozen=True)
+class AnswerRow:
+    """A quantity of an answer at one friction coefficient; figures in SI, the others relative.
+
+    answer, reference  None for a norm of the difference
+    difference         (answer - reference) / reference, or the norm
+    uncertainty        of the difference: the model's, and the answer's own as far as it is known
+    own_uncertainty    the answer's, None where it states none
+    tolerance, verdict None: not judged
+    """
+
+    quantity: str
+    friction: float
+    answer: float | None
+    reference: float | None
+    difference: float
+    uncertainty: float | None
+    own_uncertainty: float | None
+    tolerance: float | None
+    verdict: Verdict | None
+
+
+@dataclass(frozen=True)
+class Hint:
+    """What explains a difference in the pressures: its kind, by how much [SI], in words, and the
+    relative L2 norm of the difference that it leaves."""
+
+    kind: str
+    value: float
+    text: str
+    left: float
+
+
+@dataclass(frozen=True)
+class ComparedAnswer:
+    """An answer beside a model.
+
+    reference   name of the model
+    answers     one a resolution, coarse to fine
+    measured    its scatter is stated
+    balance     (load that its pressures carry - the scene's) / the scene's
+    conditions  by model, how far its pressures are from the contact conditions (`Residuals`)
+    validation  by quantity, rows as ASME V&V 20 has them; empty of what was not measured
+    """
+
+    name: str
+    reference: str
+    answers: tuple[Answer, ...]
+    measured: bool
+    rows: tuple[AnswerRow, ...]
+    balance: float
+    conditions: dict[str, dict]
+    hints: tuple[Hint, ...] = ()
+    validation: dict[str, list] = field(default_factory=dict)
+
+    @property
+    def finest(self) -> Answer:
+        return self.answers[-1]
+
+    def as_dict(self) -> dict:
+        """For result.json."""
+        comparison: dict[str, list] = {}
+        for row in self.rows:
+            entry = asdict(row)
+            comparison.setdefault(entry.pop("quantity"), []).append(entry)
+        return {
+            "files": [{"file": each.file, "sha256": each.sha256} for each in self.answers],
+            "reference": self.reference,
+            "spacing": self.finest.spacing,
+            "comparison": comparison,
+            "balance": self.balance,
+            "conditions": self.conditions,
+            "hints": [asdict(hint) for hint in self.hints],
+            "validation": self.validation,
+        }

@@ -1,0 +1,1 @@
+"""Files of answers from outside: tables of pressures, and results on any mesh."""

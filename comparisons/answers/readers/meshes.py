@@ -1,0 +1,100 @@
+"""Result files of other codes on any mesh, by the libraries that know them.
+
+frd                        CalculiX, ASCII or binary     pyvista-frd-reader
+vtu, vtk, vtkhdf, pvd, …   ParaView and many codes       pyvista
+e, exo, ex2                Exodus: MOOSE, Sierra         pyvista
+med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf take h5py
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pyvista import UnstructuredGrid
+
+INSTALL = "python -m pip install crosscheck[answers]"
+END_OF_FRD = b"9999"
+
+
+def read_mesh(path: Path, step: int | None) -> "UnstructuredGrid":
+    """Mesh and arrays at a step in time, the last by default.
+
+    Raises ValueError with what is wrong.
+    """
+    from vtkmodules.vtkCommonCore import vtkObject
+
+    shown = vtkObject.GetGlobalWarningDisplay()
+    vtkObject.SetGlobalWarningDisplay(0)  # on standard error, beside the one line that is raised
+    try:
+        mesh = READERS.get(path.suffix.lower(), _by_vtk)(path, step)
+    except ImportError as error:
+        raise ValueError(f"takes {error.name}, which is not installed; {INSTALL}") from None
+    except ValueError:
+        raise
+    except Exception as error:  # of a damaged file libraries may say anything
+        raise ValueError(f"cannot be read ({error}); allowed is a whole result file") from None
+    finally:
+        vtkObject.SetGlobalWarningDisplay(shown)
+    if mesh.n_points == 0 or mesh.n_cells == 0:
+        raise ValueError("holds no mesh; allowed is a whole result file")
+    return mesh
+
+
+def _chosen(count: int, step: int | None) -> int:
+    if step is not None and step >= count:
+        raise ValueError(f"has {count} steps; allowed is a step from 0 to {count - 1}")
+    return count - 1 if step is None else step
+
+
+def _at_step(reader: object, step: int | None) -> "UnstructuredGrid":
+    count = getattr(reader, "number_time_points", 0)
+    if count:
+        reader.set_active_time_point(_chosen(count, step))
+    found = reader.read()
+    found = found.combine() if hasattr(found, "combine") else found
+    return found.cast_to_unstructured_grid()
+
+
+def _frd(path: Path, step: int | None) -> "UnstructuredGrid":
+    from pyvista_frd import FRDReader
+
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 64))
+        if not file.read().rstrip().endswith(END_OF_FRD):
+            raise ValueError("ends before its last line, 9999; allowed is the whole file")
+    return _at_step(FRDReader(path), step)
+
+
+def _by_vtk(path: Path, step: int | None) -> "UnstructuredGrid":
+    import pyvista
+
+    return _at_step(pyvista.get_reader(path), step)
+
+
+def _by_meshio(path: Path, step: int | None) -> "UnstructuredGrid":
+    import meshio
+    import pyvista
+
+    return pyvista.from_meshio(meshio.read(path))
+
+
+def _xdmf(path: Path, step: int | None) -> "UnstructuredGrid":
+    import meshio
+    import pyvista
+
+    try:
+        with meshio.xdmf.TimeSeriesReader(path) as series:
+            points, cells = series.read_points_cells()
+            _, arrays, cell_arrays = series.read_data(_chosen(series.num_steps, step))
+    except meshio.ReadError:  # one step alone
+        return _by_meshio(path, step)
+    return pyvista.from_meshio(meshio.Mesh(points, cells, arrays, cell_arrays))
+
+
+READERS: dict[str, Callable[[Path, int | None], "UnstructuredGrid"]] = {
+    ".frd": _frd,
+    ".xdmf": _xdmf,
+    ".xmf": _xdmf,
+    **dict.fromkeys((".med", ".msh", ".inp", ".unv", ".bdf"), _by_meshio),
+}
