@@ -18,12 +18,14 @@ class OutsideStress:
     friction  coefficient that they are of
     extremes  largest tau1, |txz| and von Mises stress at the nodes in the window [Pa], [m]
     depth     [m] of the largest tau1 below the answer's own surface
+    spacing   [m] in depth, of the nodes next to that
     field     (m, k) on the window, not a number outside the answer's mesh
     """
 
     friction: float
     extremes: dict[str, Extremum]
     depth: float
+    spacing: float
     field: StressState
 
 

@@ -11,7 +11,14 @@ from comparisons.answers.hints import hints
 from comparisons.answers.validation import validation_rows
 from comparisons.assessment.comparison import figures, norms, pair_norms, relative_differences
 from comparisons.assessment.convergence import grid_convergence
-from comparisons.assessment.uncertainty import LENGTHS, far_boundary, iteration, length_resolution
+from comparisons.assessment.scatter.figures import InputScatter
+from comparisons.assessment.uncertainty import (
+    LENGTHS,
+    far_boundary,
+    iteration,
+    length_resolution,
+    peak_resolution,
+)
 from comparisons.assessment.verdict import judge
 from comparisons.common.quantities import QUANTITIES
 from comparisons.models.level import Level, ModelRun
@@ -30,16 +37,17 @@ def compare_answers(
     runs: Mapping[str, ModelRun],
     window: Window | None,
     answers: Mapping[str, tuple[Answer, ...]],
-    scatter: Mapping[str, Mapping] | None,
+    scatter: InputScatter | None,
 ) -> tuple[ComparedAnswer, ...]:
     """Every answer of the scene; `answers` are its resolutions by its name.
 
-    scatter  of the scene's figures by scattered inputs, as result.json has it; None: not known
+    scatter  of the scene's figures by uncertain inputs; None: not known
     """
     run, found = list(runs.values())[-1], []
     for source in problem.scene.answers:
         given = answers[source.name]
         frictions = problem.scene.friction if source.friction is None else (source.friction,)
+        measured = {mu: own_figures(given[-1], problem, mu) for mu in frictions}
         rows = [
             row for mu in frictions for row in _compared(problem, run, mu, window, source, given)
         ]
@@ -53,34 +61,12 @@ def compare_answers(
                 balance=balance(given[-1], problem),
                 conditions=conditions(given[-1], problem, plan, runs),
                 hints=hints(given[-1], problem, run.finest),
-                validation=_validation(problem, runs, source, given[-1], frictions, scatter),
+                validation={}
+                if source.scatter is None
+                else validation_rows(problem, runs, measured, source.scatter, scatter),
             )
         )
     return tuple(found)
-
-
-def _validation(
-    problem: Problem,
-    runs: Mapping[str, ModelRun],
-    source: AnswerSource,
-    answer: Answer,
-    frictions: tuple[float, ...],
-    scatter: Mapping[str, Mapping] | None,
-) -> dict[str, list]:
-    """Of measured data, V&V 20's rows by quantity; u_input is half of the interval that scattered
-    inputs leave, relative to its mean."""
-    found: dict[str, list] = {}
-    inputs = {
-        name: abs((part["interval"][1] - part["interval"][0]) / 2.0 / part["mean"])
-        for name, part in (scatter or {}).items()
-        if isinstance(part, Mapping) and part.get("interval") and part.get("mean")
-    }
-    for friction in frictions if source.scatter is not None else ():
-        measured = own_figures(answer, problem, friction)
-        rows = validation_rows(problem, runs, source.scatter, measured, friction, inputs)
-        for name, listed in rows.items():
-            found.setdefault(name, []).extend(listed)
-    return found
 
 
 def own_figures(answer: Answer, problem: Problem, friction: float) -> dict[str, float]:
@@ -121,11 +107,10 @@ def _compared(
     own, reference = own_figures(finest, problem, friction), figures(run.finest, problem, friction)
     rows = []
     for name, difference in history[-1].items():
-        resolution = read = 0.0
+        resolution, read = 0.0, _read_off(finest, name) / abs(reference.get(name) or 1.0)
         if name in LENGTHS:
             grid, length = run.finest.grid, run.finest.contact_length
             resolution = length_resolution(grid.pitch, len(run.finest.patches)) / length
-            read = finest.spacing * float(np.sqrt(len(finest.patches))) / length
         values = [each[name] for each in history]
         model = grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
         model += max(1.0, abs(1.0 + difference)) * iteration(run.finest)
@@ -146,6 +131,18 @@ def _compared(
             AnswerRow(name, friction, *values, difference, known, stated, tolerance, verdict)
         )
     return rows
+
+
+def _read_off(answer: Answer, name: str) -> float:
+    """How finely a figure can be read off the answer's points, in its unit."""
+    match name:
+        case "contact_length":
+            return answer.spacing * float(np.sqrt(len(answer.patches)))
+        case "peak_pressure":
+            return peak_resolution(answer.pressure) * float(answer.pressure.max())
+        case "tau1_max_depth":
+            return answer.stress.spacing
+    return 0.0
 
 
 def _own_uncertainty(

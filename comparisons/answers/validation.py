@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 
 from comparisons.assessment.comparison import figures, uncertainties
+from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
@@ -17,26 +18,28 @@ from comparisons.models.problem import Problem
 def validation_rows(
     problem: Problem,
     runs: Mapping[str, ModelRun],
-    scatter: float,
-    measured: Mapping[str, float],
-    friction: float,
-    inputs: Mapping[str, float | None],
+    measured: Mapping[float, Mapping[str, float]],
+    u_data: float,
+    scatter: InputScatter | None,
 ) -> dict[str, list[dict]]:
-    """By quantity, a row for each model: E, u_num, u_input, u_D and u_val.
+    """By quantity, a row for each friction coefficient and model.
 
-    measured  figures of the data, SI; their `scatter` is relative
-    inputs    u_input by quantity, None or absent where it was not computed: it counts as none then
+    measured  the data's figures by friction and quantity, SI; `u_data` is their relative scatter
+    scatter   by uncertain inputs; where it is not known, u_input is None and counts as none
     """
     found: dict[str, list[dict]] = {}
-    for name, run in runs.items():
-        stated = uncertainties(run, problem, friction)
-        for quantity, value in figures(run.finest, problem, friction).items():
-            data = measured.get(quantity)
-            if not data:
-                continue
-            u_num, u_input = stated[quantity].total * abs(value / data), inputs.get(quantity)
-            u_val = math.sqrt(u_num**2 + (u_input or 0.0) ** 2 + scatter**2)
-            row = {"friction": friction, "model": name, "E": (value - data) / data, "u_num": u_num}
-            row |= {"u_input": u_input, "u_D": scatter, "u_val": u_val}
-            found.setdefault(quantity, []).append(row)
+    for friction, data in measured.items():
+        for name, run in runs.items():
+            stated = uncertainties(run, problem, friction)
+            for quantity, value in figures(run.finest, problem, friction).items():
+                if not data.get(quantity):
+                    continue
+                ratio = value / data[quantity]
+                inputs = scatter and scatter.of(quantity, friction)
+                u_num = abs(ratio) * stated[quantity].total
+                u_input = abs(ratio) * inputs.relative if inputs else None
+                row = {"friction": friction, "model": name, "E": ratio - 1.0, "u_num": u_num}
+                u_val = math.hypot(u_num, u_input or 0.0, u_data)
+                row |= {"u_input": u_input, "u_D": u_data, "u_val": u_val}
+                found.setdefault(quantity, []).append(row)
     return found

@@ -155,7 +155,7 @@ def solve(
     if answers:
         from comparisons.answers.compare import compare_answers
 
-        given = problem, plan, runs, window, answers, result.get("scatter")
+        given = problem, plan, runs, window, answers, scatter
         compared_answers = compare_answers(*given)
         result["answers"] = {each.name: each.as_dict() for each in compared_answers}
         hashes |= {f"answer_{n}": [each.sha256 for each in a] for n, a in answers.items()}

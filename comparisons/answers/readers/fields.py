@@ -227,7 +227,10 @@ def _stresses(
     order = nodes[np.argsort(body.x[nodes])]
     surface = np.interp(extremes["tau1"].x, body.x[order], body.z[order])
     depth = extremes["tau1"].z - float(surface)
-    return OutsideStress(friction, extremes, depth, on_window(body, window))
+    largest = int(np.argmax(np.where(inside, stress.tau1, -np.inf)))
+    beside = body.z[body.triangles[np.any(body.triangles == largest, axis=1)]]
+    spacing = 0.5 * float(np.ptp(beside))
+    return OutsideStress(friction, extremes, depth, spacing, on_window(body, window))
 
 
 def on_window(body: PlaneMesh, window: Window) -> StressState:
