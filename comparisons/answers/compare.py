@@ -111,6 +111,7 @@ def _compared(
         if name in LENGTHS:
             grid, length = run.finest.grid, run.finest.contact_length
             resolution = length_resolution(grid.pitch, len(run.finest.patches)) / length
+            read = _read_off(finest, name) / length
         values = [each[name] for each in history]
         model = grid_convergence(values, QUANTITIES[name].formal_order, resolution).uncertainty
         model += max(1.0, abs(1.0 + difference)) * iteration(run.finest)
@@ -136,7 +137,7 @@ def _compared(
 def _read_off(answer: Answer, name: str) -> float:
     """How finely a figure can be read off the answer's points, in its unit."""
     match name:
-        case "contact_length":
+        case "contact_length" | "contact_ratio":  # of the length
             return answer.spacing * float(np.sqrt(len(answer.patches)))
         case "peak_pressure":
             return peak_resolution(answer.pressure) * float(answer.pressure.max())

@@ -212,7 +212,7 @@ def no_pictures() -> Callable[[Outcome], dict]:
         run_in = None if outcome.problem.scene.run_in is None else blank
         budget = None if outcome.budget is None else blank
         made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
-        return made | {name: [] for name in ("fields", "near", "sections", "mesh")}
+        return made | {name: [] for name in ("answers", "fields", "near", "sections", "mesh")}
 
     return pictures
 
