@@ -208,11 +208,10 @@ class SceneFile(SceneSection):
 SECTIONS: dict[str, type[SceneSection]] = {
     name: part
     for name, info in SceneFile.model_fields.items()
-    # of a section, or one or None, or several by name
-    for outer in (info.annotation, *get_args(info.annotation))
-    for part in (outer, *get_args(outer))
+    for part in (info.annotation, *get_args(info.annotation))  # of a section, or one or None
     if isinstance(part, type) and issubclass(part, SceneSection)
 }
+EVERY_SECTION = SECTIONS | {"answers": AnswerSection}  # of which there may be several, by name
 
 
 def plain_tables(scene: SceneFile) -> dict:
@@ -261,8 +260,8 @@ def _line(problem: dict) -> str:
     if kind == "missing" and len(location) == 1:
         return f"{location[0]}: is missing; allowed is a section [{location[0]}]"
     if kind == "missing":
-        section, name = location[0], location[-1]
-        return f"{'.'.join(location)}: is missing; allowed is {allowed(SECTIONS[section], name)}"
+        section, name = EVERY_SECTION[location[0]], location[-1]
+        return f"{'.'.join(location)}: is missing; allowed is {allowed(section, name)}"
     if kind in ("model_type", "dict_type"):
         name = location[0]
         return f"{name}: is {describe(problem['input'])}; allowed is a section [{name}]"
@@ -281,7 +280,7 @@ def _unknown(location: tuple, given: object) -> str:
         return f"{place}: is no known section; the nearest is {_nearest(name, sections)}"
     fields = {
         table: {field: f"{table}.{field}" for field in model.model_fields}
-        for table, model in SECTIONS.items()
+        for table, model in EVERY_SECTION.items()
     }
     own = fields[section[0]] if section else {"title": "title", **sections}
     anywhere = {field: shown for table in fields.values() for field, shown in table.items()}
