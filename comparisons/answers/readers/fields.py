@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 
 from analytic.stress_state import Extremum, StressState
 from comparisons.answers.answer import OutsideStress
-from comparisons.answers.readers.files import checked
+from comparisons.answers.readers.curves import checked
 from comparisons.answers.readers.meshes import read_mesh
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
