@@ -23,6 +23,7 @@ have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the 
 3.3 times the time.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -39,7 +40,7 @@ from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_o
 from fem.body.triangle import Locator
 from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
-from fem.solver.mumps import FemError, SymmetricFactor, release_with
+from fem.solver.mumps import FemError, SymmetricFactor
 from meshes.block import BlockMesh, real_points
 from meshes.quality import corner_jacobians
 
@@ -129,27 +130,35 @@ class MeshedBody:
 
 @dataclass(eq=False)
 class ElasticBody(MeshedBody):
-    """An assembled body; factored at the first solution. Make one by `elastic_body`.
+    """A body of finite elements; factored at the first solution. Make one by `elastic_body`.
 
     held       (n, 2) components that the support holds
     owned      our number of each node of `space`, of displacements, that this process owns
-    matrix     PETSc stiffness for Young's modulus 1; held rows are those of the identity
+    assemble   gives PETSc's stiffness for Young's modulus 1; held rows are those of the identity
     """
 
     support: Support
     held: np.ndarray
     owned: np.ndarray
-    matrix: "Mat"
-    # After the matrix, which uses its communicator: from dolfinx 0.9 on it must be freed later.
+    assemble: Callable[[], "Mat"]
     space: "FunctionSpace"
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        release_with(self, self.matrix)
 
     @cached_property
     def factor(self) -> SymmetricFactor:
-        return SymmetricFactor(self.matrix)
+        matrix = self.assemble()
+        try:
+            return SymmetricFactor(matrix)
+        finally:
+            matrix.destroy()  # as large as a third of the factor
+
+    def release_factor(self) -> None:
+        """Free the factor; the next solution makes it again."""
+        self.__dict__.pop("factor", None)
+
+    @property
+    def processes(self) -> int:
+        """That share it."""
+        return self.space.mesh.comm.size
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once.
@@ -171,9 +180,11 @@ class ElasticBody(MeshedBody):
     def stiffness(self) -> csr_matrix:
         """Stiffness (2n, 2n) [Pa], x and z of each node in turn; on one process only. Rows and
         columns of held components are those of the identity times Young's modulus."""
-        if self.matrix.comm.size > 1:
+        if self.processes > 1:
             raise FemError("the stiffness as one matrix is available on one process only")
-        start, column, value = self.matrix.getValuesCSR()
+        matrix = self.assemble()
+        start, column, value = matrix.getValuesCSR()
+        matrix.destroy()
         component = (2 * self.owned[:, None] + np.arange(2)).ravel()
         row = np.repeat(component, np.diff(start))
         value = value * self.material.youngs_modulus
@@ -183,9 +194,9 @@ class ElasticBody(MeshedBody):
         """The whole displacement (..., n, 2) on every process from the parts they own."""
         part = part.reshape(*part.shape[:-1], -1, 2)
         whole = np.empty((*part.shape[:-2], *self.nodes.shape))
-        comm, pieces = self.matrix.comm, [(self.owned, part)]
-        if comm.size > 1:
-            pieces = comm.tompi4py().allgather((self.owned, part))
+        pieces = [(self.owned, part)]
+        if self.processes > 1:
+            pieces = self.space.mesh.comm.allgather((self.owned, part))
         for owned, piece in pieces:
             whole[..., owned, :] = piece
         return whole
@@ -208,7 +219,7 @@ def elastic_body(
     degree: int = 2,
     coating: Coating | None = None,
 ) -> ElasticBody:
-    """Assemble the stiffness of a block, with displacements of `degree` 1, 2 or 3.
+    """A block as an elastic body, with displacements of `degree` 1, 2 or 3.
 
     Elements of a mesh with a `shift` have quadratic edges. Edges must follow the lower side of a
     `coating`. Raises FemError if an element is inverted, ValueError if one crosses the interface.
@@ -237,11 +248,12 @@ def elastic_body(
     name = ("stiffness", degree, curved, quadrature, coating is not None)
     make = partial(_work, space, shear, lame, quadrature)
     form = compiled(lambda: compat.compile_bilinear(name, make, space, [shear, lame]))
-    matrix = compat.petsc_matrix(form, conditions_of(space, held[node]))
+    conditions = conditions_of(space, held[node])
 
     owned = node[: space.dofmap.index_map.size_local]
     given = (mesh, material, coating, coated, numbering)
-    return ElasticBody(*given, support, held, owned, matrix, space)
+    assemble = partial(compat.petsc_matrix, form, conditions)
+    return ElasticBody(*given, support, held, owned, assemble, space)
 
 
 def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":

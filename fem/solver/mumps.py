@@ -55,7 +55,8 @@ def release_with(owner: object, *objects: "Object") -> None:
 
 
 class SymmetricFactor:
-    """LDL^T of an assembled symmetric positive definite PETSc matrix, both triangles stored.
+    """LDL^T of an assembled symmetric positive definite PETSc matrix, both triangles stored. It
+    does not need the matrix again.
 
     bytes       memory that MUMPS holds for the factor, over all processes
     solves      right-hand sides so far
@@ -68,10 +69,12 @@ class SymmetricFactor:
 
         matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
         matrix.setOption(PETSc.Mat.Option.SPD, True)
-        self._matrix = matrix
+        self._sizes, self._comm = matrix.getSizes(), matrix.comm
         self._right, self._left = matrix.createVecs()
-        self._ksp, self._factor = factorised(matrix)
-        release_with(self, self._ksp.getPC(), self._factor, self._ksp, self._right, self._left)
+        ksp, self._factor = factorised(matrix)
+        for used in (ksp.getPC(), ksp):  # they hold the matrix
+            used.destroy()
+        release_with(self, self._factor, self._right, self._left)
         self.bytes = 1_000_000 * self._factor.getMumpsInfog(22)
         self.solves = 0
 
@@ -84,8 +87,7 @@ class SymmetricFactor:
             return self._left.getArray().copy()
         from petsc4py import PETSc
 
-        shape = (self._matrix.getSizes()[0], (PETSc.DECIDE, load.shape[1]))
-        comm = self._matrix.comm
+        shape, comm = (self._sizes[0], (PETSc.DECIDE, load.shape[1])), self._comm
         right = PETSc.Mat().createDense(shape, array=np.asfortranarray(load), comm=comm)
         right.assemble()
         left = PETSc.Mat().createDense(shape, comm=comm)

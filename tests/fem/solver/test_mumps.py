@@ -68,11 +68,21 @@ def test_never_enough_room_ends_in_an_error(positive, monkeypatch):
     assert not any(made)  # no attempt's factor stays
 
 
+def test_a_factor_outlives_its_matrix(positive):
+    matrix = petsc(positive)
+    factor = SymmetricFactor(matrix)
+    matrix.destroy()
+    gc.collect()
+    load = np.random.default_rng(1).normal(size=(30, 3))
+    np.testing.assert_allclose(positive @ factor.solve(load), load, atol=1e-10)
+    np.testing.assert_allclose(positive @ factor.solve(load[:, 0]), load[:, 0], atol=1e-10)
+
+
 def test_what_petsc_holds_goes_with_its_owner(positive):
     matrix = petsc(positive)
     factor = SymmetricFactor(matrix)
     mumps.release_with(factor, matrix)
-    held = [factor._factor, factor._ksp, factor._right, matrix]
+    held = [factor._factor, factor._right, factor._left, matrix]
     assert all(held)
     del factor
     gc.collect()
