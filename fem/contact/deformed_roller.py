@@ -29,7 +29,7 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, diags
 
 from fem.body.elasticity import ElasticBody
-from fem.body.surface import along_edges, place_on
+from fem.body.surface import along_edges, hat_points, place_on
 from fem.body.triangle import edge_shapes
 from fem.contact.rigid_roller import HatsOnSurface
 from fem.contact.terms import ContactTerms, Response
@@ -91,9 +91,12 @@ class DeformedSurface:
         edge = np.clip(np.searchsorted(vertex, x) - 1, 0, len(vertex) - 2)
         return edge, place_on(self.edges[edge], x)
 
-    def __call__(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """r [m], its slope without jumps and that one's own slope [1/m] at places x (k,) [m]."""
-        edge, t = self.edge(x)
+    def __call__(
+        self, x: np.ndarray, on: tuple[np.ndarray, np.ndarray] | None = None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """r [m], its slope without jumps and that one's own slope [1/m] at places x (k,) [m], where
+        they are `on` the edges."""
+        edge, t = on or self.edge(x)
         node = 2 * edge[:, None] + np.arange(3)
         rise = (edge_shapes(t) * self.z[node]).sum(axis=1)
         before = np.clip(np.searchsorted(self.middle, x) - 1, 0, len(self.middle) - 2)
@@ -118,14 +121,27 @@ class PairContact:
         self, displacement: np.ndarray, pressure: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """The gap (count,) [m^2] and the nodal forces (2n,) [N/m] of `at` alone: cheaper."""
-        surface, on, x, place = self._under_hats(displacement)
-        rise, slope, _ = surface(x)
-        edge, t = surface.edge(x)
-        at_x, at_z = self._of_roller(2 * edge[:, None] + np.arange(3), edge_shapes(t))
-        load = on.weight * (on.hats @ pressure)
+        surface, cuts, own = self._surfaces(displacement)
+        under = hat_points(self._body.surface, self._hats, cuts)
+        x, z = ((under.shape * c[under.node][..., None]).sum(0) for c in (own.x, own.z))
+        edge, t = surface.edge(x.ravel())
+        rise, slope, _ = (each.reshape(x.shape) for each in surface(x.ravel(), (edge, t)))
+        node, part = 2 * edge + np.arange(3)[:, None], edge_shapes(t).T
+
+        column, hat = under.column + 1, under.hat * under.weight  # with the feet, which bear none
+        load = (np.pad(pressure, 1)[column][..., None] * hat).sum(0)
+        gap = np.bincount(column.ravel(), (hat * (z + rise)).sum(-1).ravel(), len(self._hats))
+        force = np.zeros((self._count, 2))
         along, down = load * (slope + self._friction), load * (1.0 - self._friction * slope)
-        force = on.x.T @ along + on.z.T @ down - at_x.T @ along + at_z.T @ down
-        return on.hats.T @ (on.weight * (on.z @ place + rise)), force
+        for axis, value, back in ((0, along, -along), (1, down, down)):
+            on_body = (under.shape * value).sum(-1).ravel()
+            force[self._body.surface.point, axis] = np.bincount(
+                under.node.ravel(), on_body, len(own.x)
+            )
+            force[self._first + self._roller.surface.point, axis] = np.bincount(
+                node.ravel(), (part * back.ravel()).ravel(), len(surface.x)
+            )
+        return gap[1:-1], force.ravel()
 
     def at(self, displacement: np.ndarray, pressure: np.ndarray) -> ContactTerms:
         """Terms as of `fem.contact.terms.Contact`, on both deformed surfaces."""
@@ -159,13 +175,19 @@ class PairContact:
         self, displacement: np.ndarray
     ) -> tuple[DeformedSurface, HatsOnSurface, np.ndarray, np.ndarray]:
         """The roller's surface, points under hats, their x (q,) [m], and places (2n,) of nodes."""
-        surface = DeformedSurface(self._roller, displacement[self._first :])
-        own = DeformedSurface(self._body, displacement[: self._first])
-        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
-        cuts = along_edges(self._body.surface.edges, *own.edge(below))
+        surface, cuts, _ = self._surfaces(displacement)
         on = HatsOnSurface(self._body, self._hats, self._count, cuts)
         place = (self._undeformed + displacement).ravel()
         return surface, on, on.x @ place, place
+
+    def _surfaces(
+        self, displacement: np.ndarray
+    ) -> tuple[DeformedSurface, np.ndarray, DeformedSurface]:
+        """The roller's, where its edges end on the undeformed rough body's, x [m], and that one."""
+        surface = DeformedSurface(self._roller, displacement[self._first :])
+        own = DeformedSurface(self._body, displacement[: self._first])
+        below = surface.x[::2][(surface.x[::2] > own.x[0]) & (surface.x[::2] < own.x[-1])]
+        return surface, along_edges(self._body.surface.edges, *own.edge(below)), own
 
     def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
         """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,

@@ -33,10 +33,9 @@ from fem.contact.nonlinear import (
 from fem.contact.rigid_roller import CurrentContact, Roller
 from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
 from fem.nonlinear.hyperelastic import (
+    CauchyRecovery,
     HyperelasticBody,
     along_surface,
-    nodal_cauchy_stress,
-    nodal_stress_across,
 )
 from fem.solver.mumps import FemError
 from fem.stress.stress import NodalStress
@@ -44,7 +43,7 @@ from fem.stress.surface_load import SurfaceLoad
 
 # Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
 # change of the pressures; secants, and what one must differ from the others.
-RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 3e-2
+RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 0.1
 SECANTS, SECANT_RANK = 10, 1e-3
 MOST_CORRECTIONS = 25
 # Of Newton's method: mean displacement of the surfaces past each other that is left, of a hat, and
@@ -90,10 +89,19 @@ class FiniteDeformation:
         """(count,) [Pa] force per deformed area, at `place`."""
         return self._on_deformed(self.hats[1:-1], self.pressure)
 
-    @cached_property
+    @property
     def stress(self) -> NodalStress:
         """Cauchy's stresses at the deformed mesh points. The stress across the plane is
         `stress_across`, nu (sx + sz) for small strains only."""
+        return self._cauchy.nodal
+
+    @property
+    def stress_across(self) -> np.ndarray:
+        """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
+        return self._cauchy.across
+
+    @cached_property
+    def _cauchy(self) -> CauchyRecovery:
 
         def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             now = x + np.interp(x, self.body.top.x, self._moved[:, 0])
@@ -103,12 +111,7 @@ class FiniteDeformation:
         nodal = np.concatenate([[0.0], self.pressure, [0.0]])
         x = self.body.top.x
         pressure = self._on_deformed(x, np.interp(x, self.hats, nodal))
-        return nodal_cauchy_stress(self.body, self.displacement, load, pressure)
-
-    @cached_property
-    def stress_across(self) -> np.ndarray:
-        """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
-        return nodal_stress_across(self.body, self.displacement)
+        return CauchyRecovery(self.body, self.displacement, load, pressure)
 
     @cached_property
     def _moved(self) -> np.ndarray:

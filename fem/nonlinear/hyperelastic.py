@@ -7,20 +7,19 @@ last term 0.29 and 0.22 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 time
 (nu = 0.3), that of steel by about five times.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from analytic.stress_state import StressState
 from fem import compat
 from fem.body.elasticity import ElasticBody, quadrature_degree
 from fem.body.triangle import gradients, jacobians, reference_nodes, slopes
 from fem.nonlinear.laws import cauchy_stress, energy
 from fem.solver.compilation import compiled
 from fem.solver.mumps import FemError
-from fem.stress.recovery import element_stress, recovered_stress
-from fem.stress.stress import NodalStress, at_mesh_points
+from fem.stress.recovery import Patches, Recovery, linear_stress
+from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 
 CORNERS = reference_nodes(1)
@@ -36,7 +35,7 @@ class HyperelasticBody:
         import ufl
         from dolfinx import fem
 
-        if body.matrix.comm.size > 1:
+        if body.processes > 1:
             raise FemError("finite deformations are computed on one process only")
         self.body, self.held = body, body.held
         self._unit = body.material.youngs_modulus
@@ -50,7 +49,6 @@ class HyperelasticBody:
         # the stress is no polynomial even on straight edges: as many points as on curved ones
         points = {"quadrature_degree": quadrature_degree(body.degree, True)}
         work = ufl.derivative(density * ufl.dx(metadata=points), self._moved, v)
-        self._work = compiled(lambda: compat.compile_form(work))
         tangent = ufl.derivative(work, self._moved, w)
         self._work = compiled(lambda: compat.compile_form(work))
         self._tangent = compiled(lambda: compat.compile_form(tangent))
@@ -103,49 +101,61 @@ class HyperelasticBody:
         return csr_matrix(data, shape=self._pattern.shape)
 
 
-def nodal_cauchy_stress(
-    body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
-) -> NodalStress:
-    """Cauchy's stresses [Pa] at the deformed mesh points of a body without a coating.
+class CauchyRecovery(Recovery):
+    """Cauchy's stresses [Pa] at the deformed mesh points of a body without a coating, recovered
+    where they are asked for.
 
     The recovered linear stress of the same displacement, plus its difference from Cauchy's stress,
     of second order and averaged over the elements around a point. `load` is that of the linear
     theory. `pressure` (t,) [Pa] on the deformed surface at the points of `body.top` and its sliding
     traction give the stresses across the surface. Raises FemError for a coated body.
+
+    estimate  sx, sz, txz (k, 3) [Pa] at all mesh points: means of the elements around them
+    across    stress across the plane (k,) [Pa] at the mesh points, of these means
     """
-    if body.coated.any():
-        raise FemError("stresses at finite deformations are not computed for a coated body")
-    cauchy = _at_nodes(body, displacement)[..., :3]
-    linear = element_stress(body, displacement, reference_nodes(2))
-    second_order = _averaged(body, cauchy - linear)
-    top = body.top.point
-    along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
-    t = along / np.linalg.norm(along, axis=1)[:, None]
 
-    def on_surface(stress: np.ndarray) -> np.ndarray:
-        s_tt, _, _ = to_surface(t, stress[top])
-        return from_surface(t, s_tt, -pressure, load.friction * pressure)
+    def __init__(
+        self, body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray
+    ) -> None:
+        if body.coated.any():
+            raise FemError("stresses at finite deformations are not computed for a coated body")
+        gradient = gradients(
+            body.points[body.mesh.triangles], displacement[body.elements], reference_nodes(2)
+        )
+        constants = body.shear_modulus[:, None], body.lame[:, None]
+        cauchy = cauchy_stress(gradient, *constants, body.material.law)
+        means = _averaged(body, np.concatenate([cauchy, linear_stress(gradient, *constants)], 2))
+        self.estimate, self.across = means[:, :3], means[:, 3]
+        self._second_order = means[:, :3] - means[:, 4:]
+        top = body.top.point
+        along = along_surface(body.top.x, body.points[top] + body.at_points(displacement)[top])
+        self._tangent = along / np.linalg.norm(along, axis=1)[:, None]
+        self._pressure, self._shear = pressure, load.friction * pressure
+        self._place = np.full(len(body.points), -1)  # of the points on the surface, along it
+        self._place[top] = np.arange(len(top))
+        own = Recovery(body, displacement).at(top) + self._second_order[top]
+        known = self._on_surface(np.arange(len(top)), own) - self._second_order[top]
+        tractions = (load.pressure, load.friction, load.direction)
+        super().__init__(body, displacement, _MatchedLoad(body, load.hats, *tractions, known))
 
-    linear = on_surface(recovered_stress(body, displacement) + second_order) - second_order[top]
-    tractions = (load.pressure, load.friction, load.direction)
-    matched = _MatchedLoad(body, load.hats, *tractions, linear)
-    stress = recovered_stress(body, displacement, matched) + second_order
-    stress[top] = on_surface(stress)
-    nodal = at_mesh_points(body, StressState(*stress.T))
-    return replace(nodal, kinks=matched.kinks)
+    @property
+    def nodal(self) -> NodalStress:
+        """The same, and what interpolates them."""
+        nu = np.full(len(self.known), self.body.material.poissons_ratio)
+        return NodalStress(self.nodes, nu, self.at, lambda: self.estimate, self.load.kinks)
 
+    def _recover(self, patches: Patches) -> None:
+        super()._recover(patches)
+        node = np.concatenate([patches.vertex, patches.middle])
+        self._stress[node] += self._second_order[node]
+        top = node[self._place[node] >= 0]
+        self._stress[top] = self._on_surface(self._place[top], self._stress[top])
 
-def nodal_stress_across(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
-    return _averaged(body, _at_nodes(body, displacement)[..., 3:])[:, 0]
-
-
-def _at_nodes(body: ElasticBody, displacement: np.ndarray) -> np.ndarray:
-    """Cauchy's sx, sz, txz, sy (m, 6, 4) [Pa] at the mesh points of each element."""
-    corner = body.points[body.mesh.triangles]
-    gradient = gradients(corner, displacement[body.elements], reference_nodes(2))
-    constants = body.shear_modulus[:, None], body.lame[:, None]
-    return cauchy_stress(gradient, *constants, body.material.law)
+    def _on_surface(self, place: np.ndarray, stress: np.ndarray) -> np.ndarray:
+        """Stresses (q, 3) at points of the surface, with the tractions there."""
+        t = self._tangent[place]
+        s_tt, _, _ = to_surface(t, stress)
+        return from_surface(t, s_tt, -self._pressure[place], self._shear[place])
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from analytic.stress_state import Extremum
+from analytic.stress_state import Extremum, StressState, von_mises
 from fem.body.elasticity import ElasticBody
 from fem.body.triangle import shapes
 from fem.stress.recovery import MaterialStress
@@ -94,6 +94,21 @@ def maxima(
     for k, best in zip(near, _between_nodes(body, nodal, quantity, rough, windows), strict=True):
         found[:, k] = best.value, best.x, best.z
     return found
+
+
+def highest_node(
+    body: ElasticBody, nodal: NodalStress, across: np.ndarray, window: Window
+) -> Extremum:
+    """The largest von Mises stress at a node, where the stress `across` the plane (k,) [Pa] at the
+    nodes does not follow from the others."""
+    points = body.points[nodal.nodes.point]
+    rough = von_mises(StressState(*nodal.estimate().T), across)
+    rough[~_inside(points, window)] = -np.inf
+    node = np.argsort(-rough, kind="stable")[:MANY]
+    node = node[rough[node] >= (1.0 - DOUBT) * rough[node[0]]]
+    value = von_mises(StressState(*nodal.at(node).T), across[node])
+    top = np.argmax(value)
+    return Extremum(float(value[top]), *map(float, points[node[top]]))
 
 
 def _between_nodes(

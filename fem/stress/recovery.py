@@ -391,11 +391,16 @@ def _stress(body: MeshedBody, element: np.ndarray, moved: np.ndarray, at: np.nda
     flat = moved.reshape(*moved.shape[:2], int(np.prod(moved.shape[2:])))
     slope = gradients(corner, flat, at, straight=not body.curved)
     slope = slope.reshape(len(moved), len(at), *moved.shape[2:], 2)
-    exx, ezz = slope[..., 0, 0], slope[..., 1, 1]
     shear, lame = (
-        value[element].reshape(-1, *(1,) * (exx.ndim - 1))
+        value[element].reshape(-1, *(1,) * (slope.ndim - 3))
         for value in (body.shear_modulus, body.lame)
     )
+    return linear_stress(slope, shear, lame)
+
+
+def linear_stress(slope: np.ndarray, shear: np.ndarray, lame: np.ndarray) -> np.ndarray:
+    """sx, sz, txz (..., 3) [Pa] of displacement gradients (..., 2, 2), by Lame's constants [Pa]."""
+    exx, ezz = slope[..., 0, 0], slope[..., 1, 1]
     pressure = lame * (exx + ezz)
     twist = shear * (slope[..., 0, 1] + slope[..., 1, 0])
     return np.stack([pressure + 2.0 * shear * exx, pressure + 2.0 * shear * ezz, twist], axis=-1)

@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.coupled import solve_coupled
 from analytic.contact.defect_correction import solve_with_model
 from analytic.contact.equilibrium import Constraints
-from analytic.contact.problem import ContactSolution, solve_contact
+from analytic.contact.problem import KKT_TOLERANCE, ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import DenseCompliance, ModelOperator
 from analytic.operators.tangential import DenseCoupledCompliance
@@ -123,13 +123,15 @@ def solve_mutual(
     weights: np.ndarray,
     constraints: Constraints,
     start: np.ndarray,
+    tolerance: float = KKT_TOLERANCE,
 ) -> ContactSolution:
     """The contact of the finite elements; if the iteration with the model does not converge, on
     their whole matrix."""
     solver, dense = solve_contact, DenseCompliance
     if operator.coupled:
         solver, dense = solve_coupled, DenseCoupledCompliance
-    solution = solve_with_model(operator, model, gap, weights, constraints, start, solver=solver)
+    given = operator, model, gap, weights, constraints, start, tolerance
+    solution = solve_with_model(*given, solver=solver)
     if solution.converged or len(gap) > MOST_DENSE:
         return solution
     return solve_on(dense(operator.matrix()), gap, weights, constraints, solution.pressure)

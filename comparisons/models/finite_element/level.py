@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from analytic.contact.patches import contact_patches
+from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
@@ -28,6 +29,7 @@ from comparisons.models.window import Window
 from comparisons.scenes.scene import ResolvedScene
 from meshes.refined_ranges import merge, unrefined_contact
 
+START_TOLERANCE = 1e-5  # of the linear contact that finite deformation starts from
 LAST_LOAD_CHANGE = 1e-3  # relative change of the load that no longer moves the mesh
 MOST_ROUNDS = 12  # of loads for a prescribed approach
 MOST_MESHES = 5  # of one level, while contact spreads beyond the refined ranges
@@ -49,14 +51,15 @@ def finite_element_level(
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
     approach   [m] from first touch, prescribed in place of the load
-    body_cache shared by levels whose meshes and factors may be the same
+    body_cache shared by levels whose meshes and factors may be the same; None: factors are freed
+               once nothing here needs them
     check      compare the bodies' compliance with the analytic one first
     fields     give the stresses at all points of the mesh, too
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
     scene, grid = problem.scene, problem.grid(refinement.pitch)
-    body_cache = body_cache or BodyCache()
+    shared, body_cache = body_cache is not None, body_cache or BodyCache()
     friction = scene.friction[0] if scene.finite_element.coupled else 0.0
     model = nearest_operator(scene, grid, friction)
     weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
@@ -70,6 +73,9 @@ def finite_element_level(
     refuse_too_large(problem, cost, grid.pitch)
     if approach is not None:
         constraints = replace(constraints, load=None, approach=approach + problem.first_touch)
+    # what finite deformation starts from need not be closer than it changes
+    finite = scene.finite_element.deformation == "finite"
+    tolerance = START_TOLERANCE if finite else KKT_TOLERANCE
     checked = None
     for _ in range(MOST_MESHES):
         bodies = bodies_of(problem, plan, refinement, ranges, stages, body_cache)
@@ -80,7 +86,8 @@ def finite_element_level(
             with stages.stage("check", "finite elements: compliance before contact"):
                 checked = operator_check(problem, operator, model, grid, refined)
         with stages.stage("contact", "finite elements: contact"):
-            solution = solve_mutual(operator, model, weighted_gap, grid.weights, constraints, start)
+            given = operator, model, weighted_gap, grid.weights, constraints, start
+            solution = solve_mutual(*given, tolerance)
         touching = grid.x[solution.pressure > 0.0]
         missed = unrefined_contact(refined, touching, reach=grid.pitch)
         if len(missed) == 0:
@@ -88,7 +95,7 @@ def finite_element_level(
         ranges, start = merge(np.vstack([ranges, missed])), solution.pressure
     else:
         solution = replace(solution, converged=False)  # it touches an unrefined range
-    if scene.finite_element.deformation == "finite":
+    if finite:
         with stages.stage("finite deformation", "finite elements: finite deformation"):
             pressed = pressed_finitely(problem, operator, grid, solution, constraints, model)
     elif scene.finite_element.plastic:
@@ -116,6 +123,9 @@ def finite_element_level(
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())
+    if finite and not shared:
+        for body in bodies.all:
+            body.release_factor()
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = scene.friction, problem.asperities
         stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)

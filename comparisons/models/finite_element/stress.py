@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import Extremum, StressState
+from analytic.stress_state import StressState, von_mises
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
@@ -17,7 +17,7 @@ from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.hyperelastic import along_surface
-from fem.stress.maximum import maxima, maximum
+from fem.stress.maximum import highest_node, maxima, maximum
 from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
@@ -29,7 +29,8 @@ class LoadedBody:
     displacement  (count,) [m^2] of its surface into the body, weighted by each hat
     stresses      one for each of some friction coefficients
     patches       (k, 2) [m] contact patches
-    others        further fields at the mesh's points (n,), by name
+    across        stress across the plane (n,) [Pa] at the mesh's points; None: nu (sx + sz)
+    others        further fields there, by name
     moved         (n, 2) [m] at the nodes of the displacement; None: the stresses have it
     on_mesh       what stresses at all points of the mesh are recovered from, by displacements and
                   friction coefficients; None: these stresses are known already
@@ -42,6 +43,7 @@ class LoadedBody:
     displacement: np.ndarray
     stresses: Callable[[tuple[float, ...]], tuple[NodalStress, ...]]
     patches: np.ndarray
+    across: np.ndarray | None = None
     others: dict[str, np.ndarray] = field(default_factory=dict)
     material: np.ndarray | None = None
     on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
@@ -149,11 +151,8 @@ def _stresses_of(
     for friction, each, on_window in zip(frictions, nodal, shown, strict=True):
         found = {n: maxima(body, each, of, bounds, asperities) for n, of in shears.items()}
         extremes = {name: highest(most) for name, most in found.items()}
-        if "von_mises" in pressed.others:  # it does not follow from the stresses
-            von_mises, (x, z) = pressed.others["von_mises"], body.points.T
-            inside = (np.abs(x) <= window.extent) & (z <= window.z[-1])
-            top = np.argmax(np.where(inside, von_mises, -np.inf))
-            extremes["von_mises"] = Extremum(float(von_mises[top]), float(x[top]), float(z[top]))
+        if pressed.across is not None:
+            extremes["von_mises"] = highest_node(body, each, pressed.across, bounds)
         else:
             extremes["von_mises"] = maximum(
                 body, each, lambda stress: stress.von_mises(stress.poissons_ratio), bounds
@@ -169,7 +168,11 @@ def _stresses_of(
         return tuple(results), pressed.on_mesh(moved, frictions)
     stresses = {mu: StressState(*each.values.T) for mu, each in zip(frictions, nodal, strict=True)}
     nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
+    others = pressed.others
+    if pressed.across is not None:
+        mises = von_mises(nodal[0].stress, pressed.across)
+        others = {"sy": pressed.across, "von_mises": mises, **others}
     at_nodes = body.at_points(np.moveaxis(moved, 1, 0))[:, nodes.point]
     displacement = dict(zip(frictions, at_nodes, strict=True))
     given = body.points[nodes.point], nodes.triangles, stresses, displacement, nu
-    return tuple(results), MeshField(*given, pressed.others)
+    return tuple(results), MeshField(*given, others)

@@ -9,6 +9,7 @@ from scenes import hat_nodes
 
 from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.material import Material
+from analytic.stress_state import von_mises
 from fem.body.elasticity import Support, elastic_body
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact import nonlinear as nonlinear_contact
@@ -17,6 +18,7 @@ from fem.contact.rigid_roller import CurrentContact, circle, parabola
 from fem.contact.terms import LinearContact, LinearResponse
 from fem.nonlinear.finite_deformation import press, press_finitely
 from fem.solver.mumps import FemError
+from fem.stress.maximum import highest_node
 from fem.stress.stress import nodal_stress
 from meshes.block import BlockSpec
 from meshes.build import build_block
@@ -160,6 +162,22 @@ def test_stress_at_the_surface_is_the_pressures(body):
     scale = pressure.max()
     np.testing.assert_allclose(across, -pressure, atol=5e-3 * scale)
     np.testing.assert_allclose(shear, 0.2 * pressure, atol=2e-3 * scale)
+
+
+def test_stresses_at_some_points_are_those_of_all(body):
+    """On the surface and below it; the largest von Mises stress is looked for where it is high."""
+    _, found = pressed(body, 0.2, friction=0.2)
+    whole, across = found.stress.stress, found.stress_across
+    _, again = pressed(body, 0.2, friction=0.2)
+    some = np.concatenate([body.top.point[::7], np.arange(0, len(body.points), 11)])
+    np.testing.assert_allclose(again.stress.at(some), found.stress.values[some], rtol=1e-9)
+    window = (-1.0, 1.0, 1.0)
+    top = highest_node(body, again.stress, again.stress_across, window)
+    x, z = body.points.T
+    mises = np.where((np.abs(x) <= 1.0) & (z <= 1.0), von_mises(whole, across), 0.0)
+    assert top.value == pytest.approx(mises.max(), rel=1e-9)
+    assert [top.x, top.z] == list(body.points[np.argmax(mises)])
+    assert again._cauchy.known.mean() < 0.6
 
 
 def test_friction_moves_the_contact_as_in_the_linear_theory(body):

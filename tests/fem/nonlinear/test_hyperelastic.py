@@ -8,10 +8,10 @@ from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
 from fem.body.triangle import collapsed_gauss, gradients, jacobians
 from fem.nonlinear.hyperelastic import (
+    CauchyRecovery,
     HyperelasticBody,
     along_surface,
     cauchy_stress,
-    nodal_cauchy_stress,
 )
 from fem.solver.mumps import FemError
 from fem.stress.recovery import recovered_stress
@@ -99,7 +99,7 @@ def test_rigid_motions_give_no_stress(body, response):
     force, _ = response.linearised(moved)
     assert np.abs(force).max() < 1e-13 * MU
     nothing = SurfaceLoad(body, body.top.x[[0, 2, -1]], np.zeros(1), 0.0, straight_down)
-    found = nodal_cauchy_stress(body, moved, nothing, np.zeros(len(body.top.x)))
+    found = CauchyRecovery(body, moved, nothing, np.zeros(len(body.top.x))).nodal
     linear = recovered_stress(body, moved)
     assert np.abs(linear).max() > 0.1 * MU  # the linear stress takes it for a strain
     assert np.abs(found.values).max() < 1e-12 * MU
@@ -168,7 +168,7 @@ def test_a_material_of_each_triangle(structured_block):
     free = ~body.held
     assert np.abs(force - linear)[free].max() < 1e-5 * np.abs(linear[free]).max()
     with pytest.raises(FemError, match="coated"):
-        nodal_cauchy_stress(body, at, None, np.zeros(3))
+        CauchyRecovery(body, at, None, np.zeros(3))
 
 
 def test_inverted_elements_are_refused(body, response):
