@@ -49,7 +49,9 @@ def refined(
         if (name, number) == ("half_plane", 1):  # for which the others wait
             urgency = AT_ONCE
         given = cache, key, name, problem, plan, window, number, half_block
-        tasks.add(key, _level, *given, seconds=cost.seconds, memory=cost.memory, urgency=urgency)
+        size = {"seconds": cost.seconds, "memory": cost.memory}
+        shares = None if name == "half_plane" else problem.pitches[0] / 2.0 ** (number - 1)
+        tasks.add(key, _level, *given, **size, urgency=urgency, shares=shares)
         return key
 
     asked = range(1, len(problem.pitches) + 1)

@@ -57,6 +57,7 @@ class _Task:
     seconds: float
     memory: float
     urgency: int
+    shares: object
 
 
 @dataclass
@@ -82,6 +83,7 @@ class Tasks:
     _answers: dict[str, tuple[bool, object]] = field(default_factory=dict)
     _tasks: dict[str, _Task] = field(default_factory=dict)
     _workers: dict[Connection, Worker] = field(default_factory=dict)
+    _held: dict[Connection, object] = field(default_factory=dict)
     _done: float = 0.0
     _share: float = 0.0
 
@@ -98,11 +100,15 @@ class Tasks:
         seconds: float = 0.0,
         memory: float = 0.0,
         urgency: int = NEEDED,
+        shares: object = None,
     ) -> None:
         """Make a task known: `work(here, *given)`, of expected seconds and bytes. The lower its
-        urgency, the sooner it begins, of equal ones the longest; a known key changes nothing."""
+        urgency, the sooner it begins; of equal ones what `shares` the same with the last task of a
+        process goes there, as far as there is a choice; then the longest comes first. A known key
+        changes nothing."""
         if key not in self._tasks:
-            self._tasks[key] = self._waiting[key] = _Task(work, given, seconds, memory, urgency)
+            task = _Task(work, given, seconds, memory, urgency, shares)
+            self._tasks[key] = self._waiting[key] = task
             self._hand_out()
 
     def result(self, key: str) -> object:
@@ -150,9 +156,8 @@ class Tasks:
         """Give each idle process the next task that there is memory for."""
         for pipe in [pipe for pipe in self._workers if pipe not in self._running]:
             taken = sum(self._tasks[key].memory for key in self._running.values())
-            order = sorted(
-                self._waiting.items(), key=lambda item: (item[1].urgency, -item[1].seconds)
-            )
+            own, others = self._held.get(pipe), set(self._held.values())
+            order = sorted(self._waiting.items(), key=lambda item: _place(item[1], own, others))
             for key, task in order:
                 if self._running and taken + task.memory > self.memory:
                     continue
@@ -162,7 +167,7 @@ class Tasks:
                     self._lose(pipe)
                 else:
                     del self._waiting[key]
-                    self._running[pipe] = key
+                    self._running[pipe], self._held[pipe] = key, task.shares or self._held.get(pipe)
                 break
 
     def _collect(self) -> None:
@@ -184,6 +189,7 @@ class Tasks:
         key = self._running.pop(pipe, None)
         if key is not None:
             self._waiting[key] = self._tasks[key]
+        self._held.pop(pipe, None)
         self._workers.pop(pipe).kill()
 
     def _answer(self, key: str, good: bool, answer: object) -> None:
@@ -200,6 +206,12 @@ class Tasks:
         if self._done:
             self._share = max(self._share, self._done / (self._done + left))
         self.callback(Step(stage, self._share))
+
+
+def _place(task: _Task, own: object, others: set) -> tuple:
+    """In the queue of a process that holds `own`, while processes hold `others`."""
+    away = 0 if task.shares in (None, own) else 1 + (task.shares in others)
+    return task.urgency, away, -task.seconds
 
 
 @contextmanager

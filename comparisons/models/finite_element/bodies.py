@@ -13,6 +13,7 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
+    boundary_key,
     roller_mesh,
     roller_spec,
     rough_mesh,
@@ -57,7 +58,8 @@ class BodyPair:
 class BodyCache:
     """The latest meshes and factored bodies: what asks for the same again shares them.
 
-    Loads, friction coefficients and profiles in the gap change neither. Few are held: the next
+    Loads, friction coefficients and profiles in the gap change neither, but for a load that changes
+    where the contact may be. Few are held: the next
     request is mostly the same, or older ones never return.
     """
 
@@ -93,7 +95,7 @@ def bodies_of(
         support: Support,
         coating: Coating | None = None,
     ) -> ElasticBody:
-        """Factored; of no `shape` where the boundary is its own, which nothing else can share."""
+        """Factored."""
 
         def make() -> ElasticBody:
             with stages.stage("assembly", "finite elements: assembly"):
@@ -103,8 +105,6 @@ def bodies_of(
             return made
 
         degree = settings.degree
-        if shape is None:
-            return make()
         return body_cache.body(shape, make, material, support, degree, coating)
 
     spec = block_spec(problem, refinement, patches)
@@ -118,7 +118,7 @@ def bodies_of(
     with stages.stage("mesh", "finite elements: mesh"):
         flat = body_cache.mesh(spec)
         mesh = rough_mesh(problem, flat)
-    shape = _key(spec) if mesh is flat else None
+    shape = _key(spec) if mesh is flat else (_key(spec), boundary_key(problem))
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
     rough = body(mesh, shape, scene.body, support, coating)
     if scene.roller is None:
@@ -130,9 +130,8 @@ def bodies_of(
     with stages.stage("mesh", "finite elements: mesh of the roller"):
         flat = body_cache.mesh(wanted)
         mesh = roller_mesh(problem, flat)
-    shape = (_key(wanted), settings.roller_body, scene.roller_radius)
-    if settings.roller_body == "half-plane":  # that of a flat rough body, if they are alike
-        shape = _key(wanted) if mesh is flat else None
+    # flat, it is that of a flat rough body, if they are alike
+    shape = _key(wanted) if mesh is flat else (_key(wanted), "roller", boundary_key(problem))
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":

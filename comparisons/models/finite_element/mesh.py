@@ -1,6 +1,6 @@
 """The meshes of a scene's bodies: what to ask for, and how many displacements they will have."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -80,6 +80,15 @@ def block_spec(problem: Problem, refinement: Refinement, patches: np.ndarray) ->
 def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     """The body's mesh from the flat one: with the trace as its boundary where that is asked for."""
     return roughen(flat, _boundary(problem)) if is_rough(problem) else flat
+
+
+def boundary_key(problem: Problem) -> Hashable:
+    """What shapes the real boundaries of rough bodies and of rollers, beside their flat meshes."""
+    scene = problem.scene
+    profile = scene.profile and (scene.profile.x.tobytes(), scene.profile.height.tobytes())
+    settings = scene.finite_element
+    shape = scene.roller_radius, settings.roller_shape, settings.roller_body
+    return profile, problem.extent, problem.pitches[0], shape
 
 
 def is_rough(problem: Problem) -> bool:

@@ -36,6 +36,12 @@ def number(here: Here, *given: object) -> int:
     return os.getpid()
 
 
+def home(here: Here) -> int:
+    """Slow, so that each process takes part."""
+    time.sleep(0.3)
+    return os.getpid()
+
+
 def noted(here: Here, path: Path, name: str) -> str:
     here.callback(name)
     with path.open("a") as file:
@@ -91,6 +97,29 @@ def test_the_urgent_come_first_then_the_long(worth, tmp_path):
         for name in "slfp":
             tasks.result(name)
     assert path.read_text() == "flsp"
+
+
+def test_what_shares_with_the_last_task_of_a_process_goes_there(worth, tmp_path):
+    path = tmp_path / "order"
+    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
+        tasks.processes = 1
+        for name, seconds, urgency in (("f", 5.0, FIRST), ("b", 4.0, LATER), ("s", 1.0, LATER)):
+            shares = 2 if name == "b" else 1
+            tasks.add(name, noted, path, name, seconds=seconds, urgency=urgency, shares=shares)
+        for name in "fbs":
+            tasks.result(name)
+    assert path.read_text() == "fsb"
+
+
+def test_processes_share_different_things(beside):
+    """Four tasks in pairs that share: each process has one pair."""
+    for name in "aabb":
+        beside.add(f"{name}{len(beside._tasks)}", home, seconds=1.0, shares=name)
+    found = {key: beside.result(key) for key in list(beside._tasks)}
+    assert len({found[key] for key in found if key[0] == "a"}) == 1
+    assert {found[key] for key in found if key[0] == "a"}.isdisjoint(
+        found[key] for key in found if key[0] == "b"
+    )
 
 
 def test_what_has_no_memory_beside_the_others_waits(beside, tmp_path):

@@ -1,5 +1,6 @@
 """The real boundary of a rough body: the trace under every pressure element, on every level."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,6 +9,7 @@ from scenes import problem
 
 from comparisons.common.progress import Stages
 from comparisons.models.finite_element import nonlinear as finite_element_nonlinear
+from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.level import finite_element_level
 from comparisons.models.finite_element.mesh import Refinement, block_spec, rough_mesh
 from comparisons.models.plan import make_plan
@@ -105,6 +107,20 @@ def test_finite_deformation_takes_no_factorisation_of_its_own():
         assert counts["corrections"] <= 30
         peaks.append(level.solution.pressure.max())
     assert peaks[1] == pytest.approx(peaks[0], rel=2e-4)
+
+
+def test_friction_coefficients_share_rough_bodies_and_profiles_do_not():
+    one = problem_with(SINUSOID, deformation="finite")
+    scene = one.scene
+    other = replace(one, scene=replace(scene, friction=(0.1,)))
+    higher = replace(scene.profile, height=1.5 * scene.profile.height)
+    third = replace(one, scene=replace(scene, profile=higher))
+    held, patches, rough = BodyCache(), np.array([one.extent]), []
+    for each in (one, other, third):
+        plan, refinement = make_plan(each, ("finite_element",)), Refinement(each.pitches[0])
+        rough.append(bodies_of(each, plan, refinement, patches, Stages(), held).rough)
+    assert rough[1] is rough[0] and rough[2] is not rough[0]
+    assert rough[2].points[:, 1].min() < 1.4 * rough[0].points[:, 1].min() < 0.0
 
 
 def test_contact_that_ends_with_the_pressure_elements_is_an_error(monkeypatch):
