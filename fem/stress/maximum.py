@@ -42,16 +42,41 @@ FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch'
 STEPS, LONGEST, NONE = 30, 0.25, 1e-10
 
 
+class Samples:
+    """Stresses at points of elements, computed once for all quantities that are looked for."""
+
+    def __init__(self, body: ElasticBody, nodal: NodalStress) -> None:
+        self._body, self._nodal = body, nodal
+        self._known: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+
+    def of(self, element: np.ndarray, count: int) -> np.ndarray:
+        """sx, sz, txz (r, q, 3) [Pa] at the `_lattice` of elements (r,)."""
+        at = _lattice(count)
+        known, stress = self._known.get(count, (np.empty(0, dtype=int), np.empty((0, len(at), 3))))
+        new = np.setdiff1d(element, known)
+        if len(new):
+            known = np.concatenate([known, new])
+            stress = np.concatenate([stress, within(self._body, self._nodal, new, at)])
+            order = np.argsort(known)
+            known, stress = self._known[count] = known[order], stress[order]
+        return stress[np.searchsorted(known, element)]
+
+
 def maximum(
-    body: ElasticBody, nodal: NodalStress, quantity: Quantity, window: Window | None = None
+    body: ElasticBody,
+    nodal: NodalStress,
+    quantity: Quantity,
+    window: Window | None = None,
+    samples: Samples | None = None,
 ) -> Extremum:
     """Largest value of a `quantity` made of the stresses (and Poisson's ratio) point by point.
 
-    `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1. Raises ValueError
-    if no sample lies in it.
+    `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1; `samples` are of the
+    same stresses. Raises ValueError if no sample lies in the window.
     """
     rough = quantity(MaterialStress(*nodal.estimate().T, nodal.poissons_ratio))
-    (found,) = _between_nodes(body, nodal, quantity, rough, [window])
+    samples = samples or Samples(body, nodal)
+    (found,) = _between_nodes(body, nodal, quantity, rough, [window], samples)
     return found
 
 
@@ -61,6 +86,7 @@ def maxima(
     quantity: Quantity,
     window: Window,
     cells: Sequence[float] = (),
+    samples: Samples | None = None,
 ) -> np.ndarray:
     """The same in each cell of x, from left to right: value, x and z (3, k + 1) [m].
 
@@ -91,7 +117,8 @@ def maxima(
         found[:, k] = value[highest], *points[node[highest]]
     near = np.flatnonzero((found[0] >= least) & (found[0] > 0.0)) if least > 0.0 else []
     windows = [(ends[k], ends[k + 1], z1) for k in near]
-    for k, best in zip(near, _between_nodes(body, nodal, quantity, rough, windows), strict=True):
+    given = body, nodal, quantity, rough, windows, samples or Samples(body, nodal)
+    for k, best in zip(near, _between_nodes(*given), strict=True):
         found[:, k] = best.value, best.x, best.z
     return found
 
@@ -117,6 +144,7 @@ def _between_nodes(
     quantity: Quantity,
     rough: np.ndarray,
     windows: Sequence[Window | None],
+    samples: Samples,
 ) -> list[Extremum]:
     """`maximum` in each window, by the estimate of the quantity at all nodes (n,)."""
     if not windows:
@@ -130,7 +158,7 @@ def _between_nodes(
             np.unique(np.concatenate(elements), return_inverse=True),
         )
         place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(at))
-        stress = np.moveaxis(within(body, nodal, held, at), -1, 0)
+        stress = np.moveaxis(samples.of(held, count), -1, 0)
         nu = np.broadcast_to(body.poissons_ratio[held, None], stress.shape[1:])
         value = quantity(MaterialStress(*stress, nu))
         ends = np.cumsum([len(each) for each in elements])[:-1]
@@ -156,8 +184,8 @@ def _between_nodes(
     on_surface[body.top.point] = True
     surface = on_surface[nodal.nodes.point]
     return [
-        _top(body, nodal, quantity, window, points, surface, elements, *samples)
-        for window, elements, samples in zip(windows, best, fine, strict=True)
+        _top(body, nodal, quantity, window, points, surface, elements, *values)
+        for window, elements, values in zip(windows, best, fine, strict=True)
     ]
 
 

@@ -17,7 +17,7 @@ from comparisons.models.window import Window
 from fem.body.elasticity import ElasticBody
 from fem.body.surface import straight_down
 from fem.nonlinear.hyperelastic import along_surface
-from fem.stress.maximum import highest_node, maxima, maximum
+from fem.stress.maximum import Samples, highest_node, maxima, maximum
 from fem.stress.stress import NodalStress, evaluate_all, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
@@ -149,13 +149,15 @@ def _stresses_of(
     shears = {"tau1": lambda stress: stress.tau1, "txz": lambda stress: np.abs(stress.txz)}
     shown = evaluate_all(body, nodal, *np.meshgrid(window.x, window.z))
     for friction, each, on_window in zip(frictions, nodal, shown, strict=True):
-        found = {n: maxima(body, each, of, bounds, asperities) for n, of in shears.items()}
+        samples = Samples(body, each)
+        given = bounds, asperities, samples
+        found = {name: maxima(body, each, of, *given) for name, of in shears.items()}
         extremes = {name: highest(most) for name, most in found.items()}
         if pressed.across is not None:
             extremes["von_mises"] = highest_node(body, each, pressed.across, bounds)
         else:
             extremes["von_mises"] = maximum(
-                body, each, lambda stress: stress.von_mises(stress.poissons_ratio), bounds
+                body, each, lambda stress: stress.von_mises(stress.poissons_ratio), bounds, samples
             )
         results.append(StressResult(friction, extremes, on_window, found))
     if not on_mesh:

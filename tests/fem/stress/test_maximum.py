@@ -10,7 +10,7 @@ from analytic.material import Material
 from analytic.stress_state import StressState
 from fem.body.elasticity import Coating, Support, elastic_body
 from fem.body.surface import straight_down
-from fem.stress.maximum import NEAR, maxima, maximum
+from fem.stress.maximum import NEAR, Samples, maxima, maximum
 from fem.stress.stress import at_mesh_points, nodal_stress, nodal_stresses
 from fem.stress.surface_load import SurfaceLoad
 
@@ -159,6 +159,10 @@ def test_looking_where_an_estimate_is_high_finds_what_looking_everywhere_does(pr
         found = maxima(case.body, replace(there, at=at), quantity, window, cells)
         assert 0.0 < asked.mean() < 0.5
         expected = maxima(case.body, everywhere, quantity, window, cells)
+        samples = Samples(case.body, there)
+        for of in (tau1, quantity):  # what was looked for before makes no difference
+            shared = maxima(case.body, there, of, window, cells, samples)
+        np.testing.assert_array_equal(shared, found)
         np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
