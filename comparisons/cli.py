@@ -50,7 +50,7 @@ WATCHED = {
 }
 # Options that name a place. An empty one, as an unset variable leaves it, would mean the working
 # folder and replace what stands there.
-PLACES = ("--out", "--summary", "--junit")
+PLACES = ("--out", "--summary", "--junit", "--export", "--answers")
 FINISHED = (
     *(ExitStatus.DONE, ExitStatus.OUTSIDE_TOLERANCE),
     *(ExitStatus.NOT_CONVERGED, ExitStatus.INCONCLUSIVE),
