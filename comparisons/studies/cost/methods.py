@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 from comparisons.models.problem import Problem
 
-MOST_DENSE = 4000  # elements of a dense matrix: 128 MB, and as much again for its factor
 HALF_PLANE_PITCHES = (2.0, 1.0, 0.5, 0.25, 0.125, 0.0625)  # of the scene's coarsest
 FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
 
@@ -20,13 +19,11 @@ class SolutionMethod:
     name     in table and diagram
     model    half_plane | finite_element
     element  hat | strip of pressure; or P1 | P2 | P3
-    dense    by a full matrix instead of FFT
     """
 
     name: str
     model: str
     element: str
-    dense: bool = False
 
     def settings(self, problem: Problem) -> tuple[float, ...]:
         """From coarse to fine."""
@@ -37,9 +34,7 @@ class SolutionMethod:
 FINEST = SolutionMethod("hats, FFT", "half_plane", "hat")  # the others' reference, where it may be
 METHODS = (
     SolutionMethod("strips, FFT", "half_plane", "strip"),
-    SolutionMethod("strips, dense", "half_plane", "strip", dense=True),
     FINEST,
-    SolutionMethod("hats, dense", "half_plane", "hat", dense=True),
     *(SolutionMethod(degree, "finite_element", degree) for degree in ("P1", "P2", "P3")),
 )
 

@@ -14,9 +14,7 @@ from comparisons.studies.cost.study import OK
 DASHED = (0, (4, 1.6))
 LOOKS = {
     "strips, FFT": ("#56B4E9", "-", "s"),
-    "strips, dense": ("#56B4E9", ":", "D"),
     "hats, FFT": ("#0072B2", "-", "o"),
-    "hats, dense": ("#0072B2", ":", "v"),
     "P1": ("#CC79A7", DASHED, "^"),
     "P2": ("#D55E00", DASHED, "o"),
     "P3": ("#009E73", DASHED, "s"),

@@ -4,13 +4,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.numerics import runs_of
-from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from analytic.stress.field import friction_field
 from analytic.stress.maxima import stress_maxima
+from analytic.stress_state import StressState
 from comparisons.assessment.comparison import figures
 from comparisons.common.progress import Stages
 from comparisons.models.half_plane import half_plane_level
@@ -52,10 +52,10 @@ def solved(
 ) -> SolvedContact:
     """Solve; `half_block` holds an unbounded body at half the distance."""
     if method.model == "half_plane":
-        if method.element == "hat" and not method.dense:
+        if method.element == "hat":
             plan = make_plan(problem, ("half_plane",))
             return _of_level(half_plane_level(problem, setting, window, stages), problem)
-        return _of_level(_plain_half_plane(method, problem, setting, window, stages), problem)
+        return _of_level(_by_strips(problem, setting, window, stages), problem)
     settings = replace(problem.scene.finite_element, element=method.element)
     problem = replace(problem, scene=replace(problem.scene, finite_element=settings))
     from comparisons.models.finite_element.level import finite_element_level
@@ -81,31 +81,19 @@ def _of_level(level: Level, problem: Problem) -> SolvedContact:
     )
 
 
-def _plain_half_plane(
-    method: SolutionMethod, problem: Problem, pitch: float, window: Window | None, stages: Stages
-) -> Level:
-    """The half-plane with uniform strips, a dense matrix, or both."""
+def _by_strips(problem: Problem, pitch: float, window: Window | None, stages: Stages) -> Level:
+    """The half-plane with uniform strips of pressure."""
     grid = problem.grid(pitch)
-    strips = method.element == "strip"
     with stages.stage("contact"):
-        operator = HalfPlane(grid.count, pitch, problem.modulus, element=method.element)
-        if method.dense:
-            operator = DenseCompliance(operator.block(np.arange(grid.count)))
-        if strips:
-            weighted_gap = pitch * problem.gap(grid.x)
-        else:
-            weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
+        operator = HalfPlane(grid.count, pitch, problem.modulus, element="strip")
+        weighted_gap = pitch * problem.gap(grid.x)
         solution = solve_contact(operator, weighted_gap, grid.weights, problem.constraints())
-        if strips:
-            patches = touching_strips(grid, solution)
-        else:
-            patches = contact_patches(grid.x, solution.pressure, solution.gap)
-        zero = np.zeros(grid.count)
+        patches, zero = touching_strips(grid, solution), np.zeros(grid.count)
         level = Level(grid, solution, zero, patches, stages.seconds, unknowns=grid.count)
     if window is None:
         return level
     with stages.stage("stresses"):
-        return replace(level, stresses=_stresses(problem, level, window, method.element))
+        return replace(level, stresses=_stresses(problem, level, window))
 
 
 def touching_strips(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
@@ -114,36 +102,29 @@ def touching_strips(grid: HatGrid, solution: ContactSolution) -> np.ndarray:
     return start + grid.pitch * np.column_stack(runs_of(solution.pressure > 0.0))
 
 
-def _stresses(
-    problem: Problem, level: Level, window: Window, element: str
-) -> tuple[StressResult, ...]:
+def _stresses(problem: Problem, level: Level, window: Window) -> tuple[StressResult, ...]:
     """As in `comparisons.models.half_plane`, but for strips, under which sx has no bound at the
     surface: theirs begin below it."""
     x, pressure, pitch = level.grid.x, level.solution.pressure, level.grid.pitch
-    top = 1 if element == "strip" else 0
     shown, searched = (
         friction_field(
             x,
             pressure,
             (points.x[0], points.x[-1]),
-            points.z[top:],
+            points.z[1:],
             subdivisions=points.subdivisions(pitch),
             stride=points.stride(pitch),
-            element=element,
+            element="strip",
         )
         for points in (window, search_window(problem, window))
     )
-    results = []
+    nu, results = problem.scene.body.poissons_ratio, []
     for friction in problem.scene.friction:
-        nu = problem.scene.body.poissons_ratio
-        found = stress_maxima(x, pressure, friction, searched.at(friction), nu, element)
+        found = stress_maxima(x, pressure, friction, searched.at(friction), nu, "strip")
         extremes = {"tau1": found.tau1, "txz": found.txz_abs, "von_mises": found.von_mises}
         field = shown.at(friction).stress
-        if top:  # unknown there
-            unknown = [
-                np.vstack([np.full((1, part.shape[1]), np.nan), part])
-                for part in (field.sx, field.sz, field.txz)
-            ]
-            field = type(field)(*unknown)
+        parts = (field.sx, field.sz, field.txz)
+        unknown = np.full_like(field.sx[:1], np.nan)  # at the surface
+        field = StressState(*(np.vstack([unknown, part]) for part in parts))
         results.append(StressResult(friction, extremes, field))
     return tuple(results)

@@ -19,7 +19,6 @@ from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.cost.measure import CostTask, MeasuredRun, RefusedRun, measure
 from comparisons.studies.cost.methods import (
     METHODS,
-    MOST_DENSE,
     SolutionMethod,
     is_half_plane_problem,
     why_not,
@@ -34,10 +33,9 @@ CODE = (
 THREADS = 1  # of a measuring process
 # Time of a setting over that of the one before.
 GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
-DENSE_GROWTH = 8.0
 # Shares of budget.time, in processor seconds, by which each method is done; what a method does not
 # use is left to the next ones.
-SHARES = (0.03, 0.08, 0.15, 0.2, 0.35, 0.55, 0.75, 0.9)
+SHARES = (0.08, 0.2, 0.55, 0.75, 0.9)
 MOST_OF_REST = 0.25  # share of what is left of it beyond which a setting is not repeated
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
 
@@ -146,15 +144,12 @@ def _series(
 ) -> list[CostRow]:
     """The rows of a method, in the processor seconds that are `left` for it."""
     rows, settings, ended, expected = [], method.settings(problem), None, 0.0
-    growth = DENSE_GROWTH if method.dense else GROWTH[method.model]
+    growth = GROWTH[method.model]
     for number, setting in enumerate(settings, start=1):
         label = CostRow(method, setting, OK).label
         name = f"{method.name}: {label} ({number} of {len(settings)})"
         callback(Step(name, (number - 1) / len(settings)))
         because = ended
-        count = problem.grid(setting).count if method.dense else 0
-        if because is None and count > MOST_DENSE:
-            because = f"{count} elements; a dense matrix is made of at most {MOST_DENSE}"
         if because is None and expected > left:
             because = (
                 f"{expected:.2g} s are more than is left of this method's part of "

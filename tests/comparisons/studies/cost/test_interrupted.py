@@ -96,7 +96,7 @@ class TestStore:
         task, found = measured
         cache = cost_cache(tmp_path, task.scene, 2)
         cache.save(task.name, found)
-        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": "hats, dense"}):
+        for other in ({"setting": 2e-5}, {"half_block": True}, {"method": "P3"}):
             assert cache.load(replace(task, **other).name) is None
         assert cache.load(replace(task, limit=7.0).name) is not None
 

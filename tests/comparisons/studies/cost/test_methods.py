@@ -61,19 +61,6 @@ class TestMethods:
         assert not is_exact(made)
 
     @pytest.mark.parametrize("element", ["hats", "strips"])
-    def test_dense_and_fft_find_the_same(self, element):
-        made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
-        pitch = problem_of(made).pitches[0]
-        one, other = (
-            measure(CostTask(made, None, f"{element}, {way}", pitch)).solved
-            for way in ("FFT", "dense")
-        )
-        assert one.pressure == pytest.approx(other.pressure, rel=1e-6)
-        for name, value in one.figures[0].items():
-            assert other.figures[0][name] == pytest.approx(value, rel=1e-6)
-            assert value > 0.0
-
-    @pytest.mark.parametrize("element", ["hats", "strips"])
     def test_of_hertz_errors_fall_with_the_pitch(self, element):
         made = resolved(changed(SMOOTH, stress={"points": [60, 20]}))
         exact = {

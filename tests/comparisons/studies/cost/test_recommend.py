@@ -96,13 +96,6 @@ class TestRows:
         assert [r.status for r in found] == [OK, SKIPPED, SKIPPED, SKIPPED]
         assert "budget.time" in found[1].because and process.tasks[0].limit <= 1.0
 
-    def test_a_dense_matrix_that_is_too_large_is_skipped(self, monkeypatch):
-        monkeypatch.setattr("comparisons.studies.cost.study.MOST_DENSE", 100)
-        good = row("hats, dense", 1.0, 1e-3, 0.0).measured
-        found, _ = self.rows(good, good, name="hats, dense")
-        assert [r.status for r in found][:3] == [OK, OK, SKIPPED]
-        assert found[2].because.startswith("113 elements; a dense matrix")
-
     def test_files_and_table_have_them(self, monkeypatch):
         rows = [row("P2", 1e-5, 1.0, 1e-4), row("P2", 5e-6, 1.0, 1e-4, status=FAILED)]
         rows += [CostRow(BY_NAME["P1"], None, SKIPPED, "does not apply")]
