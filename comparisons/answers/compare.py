@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from comparisons.answers.answer import Answer, AnswerRow, ComparedAnswer
-from comparisons.answers.conditions import balance, conditions
+from comparisons.answers.conditions import balance, conditions, operators_of
 from comparisons.answers.hints import hints
 from comparisons.answers.validation import validation_rows
 from comparisons.assessment.comparison import figures, norms, pair_norms, relative_differences
@@ -44,6 +44,7 @@ def compare_answers(
     scatter  of the scene's figures by uncertain inputs; None: not known
     """
     run, found = list(runs.values())[-1], []
+    operators = operators_of(problem, plan, runs)
     for source in problem.scene.answers:
         given = answers[source.name]
         frictions = problem.scene.friction if source.friction is None else (source.friction,)
@@ -59,7 +60,7 @@ def compare_answers(
                 measured=source.scatter is not None,
                 rows=tuple(rows),
                 balance=balance(given[-1], problem),
-                conditions=conditions(given[-1], problem, plan, runs),
+                conditions=conditions(given[-1], problem, operators),
                 hints=hints(given[-1], problem, run.finest),
                 validation={}
                 if source.scatter is None

@@ -15,7 +15,7 @@ from analytic.operators.half_plane import ComplianceOperator
 from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.answers.answer import Answer
 from comparisons.common.progress import Stages
-from comparisons.models.level import ModelRun
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
 from comparisons.models.problem import Problem
 
@@ -25,20 +25,26 @@ def balance(answer: Answer, problem: Problem) -> float:
     return answer.load / problem.hertz.load_per_length - 1.0
 
 
-def conditions(
-    answer: Answer, problem: Problem, plan: Plan, runs: Mapping[str, ModelRun]
-) -> dict[str, dict]:
-    """`Residuals` by model, but for the load; relative and zero when exact."""
+def operators_of(
+    problem: Problem, plan: Plan, runs: Mapping[str, ModelRun]
+) -> dict[str, tuple[HatGrid, ComplianceOperator]]:
+    """Pressure elements and compliance by model."""
     grid = list(runs.values())[-1].finest.grid
     half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
-    found = {"half_plane": _residuals(answer, problem, grid, half_plane)}
+    found: dict[str, tuple[HatGrid, ComplianceOperator]] = {"half_plane": (grid, half_plane)}
     settings = problem.scene.finite_element
     linear = settings.deformation == "linear" and not settings.plastic
     if "finite_element" in runs and linear and settings.gap == "reference":
-        grid = runs["finite_element"].levels[0].grid
-        operator = _finite_elements(problem, plan, runs["finite_element"])
-        found["finite_element"] = _residuals(answer, problem, grid, operator)
+        level = runs["finite_element"].levels[0]
+        found["finite_element"] = level.grid, _finite_elements(problem, plan, level)
     return found
+
+
+def conditions(
+    answer: Answer, problem: Problem, operators: Mapping[str, tuple[HatGrid, ComplianceOperator]]
+) -> dict[str, dict]:
+    """`Residuals` by model, but for the load; relative and zero when exact."""
+    return {name: _residuals(answer, problem, *given) for name, given in operators.items()}
 
 
 def _residuals(
@@ -54,12 +60,11 @@ def _residuals(
     return found
 
 
-def _finite_elements(problem: Problem, plan: Plan, run: ModelRun) -> ComplianceOperator:
-    """The compliance of the scene's finite elements on the coarsest level, made again."""
+def _finite_elements(problem: Problem, plan: Plan, level: Level) -> ComplianceOperator:
+    """The compliance of the scene's finite elements on a level, made again."""
     from comparisons.models.finite_element.bodies import BodyCache, bodies_of
     from comparisons.models.finite_element.contact import mutual_compliance
     from comparisons.models.finite_element.mesh import Refinement
 
-    level = run.levels[0]
     given = problem, plan, Refinement(level.grid.pitch), level.patches, Stages(), BodyCache()
     return mutual_compliance(problem, bodies_of(*given), level.grid)

@@ -23,6 +23,11 @@ from comparisons.models.problem import Problem
 
 DISTINCT = 0.02  # relative L2 norm of a difference that asks for an explanation
 EXPLAINS = 0.25  # of it: what an explanation may leave
+AS_WELL, ROUNDING = (
+    1.1,
+    1e-3,
+)  # an explanation that leaves little more than the best, and is simpler
+ANOTHER = 0.5  # relative L2 norm of a difference that something must explain
 LENGTHS = {-3: "nm", -2: "µm", -1: "mm", 0: "m", 1: "km"}
 STRESSES = {0: "Pa", 1: "kPa", 2: "MPa", 3: "GPa"}
 FARTHEST = 2.0  # extents of the contact: a shift that is searched
@@ -72,10 +77,14 @@ def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
     found += [replace(hint, left=left(curve)) for hint in units]
     now = left(curve)
     tried = [*_moved(curve, problem, grid, reference), *_other_problems(curve, problem, grid)]
-    best = min(tried, key=lambda hint: hint.left)
+    least = min(hint.left for hint in tried)
+    best = next(hint for hint in tried if hint.left <= AS_WELL * least + ROUNDING)
     if now > DISTINCT and best.left <= EXPLAINS * now:
         found.append(best)
     explains = found and min(hint.left for hint in found) <= max(EXPLAINS * before, DISTINCT)
+    if not explains and before > ANOTHER:
+        text = "no other axes, sign, unit or factor of two explains it: another contact"
+        return (Hint("unexplained", before, text, before),)
     return tuple(replace(h, text=f"{h.text} explains it") for h in found) if explains else ()
 
 

@@ -19,7 +19,7 @@ from comparisons.common.provenance import PROJECT
 if TYPE_CHECKING:
     from pyvista import UnstructuredGrid
 
-INSTALL = "python -m pip install crosscheck[answers]"
+INSTALL = "python -m pip install pyvista-frd-reader h5py"
 END_OF_FRD = b"9999"
 
 

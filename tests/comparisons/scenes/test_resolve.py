@@ -281,7 +281,7 @@ def test_any_value_is_taken_or_refused_in_one_line(place, value):
     if name is None:
         tables[section] = value
     else:
-        tables[section][name] = value
+        tables.setdefault(section, {})[name] = value
     try:
         resolved(tables)
     except SceneError as error:
