@@ -36,7 +36,7 @@ class Run:
         self.status = ExitStatus.DONE
         self.raises = None
 
-    def run(self, scene, out, models, progress, fields):
+    def run(self, scene, out, models, progress, fields, *further):
         self.calls.append((scene, out, models))
         progress("solving [with] care")
         if self.raises:
@@ -349,7 +349,7 @@ def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, caps
     clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
     monkeypatch.setattr("comparisons.commands.output.monotonic", lambda: next(clock))
 
-    def slow(scene, out, models, callback, fields):
+    def slow(scene, out, models, callback, fields, *further):
         for stage in ("first", "second", "third", "fourth"):
             callback(stage)
         return types.SimpleNamespace(result={}, exit_status=ExitStatus.DONE, directory=out)
