@@ -36,7 +36,9 @@ ORDERS = {
     9: tuple((i, j) for i in range(3) for j in range(3)),
 }
 TENSOR = re.compile(r"s|.*(stress|sigma|sigm|sief|cauchy).*")
-COMPONENT = re.compile(r"(?:s|si|sig|sigma|stress|cauchystress)((?:[xyz]|[123]){2})")
+STEM = "(?:s|si|sig|sigma|stress|cauchystress)"
+COMPONENT = re.compile(f"{STEM}((?:[xyz]|[123]){{2}})")
+ROW = re.compile(f"{STEM}([xyz])")  # what VTK makes of xx, xy and xz that follow in an Exodus file
 AXES = {"x": 0, "y": 1, "z": 2, "1": 0, "2": 1, "3": 2}
 OWN = ("sx", "sz", "txz")  # as this project's files have them, z into the body
 
@@ -164,7 +166,10 @@ def _stress_of(
     found: dict[tuple[int, int], np.ndarray] = {}
     for name, values in arrays.items():
         bare = re.sub(r"[^a-z0-9]", "", name.lower())
-        if values.ndim == 2 and values.shape[1] in ORDERS and TENSOR.fullmatch(bare):
+        if values.ndim == 2 and (match := ROW.fullmatch(bare)):
+            pairs = (tuple(sorted((AXES[match[1]], other))) for other in range(3))
+            found |= dict(zip(pairs, values.T, strict=False))
+        elif values.ndim == 2 and values.shape[1] in ORDERS and TENSOR.fullmatch(bare):
             for pair, column in zip(ORDERS[values.shape[1]], values.T, strict=True):
                 found.setdefault(pair, column)
         elif values.ndim == 1 and (match := COMPONENT.fullmatch(bare)):

@@ -246,6 +246,25 @@ def test_missing_stresses_steps_and_frictions(hertz, tmp_path):
     holds(read(moved | {"z_origin": -1e-3}), hertz, near=2e-3)
 
 
+def test_components_in_an_exodus_file(hertz, tmp_path):
+    """In MOOSE's order, of which VTK takes the first two for a vector."""
+    from vtkmodules.vtkIOExodus import vtkExodusIIWriter
+
+    mesh = block(hertz)
+    points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
+    cells = np.column_stack([np.full(len(mesh.triangles), 6), mesh.triangles]).ravel()
+    grid = pyvista.UnstructuredGrid(cells, np.full(len(mesh.triangles), 22), points)
+    stress = exact(mesh, hertz)
+    named = {"stress_xx": stress.sx, "stress_xy": -stress.txz, "stress_yy": stress.sz}
+    for name, values in named.items():
+        grid[name] = values
+    writer = vtkExodusIIWriter()
+    writer.SetFileName(str(tmp_path / "a.e"))
+    writer.SetInputData(grid)
+    writer.Write()
+    holds(read({"file": str(tmp_path / "a.e")}), hertz, near=2e-3)
+
+
 def test_steps_of_xdmf(hertz, tmp_path):
     mesh = block(hertz)
     points = np.column_stack([mesh.points[:, 0], -mesh.points[:, 1], 0.0 * mesh.points[:, 0]])
