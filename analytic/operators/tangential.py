@@ -14,7 +14,7 @@ and roller (`analytic.material.dundurs_constants`) the mutual displacement is
 nothing for equal materials. Being odd in x - s it does no work, p'Tp = 0: with it the compliance is
 not symmetric but positive definite as before, and its contact problem has exactly one solution.
 
-    h      pitch [m]             E*    modulus [Pa]           L    period [m]
+    h      pitch [m]             E*    modulus [Pa]
     phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
     C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]
 """
