@@ -10,9 +10,12 @@ from functools import lru_cache, partial
 
 import numpy as np
 
+from analytic.contact.defect_correction import solve_with_model
+from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
 from analytic.material import Material
+from analytic.operators.half_plane import HalfPlane
 from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
 from comparisons.studies.robustness.cases.rough import plateau, spike, steps, touching_figure
 from comparisons.studies.robustness.finite_element.loaded_body import (
@@ -21,7 +24,6 @@ from comparisons.studies.robustness.finite_element.loaded_body import (
     compliance_of,
     finite_element_findings,
     flat_mesh,
-    load_body,
     rough_mesh,
 )
 from comparisons.studies.robustness.loaded_contact import deviation, least_squares
@@ -51,8 +53,9 @@ def heights() -> np.ndarray:
 def pressed(
     compliance: FiniteElementCompliance, height: np.ndarray, load: float, grid: HatGrid = GRID
 ) -> ContactSolution:
-    """A rigid flat on heights (n,) [m]."""
-    return load_body(compliance, -grid.pitch * height, load, BODY.plane_strain_modulus, grid)
+    """A rigid flat on heights (n,) [m], by way of a half-plane."""
+    model, gap = HalfPlane(grid.count, grid.pitch, BODY.plane_strain_modulus), -grid.pitch * height
+    return solve_with_model(compliance, model, gap, grid.weights, Constraints(load=load))
 
 
 def vanishing_findings(load: float) -> Findings:

@@ -4,11 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from analytic.contact.defect_correction import solve_with_model
-from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.operators.half_plane import HalfPlane
 from comparisons.studies.checks import BoundedFigure, Findings
 from comparisons.studies.robustness.loaded_contact import iterations, residual_figures
 from fem.body.elasticity import ElasticBody
@@ -52,18 +49,6 @@ def rough_mesh(slope: float) -> BlockMesh:
 
 def compliance_of(body: ElasticBody, grid: HatGrid = GRID) -> FiniteElementCompliance:
     return FiniteElementCompliance(body, grid.pitch * np.arange(grid.first - 1, grid.last + 2))
-
-
-def load_body(
-    compliance: FiniteElementCompliance,
-    weighted_gap: np.ndarray,
-    load: float,
-    modulus: float,
-    grid: HatGrid = GRID,
-) -> ContactSolution:
-    """The contact of a weighted gap (n,) [m^2] by way of a half-plane of `modulus` [Pa]."""
-    model = HalfPlane(grid.count, grid.pitch, modulus)
-    return solve_with_model(compliance, model, weighted_gap, grid.weights, Constraints(load=load))
 
 
 def finite_element_findings(
