@@ -5,6 +5,7 @@ A pool of `concurrent.futures` may wait for ever for a worker that was killed be
 large task (CPython's issue 94777, in Python 3.11.2 and others); `fresh_process` does not.
 """
 
+import ctypes
 import gc
 import multiprocessing
 import os
@@ -98,6 +99,13 @@ def fresh_process() -> Iterator[Call]:
         yield call
     finally:
         worker.kill()
+
+
+def return_freed_memory() -> None:
+    """To the system: the C library keeps what was freed in blocks of some megabytes, as a factor
+    is, for this process alone."""
+    with suppress(AttributeError):  # of Debian's C library
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 def answered(work: Callable[..., Result], *given: object) -> tuple[bool, Result | Exception]:

@@ -18,7 +18,14 @@ from multiprocessing.connection import Connection, wait
 from typing import TypeVar
 
 from comparisons.common.mpi import from_first, is_several
-from comparisons.common.processes import ONE_THREAD, Worker, answered, interrupts_later, uncollected
+from comparisons.common.processes import (
+    ONE_THREAD,
+    Worker,
+    answered,
+    interrupts_later,
+    return_freed_memory,
+    uncollected,
+)
 from comparisons.common.progress import ProgressCallback, Step, machine_memory, no_progress
 
 Held = TypeVar("Held")
@@ -245,4 +252,6 @@ def _serve(preparations: Sequence[Preparation], pipe: Connection) -> None:
     _prepare(list(preparations), pipe.poll)
     while True:
         work, given = pipe.recv()
-        pipe.send(("answer", answered(work, here, *given)))
+        answer = answered(work, here, *given)
+        return_freed_memory()
+        pipe.send(("answer", answer))

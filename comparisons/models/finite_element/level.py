@@ -13,6 +13,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
+from comparisons.common.processes import return_freed_memory
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import no_check, operator_check
@@ -126,6 +127,7 @@ def finite_element_level(
     if finite and not shared:
         for body in bodies.all:
             body.release_factor()
+        return_freed_memory()
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = scene.friction, problem.asperities
         stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)

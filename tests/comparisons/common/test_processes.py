@@ -1,13 +1,21 @@
 """The process that measures: what it answers, and how it ends."""
 
 import os
+import resource
 import signal
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
-from comparisons.common.processes import ProcessEnded, fresh_process, meanwhile, side_by_side
+from comparisons.common.processes import (
+    ProcessEnded,
+    fresh_process,
+    meanwhile,
+    return_freed_memory,
+    side_by_side,
+)
 
 
 def test_one_that_hears_nothing_ends_at_an_interrupt():
@@ -114,3 +122,28 @@ class TestMeanwhile:
         with pytest.raises(KeyboardInterrupt), meanwhile([lambda: time.sleep(300.0)]):
             raise KeyboardInterrupt
         assert time.monotonic() - begin < 100.0
+
+
+def freed_memory(ask: bool) -> int:
+    """Pages that a process gives back once it has freed 100 MB below something that it keeps."""
+    blocks = [bytearray(2**16) for _ in range(1600)]
+    kept = [bytearray(2**16) for _ in range(8)]
+    before = resident()
+    del blocks
+    if ask:
+        return_freed_memory()
+    return before - resident() if kept else 0
+
+
+def resident() -> int:
+    return int(Path("/proc/self/statm").read_text().split()[1])
+
+
+@pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="memory is read from /proc")
+def test_freed_memory_is_returned_when_asked_for():
+    """The C library alone keeps it."""
+    pages = []
+    for ask in (False, True):
+        with fresh_process() as call:
+            pages.append(call(freed_memory, ask) * resource.getpagesize())
+    assert pages[0] < 5e7 < 9e7 < pages[1]
