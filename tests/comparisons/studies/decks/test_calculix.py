@@ -4,6 +4,7 @@ what both state; decks that are wrong on purpose do not."""
 import os
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -102,6 +103,22 @@ def test_a_deck_of_another_modulus_differs(tmp_path):
     steel = "210000000, 0.3"
     found, ratio = verdict(tmp_path, SCENES["smooth"], steel, steel.replace("21", "23"))
     assert found == "differ" and ratio > 1.0
+
+
+def test_an_answer_goes_from_the_deck_to_the_verdict(tmp_path):
+    """As `run --answer` twice: the stress on the surface and below it, on two resolutions."""
+    pytest.importorskip("pyvista_frd", reason="answers of CalculiX: crosscheck[answers]")
+    tables = scenes.changed(api.tables("smooth"), stress={"points": [120, 40]})
+    for level in (1, 2):
+        solved(tmp_path / str(level), tables, level)
+    read = tomllib.loads((tmp_path / "1/answer.toml").read_text())
+    files = [str(tmp_path / str(level) / read["file"]) for level in (1, 2)]
+    answers = {"calculix": read | {"file": files}}
+    found = api.run(tables | {"answers": answers}, "half-plane").result["answers"]["calculix"]
+    for quantity in ("peak_pressure", "contact_length", "tau1_max"):
+        (row,) = found["comparison"][quantity]
+        assert abs(row["difference"]) <= row["uncertainty"] < 0.1
+    assert found["comparison"]["peak_pressure"][0]["verdict"] == "agree"
 
 
 def test_friction_slides_everywhere_and_leaves_the_pressure(tmp_path):
