@@ -36,6 +36,7 @@ class Answer:
     file, sha256  that it was read from
     x, pressure   (n,) [m], [Pa] along the surface, ascending, as given: also where it is negative
     stress        None: pressures alone
+    of_mesh       the pressures are stresses on the surface of a mesh
     """
 
     file: str
@@ -43,6 +44,7 @@ class Answer:
     x: np.ndarray
     pressure: np.ndarray
     stress: OutsideStress | None = None
+    of_mesh: bool = False
 
     @property
     def load(self) -> float:
@@ -53,7 +55,7 @@ class Answer:
     @property
     def touching(self) -> np.ndarray:
         """(n,) whether a point is in contact."""
-        least = TOUCHING if self.stress is not None else 0.0
+        least = TOUCHING if self.of_mesh or self.stress is not None else 0.0
         return self.pressure > least * max(0.0, float(self.pressure.max()))
 
     @property

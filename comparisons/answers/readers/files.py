@@ -42,5 +42,6 @@ def _read(source: AnswerSource, problem: Problem, window: Window | None) -> tupl
         except ValueError as error:
             said = one_line(str(error))[:LONGEST]
             raise InputError(f"answers.{source.name}.file: {path}: {said}") from None
-        found.append(Answer(path.name, sha256, x, pressure, stress))
+        of_mesh = path.suffix.lower() not in TABLES and source.pressure is None
+        found.append(Answer(path.name, sha256, x, pressure, stress, of_mesh))
     return tuple(sorted(found, key=lambda answer: -answer.spacing))
