@@ -57,3 +57,13 @@ def angle_minus_sine(angle: ArrayLike) -> np.ndarray:
     for n in range(9, 0, -1):  # the next term is below 1e-19
         series = 1.0 - square / ((2.0 * n + 2.0) * (2.0 * n + 3.0)) * series
     return np.where(y < 1.0, y**3 / 6.0 * series, y - np.sin(y))
+
+
+def artanh_minus_argument(argument: ArrayLike, artanh: ArrayLike) -> np.ndarray:
+    """artanh y - y for 0 <= y <= 1, given y and artanh y: next to 1 only the caller knows it."""
+    y = np.asarray(argument, dtype=float)
+    small = np.minimum(y, 0.4)
+    series, square = np.zeros_like(small), small**2
+    for n in range(20, 0, -1):
+        series = series * square + 1.0 / (2.0 * n + 1.0)
+    return np.where(y < 0.4, series * small * square, artanh - y)

@@ -11,6 +11,7 @@ import numpy as np
 
 from analytic.exact.flattened_cylinder import flattened_cylinder
 from analytic.exact.hertz import hertz_extremes, hertz_from_peak_pressure
+from analytic.exact.rounded_punch import rounded_punch_from_half_width
 from analytic.exact.sliding import sliding_from_load
 from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.grid import roller_gap
@@ -40,6 +41,7 @@ class ExactContact:
                   right_edge always; where known peak_position, mean_gap, tau1_max,
                   tau1_max_depth, txz_max_abs, flowed_length. Periodic cases count one patch.
     friction      of the traction; it also shifts the pressure where `coupled`
+    knots         places [m] where g0 is not smooth
     period        [m] of pressure and gap, or None
     hardness      cap on the pressure [Pa]
     """
@@ -54,6 +56,7 @@ class ExactContact:
     pressure: Curve
     quantities: Mapping[str, float]
     friction: float = 0.0
+    knots: tuple[float, ...] = ()
     period: float | None = None
     hardness: float = np.inf
 
@@ -97,6 +100,26 @@ def hertz_case(
             "txz_max_abs": max(extremes.txz_max.value, -extremes.txz_min.value),
         },
         friction=friction,
+    )
+
+
+def punch_case(
+    name: str, pair: Pair, half_width: float, flat_share: float, corner_radius: float
+) -> ExactContact:
+    """Punch in contact over `half_width` a [m], b = `flat_share` a, corners of R [m]."""
+    modulus = combined_modulus(*pair)
+    b = flat_share * half_width
+    punch = rounded_punch_from_half_width(half_width, b, corner_radius, modulus)
+    return ExactContact(
+        name,
+        "Ciavarella, Hills and Monno 1998",
+        *pair,
+        load=punch.load_per_length,
+        gap=punch.gap,
+        half_range=1.5 * half_width,
+        pressure=punch.pressure,
+        quantities=_figures(punch.peak_pressure, -half_width, half_width),
+        knots=(-b, b),
     )
 
 
@@ -195,6 +218,10 @@ def exact_contacts() -> tuple[ExactContact, ...]:
         hertz_case("Hertz, light load", (STEEL, STEEL), 50e-3, 1e6),
         hertz_case("Hertz, ceramic on aluminium", (ALUMINIUM, CERAMIC), 20e-3, 0.5e9),
         hertz_case("Hertz, rigid on rubber", (RUBBER, None), 100e-3, 0.2e6),
+        punch_case("rounded punch, flat 0.3", (STEEL, None), 1e-3, 0.3, 0.1),
+        punch_case("rounded punch, flat 0.6", (STEEL, STEEL), 1e-3, 0.6, 0.2),
+        punch_case("rounded punch, flat 0.9", (ALUMINIUM, STEEL), 5e-3, 0.9, 0.5),
+        punch_case("rounded punch, flat 0.99", (STEEL, STEEL), 5e-3, 0.99, 0.05),
         sliding_case("sliding, rigid on steel, friction 0.1", (STEEL, None), 10e-3, 1e6, 0.1),
         sliding_case("sliding, rigid on steel, friction 0.5", (STEEL, None), 10e-3, 1e6, 0.5),
         sliding_case("sliding, rigid on steel, friction -0.3", (STEEL, None), 10e-3, 1e6, -0.3),

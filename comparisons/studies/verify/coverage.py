@@ -66,7 +66,7 @@ FEWEST_CONTACTS = 16  # for an observed order
 class Pair:
     """One figure of one model against its exact value, or one model error of the half-plane.
 
-    kind         of the case: Hertz | surface | sliding | hardness | layer | wave | rough
+    kind         of the case: Hertz | surface | sliding | hardness | layer | wave | punch | rough
     table        FIGURE or MODEL_ERROR, whose values are relative to the whole model's figure
     levels       figures on all levels, coarse to fine [SI]
     exact        [SI]

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 COLUMNS = ("case", "quantity", "unit", "expected", "tolerance", "answer", "uncertainty")
 TOLERANCE = 0.01  # of the form as it is written; whoever fills it in may tighten it
 DIGITS = 10
-GAP_POINTS = 2001  # of a wave
+GAP_POINTS = 2001  # of a wave or a punch
 HALF_PLANES = (20, 21, 22)  # seeds of rough contacts
 ELEMENTS = 60.0  # of a scene's third level, on half a mean patch
 FILE_SIZE = 2**20  # bytes of the largest form
@@ -43,7 +43,7 @@ FILE_SIZE = 2**20  # bytes of the largest form
 class FormCase:
     """A case of the form.
 
-    files  by name, text: a scene with its trace, or the gap of a wave
+    files  by name, text: a scene with its trace, or the gap of a wave or a punch
     exact  figures [SI] by quantity
     about  what no scene says, in words
     """
@@ -90,7 +90,8 @@ class JudgedForm:
 
 @cache
 def form_cases() -> tuple[FormCase, ...]:
-    """Hertz at rest and sliding, layers, rough contacts made from their pressures, waves."""
+    """Hertz at rest and sliding, layers, rough contacts made from their pressures, waves, punches
+    with round edges."""
     bodies = [(seed, RoughBody("half-plane")) for seed in HALF_PLANES]
     bodies += [(2 * k, body) for k, body in enumerate(LAYERED)]  # at rest: friction moves layers
     contacts = [
@@ -101,8 +102,8 @@ def form_cases() -> tuple[FormCase, ...]:
     scenes += [
         replace(rough_scene(name, contact, ELEMENTS, {}), name=name) for name, contact in contacts
     ]
-    waves = [case for case in exact_contacts() if case.period is not None]
-    return (*map(_of_scene, scenes), *map(_of_wave, waves))
+    others = [case for case in exact_contacts() if case.period is not None or case.knots]
+    return (*map(_of_scene, scenes), *map(_of_gap, others))
 
 
 def export_form(out: Path) -> int:
@@ -223,24 +224,25 @@ def _of_scene(scene: ExactScene) -> FormCase:
     return FormCase(name, scene.name, files, {q: v for q, v in scene.exact.items() if v})
 
 
-def _of_wave(case: ExactContact) -> FormCase:
-    """A period of the gap; no scene has one that goes on for ever."""
+def _of_gap(case: ExactContact) -> FormCase:
+    """The gap of what no scene describes: of a wave that goes on for ever, a period; of a punch
+    three half-widths, with the ends of its flat among the points."""
     name = _slug(case.name)
-    x = np.linspace(-0.5 * case.period, 0.5 * case.period, GAP_POINTS)
+    half = case.half_range if case.period is None else 0.5 * case.period
+    x = np.union1d(np.linspace(-half, half, GAP_POINTS), case.knots)
     bodies = " and ".join(
         f"E = {m.youngs_modulus:g} Pa, nu = {m.poissons_ratio:g}"
         for m in (case.body, case.roller)
         if m is not None
     )
-    about = (
-        f"{case.load:.{DIGITS}g} N/m on each period of {case.period:g} m; half-planes of {bodies}"
-    )
+    about = f"{case.load:.{DIGITS}g} N/m"
+    about += "" if case.period is None else f" on each period of {case.period:g} m"
+    about += f"; half-planes of {bodies}"
     about += " under a rigid one" if case.roller is None else ""
     wanted = ("peak_pressure", "contact_length", "mean_gap")
     exact = {q: case.quantities[q] for q in wanted if case.quantities.get(q)}
-    return FormCase(
-        name, case.name, {f"{name}.csv": _table("x [m],gap [m]", x, case.gap(x))}, exact, about
-    )
+    files = {f"{name}.csv": _table("x [m],gap [m]", x, case.gap(x))}
+    return FormCase(name, case.name, files, exact, about)
 
 
 def _table(head: str, *columns: np.ndarray) -> str:

@@ -1,5 +1,5 @@
-"""Exact contacts that no scene describes: waves on the half-plane's operator, rigid cylinders on
-the analytic layer. Each is solved on three grids, judged as a scene's levels."""
+"""Exact contacts that no scene describes: waves and rounded punches on the half-plane's operators,
+rigid cylinders on the analytic layer. Each is solved on three grids, judged as a scene's levels."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
-from analytic.operators.half_plane import ModelOperator
+from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import (
@@ -44,12 +44,12 @@ FORMAL_ORDERS = {"mean_gap": 2.0}  # of figures that are not compared in scenes
 class OperatorContact:
     """A contact on an operator of the library.
 
-    kind    wave | layer | rough
+    kind    wave | punch | layer | rough
     model   half_plane | layer
     make    operator of a grid's count and pitch [m]
-    gap     g0(x) [m]
+    gap     g0(x) [m], smooth but for `knots` [m]
     span    (2,) ends of the grid [m]; a period's where it is periodic
-    scale   [m] of which the pitch is a part: half of the contact
+    scale   [m] of which the pitch is a part: half of the contact, or its rounded corner
     patches of contact, a period's
     """
 
@@ -59,6 +59,7 @@ class OperatorContact:
     model: str
     make: Callable[[int, float], ModelOperator]
     gap: Callable[[np.ndarray], np.ndarray]
+    knots: tuple[float, ...]
     load: float
     span: tuple[float, float]
     scale: float
@@ -68,10 +69,10 @@ class OperatorContact:
 
 
 def operator_contacts() -> tuple[OperatorContact, ...]:
-    """Waves of the gallery, and the layers of the table."""
-    waves = [_wave(case) for case in exact_contacts() if case.period is not None]
+    """Waves and punches of the gallery, and the layers of the table."""
+    contacts = [_contact(c) for c in exact_contacts() if c.period is not None or c.knots]
     layers = [_layer(r, r.poissons_ratio or NEARLY_INCOMPRESSIBLE) for r in layer_references()]
-    return (*waves, *layers)
+    return (*contacts, *layers)
 
 
 def operator_cases(
@@ -128,7 +129,7 @@ def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSol
         grid = HatGrid(case.span[1] / half, -half, half - 1)
     else:
         grid = HatGrid.within(*case.span, pitch)
-    weighted_gap = grid.hat_integrals(case.gap)
+    weighted_gap = grid.hat_integrals(case.gap, np.array(case.knots))
     load = Constraints(load=case.load)
     return grid, solve_contact(case.make(grid.count, grid.pitch), weighted_gap, grid.weights, load)
 
@@ -142,24 +143,29 @@ def _figures(case: OperatorContact, grid: HatGrid, solution: ContactSolution) ->
     }
 
 
-def _wave(case: ExactContact) -> OperatorContact:
+def _contact(case: ExactContact) -> OperatorContact:
     names = ("peak_pressure", "contact_length", "mean_gap")
     exact = {name: case.quantities[name] for name in names if name in case.quantities}
-    half_width, reach = 0.5 * case.quantities["contact_length"], 0.5 * case.period
-    if half_width > FULL * reach:
-        exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
+    half_width = 0.5 * case.quantities["contact_length"]
+    if case.period is None:
+        kind, reach = HalfPlane, (1.0 + MARGIN) * half_width
+    else:
+        kind, reach = PeriodicHalfPlane, 0.5 * case.period
+        if half_width > FULL * reach:
+            exact = {"peak_pressure": exact["peak_pressure"]}  # no edge, no gap
     return OperatorContact(
         name=case.name,
         source=case.source,
-        kind="wave",
+        kind="punch" if case.period is None else "wave",
         model="half_plane",
-        make=partial(PeriodicHalfPlane, modulus=case.combined_modulus),
+        make=partial(kind, modulus=case.combined_modulus),
         gap=case.gap,
+        knots=case.knots,
         load=case.load,
         span=(-reach, reach),
-        scale=half_width,
+        scale=half_width - max(case.knots, default=0.0),
         exact=exact,
-        periodic=True,
+        periodic=case.period is not None,
     )
 
 
@@ -176,6 +182,7 @@ def _layer(reference: LayerReference, nu: float) -> OperatorContact:
         model="layer",
         make=partial(LayeredSurface, body=body),
         gap=roller_gap(LAYER_RADIUS),
+        knots=(),
         load=reference.load * unit * LAYER_THICKNESS,
         span=(-reach, reach),
         scale=half_width,

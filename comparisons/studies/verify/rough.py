@@ -161,6 +161,7 @@ def rough_operator_contacts() -> tuple[OperatorContact, ...]:
                 model="layer",
                 make=partial(LayeredSurface, body=contact.layer),
                 gap=contact.gap,
+                knots=(),
                 load=contact.load,
                 span=(contact.ends[0] - margin, contact.ends[1] + margin),
                 scale=_half_patch(contact),

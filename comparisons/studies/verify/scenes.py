@@ -103,7 +103,9 @@ def exact_scenes() -> tuple[ExactScene, ...]:
 def gallery_scenes() -> tuple[ExactScene, ...]:
     """The gallery's rollers (one parabola, sliding forwards) on the default resolution."""
     return tuple(
-        scene_of(case) for case in exact_contacts() if case.period is None and case.friction >= 0.0
+        scene_of(case)
+        for case in exact_contacts()
+        if case.period is None and not case.knots and case.friction >= 0.0
     )
 
 

@@ -30,7 +30,9 @@ from analytic.stress.points import stress_at
 CASES = {case.name: case for case in exact_contacts()}
 FULL = "Westergaard, full contact"
 # Corners and edges narrower than the coarsest elements of these tests need finer ones.
-COARSEST = {"flattened cylinder, hardness 0.7": 512}
+COARSEST = {"rounded punch, flat 0.99": 1024, "flattened cylinder, hardness 0.7": 512}
+# Error times elements on a half-width: a corner on a hundredth of it has the pressure's edge there.
+LARGEST = {"rounded punch, flat 0.99": 22.0}
 OFFSETS = (0.0, 0.25, 0.5, 0.75)
 NAMES = ("sx", "sz", "txz")
 
@@ -38,8 +40,8 @@ every_case = pytest.mark.parametrize("case", CASES.values(), ids=CASES)
 
 
 def test_gallery_covers_each_kind_of_problem():
-    assert len(CASES) == len(exact_contacts()) >= 16
-    for kind in ("friction", "coupled", "period"):
+    assert len(CASES) == len(exact_contacts()) >= 20
+    for kind in ("friction", "coupled", "period", "knots"):
         assert sum(bool(getattr(case, kind)) for case in CASES.values()) >= 2
     assert sum(np.isfinite(case.hardness) for case in CASES.values()) >= 2
     assert len({case.combined_modulus for case in CASES.values()}) >= 6
@@ -52,8 +54,8 @@ def test_figures_belong_to_the_pressure(case: ExactContact):
     assert case.quantities["contact_length"] == pytest.approx(right - left, rel=1e-15)
     assert -case.half_range <= left < right <= case.half_range
     middle, half = 0.5 * (left + right), 0.5 * (right - left)
-    flowed = 0.5 * case.quantities.get("flowed_length", 0.0)
-    inner = [-flowed, flowed] if flowed else []
+    inner = [k for k in (*case.knots, -0.5 * case.quantities.get("flowed_length", 0.0)) if k > left]
+    inner += [-k for k in inner]
     # x = middle + half cos t takes the singularity from the edges
     breaks = sorted({0.0, np.pi, *(float(np.arccos((k - middle) / half)) for k in inner)})
     load = sum(
@@ -99,7 +101,7 @@ def solved(
     else:
         grid = HatGrid.within(-case.half_range, case.half_range, pitch)
     shift = offset * pitch
-    gap = grid.hat_integrals(lambda x: case.gap(x - shift))
+    gap = grid.hat_integrals(lambda x: case.gap(x - shift), np.array(case.knots) + shift)
     problem = gap, grid.weights, Constraints(load=case.load, hardness=case.hardness)
     size = grid.count, pitch, case.combined_modulus
     if case.period:
@@ -132,7 +134,7 @@ def test_numerical_half_plane_meets_it(case: ExactContact):
     order = np.log2(errors[0] / errors[-1]) / 2.0
     assert order == pytest.approx(2.0 if case.name == FULL else 1.0, abs=0.07)
     half = 0.5 * case.quantities["contact_length"] / (x[1] - x[0])
-    assert errors[-1] < 4.0 / half
+    assert errors[-1] < LARGEST.get(case.name, 4.0) / half
     assert solution.pressure.max() == pytest.approx(case.quantities["peak_pressure"], rel=1e-3)
     if case.name != FULL:
         patches = contact_patches(x, solution.pressure, solution.gap)

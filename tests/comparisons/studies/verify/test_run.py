@@ -82,7 +82,7 @@ class TestCases:
             assert kinds >= {"Hertz", "surface", "sliding", "hardness"}
         figures = sum(len(scene.exact) * len(scene.models) for scene in scenes)
         contacts, rough = operator_contacts(), rough_operator_contacts()
-        assert figures + sum(len(c.exact) for c in contacts) >= 540
+        assert figures + sum(len(c.exact) for c in contacts) >= 550
         rough_ones = rough_scenes()
         cases = scene_cases((*scenes, *rough_ones))
         cases += operator_cases((*contacts, *rough), spread(len(contacts) + len(rough)))
@@ -90,7 +90,7 @@ class TestCases:
         rough = (*rough_ones, *rough)
         assert sum(len(case.exact) for case in rough) >= FEWEST_ROUGH
         assert len({case.name for case in rough}) == len(rough)
-        assert {contact.kind for contact in operator_contacts()} == {"wave", "layer"}
+        assert {contact.kind for contact in operator_contacts()} == {"wave", "punch", "layer"}
 
     def test_no_two_cases_put_the_edge_at_the_same_place(self):
         tables = [scene.tables for scene in half_plane_scenes()]
