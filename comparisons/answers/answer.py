@@ -48,9 +48,10 @@ class Answer:
 
     @property
     def load(self) -> float:
-        """[N/m] that the pressures carry."""
-        middle = 0.5 * (self.pressure[1:] + self.pressure[:-1])
-        return float(middle @ np.diff(self.x))
+        """[N/m] that the pressures carry; of a mesh those in contact, for far from it the stresses
+        on coarse elements are small but add up."""
+        carried = np.where(self.touching, self.pressure, 0.0) if self.of_mesh else self.pressure
+        return float(0.5 * (carried[1:] + carried[:-1]) @ np.diff(self.x))
 
     @property
     def touching(self) -> np.ndarray:

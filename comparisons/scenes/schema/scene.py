@@ -283,7 +283,8 @@ def _unknown(location: tuple, given: object) -> str:
         for table, model in EVERY_SECTION.items()
     }
     own = fields[section[0]] if section else {"title": "title", **sections}
-    anywhere = {field: shown for table in fields.values() for field, shown in table.items()}
+    # of the same name in two sections, the first's: what is pressed, not how uncertain it is
+    anywhere = {f: shown for table in reversed(fields.values()) for f, shown in table.items()}
     near = _nearest(name, own, 0.6) or _nearest(name, anywhere, 0.6) or _nearest(name, own)
     return f"{place}: is no known field; the nearest is {near}"
 
