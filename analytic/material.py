@@ -1,4 +1,4 @@
-"""Elastic constants of one body and of a pair.
+"""Constants of one body and of a pair: elastic ones, and those of heat conduction.
 
 A rigid body is `None` wherever a `Material` is expected for the roller.
 Nomenclature: E Young's modulus [Pa], nu Poisson's ratio, E* combined modulus [Pa],
@@ -56,6 +56,31 @@ class Material:
     def plane_strain_modulus(self) -> float:
         """E' = E / (1 - nu^2) [Pa]."""
         return self.youngs_modulus / (1.0 - self.poissons_ratio**2)
+
+
+@dataclass(frozen=True)
+class ThermalMaterial:
+    """Heat conduction in one body: `conductivity` k [W/(m K)], `density` rho [kg/m^3] and
+    `specific_heat` c [J/(kg K)], all positive."""
+
+    conductivity: float
+    density: float
+    specific_heat: float
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if not (np.isfinite(value) and value > 0.0):
+                raise ValueError(f"{name} must be positive and finite, not {value:g}")
+
+    @property
+    def diffusivity(self) -> float:
+        """kappa = k / (rho c) [m^2/s]."""
+        return self.conductivity / (self.density * self.specific_heat)
+
+    @property
+    def effusivity(self) -> float:
+        """sqrt(k rho c) [W s^0.5/(m^2 K)]."""
+        return float(np.sqrt(self.conductivity * self.density * self.specific_heat))
 
 
 def combined_modulus(first: Material | None, second: Material | None) -> float:

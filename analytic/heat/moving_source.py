@@ -1,0 +1,185 @@
+"""Quasi-steady temperature of a half-space whose surface passes a source of heat at rest.
+
+The source moves in +x over the material, the material passes it in -x, at the speed V [m/s]. With
+X = V x / (2 kappa), Z = V z / (2 kappa), R = hypot(X, Z), a line source of Q [W/m] gives
+
+    T = Q / (pi k) e^{-X} K0(R)
+
+above the temperature far away (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7). A band of
+uniform flux q on |x| < l, of Peclet number Pe = V l / (2 kappa), heats the surface to
+
+    T = 2 kappa q / (pi k V) [I(X + Pe) - I(X - Pe)],   I(u) = int_0^u e^{-s} K0(|s|) ds
+      = 1 + u e^{-u} (K0(u) - K1(u)) for u > 0,   1 - |u| e^{|u|} (K0 + K1)(|u|) for u < 0.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.fft import irfft, next_fast_len, rfft
+from scipy.special import k0e, k1e
+
+from analytic.material import ThermalMaterial
+
+# Quadrature of the kernel over a cell: away from its logarithm by few Gauss points, more for the
+# next cells; in the two cells that meet there after x = t^POWER, which leaves nothing singular.
+_FAR, _FAR_POINTS, _NEXT_POINTS = 8, 6, 16
+_POWER, _SINGULAR_POINTS = 8, 72
+
+
+def band_surface(x: ArrayLike, peclet: float) -> np.ndarray:
+    """k T / (q l) at places x [l]; peclet = V l / (2 kappa) > 0."""
+    place = np.asarray(x, dtype=float)
+    front, rear = peclet * (place + 1.0), peclet * (place - 1.0)
+    ahead = rear > 0.0  # both terms near 1 there: the difference of what they lack
+    total = _integral(front, ahead) - _integral(rear, ahead)
+    return total / (np.pi * peclet)
+
+
+def band_maximum(peclet: float) -> tuple[float, float]:
+    """Largest k T / (q l) and its x [l]: where e^{-u} K0(|u|) is the same at both ends."""
+    from scipy.optimize import brentq
+
+    def slope(distance: float) -> float:  # from the trailing edge, in l
+        front, rear = peclet * distance, peclet * (2.0 - distance)
+        return float(np.exp(-2.0 * front) * k0e(front) - k0e(rear))
+
+    distance = brentq(slope, 1e-12 / (1.0 + peclet), 1.0, xtol=1e-16, rtol=1e-14)
+    place = distance - 1.0
+    return float(band_surface(place, peclet)), float(place)
+
+
+def band_mean(peclet: float) -> float:
+    """Mean k T / (q l) over the band."""
+    u = 2.0 * peclet
+    # second integrals of e^{-+s} K0(s): u I(u) - int s e^{-+s} K0(s) ds
+    decay = np.exp(-2.0 * u)
+    behind = u * (u * (k0e(u) + k1e(u)) - 1.0) - (u**2 * (k0e(u) + k1e(u)) - u * k1e(u) + 1.0) / 3.0
+    moment = (decay * (u**2 * (k0e(u) - k1e(u)) - u * k1e(u)) + 1.0) / 3.0
+    front = u * (1.0 + u * decay * (k0e(u) - k1e(u))) - moment
+    return float((front + behind) / (2.0 * peclet) / (np.pi * peclet))
+
+
+def fast_band(peclet: float) -> tuple[float, float]:
+    """Largest and mean k T / (q l) for a fast source: one-dimensional conduction while it passes,
+    (2/sqrt(pi)) sqrt(2 kappa l / V) / l and two thirds of it (Jaeger 1942)."""
+    largest = 2.0 / np.sqrt(np.pi * peclet)
+    return largest, 2.0 / 3.0 * largest
+
+
+def band_at_rest(x: ArrayLike, reach: float) -> np.ndarray:
+    """k T / (q l) at places x [l] of a steady band, each line of it T = 0 at `reach` [l]: at rest
+    a half-space has no other datum."""
+
+    def half(edge: np.ndarray) -> np.ndarray:
+        return edge * (1.0 + np.log(reach / np.abs(edge).clip(1e-300)))
+
+    place = np.asarray(x, dtype=float)
+    return (half(place + 1.0) - half(place - 1.0)) / np.pi
+
+
+def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
+    """I(u) as in the head of this module, less 1 where `ahead`."""
+    size = np.abs(u).clip(1e-300)
+    front = size * np.exp(-2.0 * size) * (k0e(size) - k1e(size)) + np.where(ahead, 0.0, 1.0)
+    behind = 1.0 - size * (k0e(size) + k1e(size))
+    return np.where(u == 0.0, 0.0, np.where(u > 0.0, front, behind))
+
+
+@dataclass(frozen=True)
+class HeatedSurface:
+    """A half-space under fluxes that are piecewise linear between nodes of one pitch.
+
+    count, pitch  nodes, [m]
+    velocity      [m/s] at which the material passes the contact, towards +x; 0: at rest
+    reach         [m] where a half-space at rest has the temperature from which rises count
+    """
+
+    material: ThermalMaterial
+    count: int
+    pitch: float
+    velocity: float
+    reach: float = np.inf
+
+    def __post_init__(self) -> None:
+        if self.velocity == 0.0 and not np.isfinite(self.reach):
+            raise ValueError("a half-space at rest has no steady temperature without a reach")
+
+    @property
+    def peclet(self) -> float:
+        """V h / (2 kappa) of the pitch h, positive for a source that moves towards +x."""
+        return -self.velocity * self.pitch / (2.0 * self.material.diffusivity)
+
+    def kernel(self, depth: float = 0.0) -> np.ndarray:
+        """T [K] at `depth` [m] per flux [W/m^2] of a hat, (2 count - 1,): from the place that lies
+        count - 1 pitches behind the hat (towards -x) to as far before it."""
+        whole, first = _cell_integrals(
+            self.count, self.peclet, depth / self.pitch, self.reach / self.pitch
+        )
+        # a hat at m is falling on the cell before it and rising on the one behind
+        hats = whole[1:] - first[1:] + first[:-1]
+        return self.pitch / (np.pi * self.material.conductivity) * hats
+
+    @cached_property
+    def surface_kernel(self) -> np.ndarray:
+        return self.kernel()
+
+    def rise(self, flux: np.ndarray, depth: float = 0.0) -> np.ndarray:
+        """T [K] at the nodes, at a depth [m], under fluxes (n,) [W/m^2] at the nodes."""
+        kernel = self.surface_kernel if depth == 0.0 else self.kernel(depth)
+        return convolved(kernel, flux)
+
+    def field(self, flux: np.ndarray, depths: ArrayLike) -> np.ndarray:
+        """T [K] (m, n) at depths (m,) [m] below the nodes."""
+        return np.array([self.rise(flux, float(depth)) for depth in np.ravel(depths)])
+
+
+def convolved(kernel: np.ndarray, flux: np.ndarray) -> np.ndarray:
+    """The sum over nodes j of kernel[i - j] flux[j] (n,), by FFT; kernel (2 n - 1,) from 1 - n."""
+    count = len(flux)
+    length = next_fast_len(3 * count - 2, real=True)
+    return irfft(rfft(kernel, length) * rfft(flux, length), length)[count - 1 : 2 * count - 1]
+
+
+def _cell_integrals(
+    count: int, peclet: float, depth: float, reach: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Integrals of f and s f over the cells from m to m + 1 = m + s pitches, m from -count to
+    count - 1, with f = e^{-X} K0(R), or ln(reach / r) at rest; lengths in pitches."""
+    cells = np.arange(-count, count)
+    found = np.empty((2, 2 * count))
+    far = (cells >= _FAR) | (cells < -_FAR)
+    near = (cells == 0) | (cells == -1)
+    points, weights = _gauss(_SINGULAR_POINTS)
+    singular = points**_POWER, weights * _POWER * points ** (_POWER - 1)
+    for part, (place, weight) in (
+        (far, _gauss(_FAR_POINTS)),
+        (~far & ~near, _gauss(_NEXT_POINTS)),
+        (cells == 0, singular),
+        (cells == -1, (-singular[0], singular[1])),  # counted from its end, where the source is
+    ):
+        start = np.where(cells[part] == -1, 0, cells[part])[:, None]
+        share = place if place[0] > 0.0 else 1.0 + place
+        value = _line_source(start + place, peclet, depth, reach)
+        found[0, part], found[1, part] = value @ weight, value @ (weight * share)
+    return found[0], found[1]
+
+
+def _line_source(x: np.ndarray, peclet: float, depth: float, reach: float) -> np.ndarray:
+    """e^{-X} K0(R) at places x [pitches] before the source, or ln(reach / r) at rest."""
+    distance = np.hypot(x, depth)
+    if peclet == 0.0:
+        return np.log(reach / distance)
+    scaled = abs(peclet) * distance
+    # X + R without cancellation behind the source
+    ahead = np.sign(peclet) * x
+    behind = depth**2 / (distance + np.abs(x))
+    exponent = np.where(ahead < 0.0, behind, distance + ahead)
+    return np.exp(-abs(peclet) * exponent) * k0e(scaled)
+
+
+def _gauss(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and weights on 0 to 1."""
+    points, weights = np.polynomial.legendre.leggauss(count)
+    return 0.5 * (1.0 + points), 0.5 * weights

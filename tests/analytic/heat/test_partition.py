@@ -1,0 +1,85 @@
+"""The division of heat between two bodies."""
+
+import numpy as np
+import pytest
+
+from analytic.heat.moving_source import HeatedSurface
+from analytic.heat.partition import divided, equal_largest, equal_mean, layered_fraction
+from analytic.material import ThermalMaterial
+
+STEEL = ThermalMaterial(46.0, 7850.0, 460.0)
+COPPER = ThermalMaterial(400.0, 8900.0, 385.0)
+POLYMER = ThermalMaterial(0.25, 2200.0, 1000.0)
+HALF_WIDTH, COUNT = 5e-4, 601
+X = np.linspace(-1.2, 1.2, COUNT)
+PITCH = (X[1] - X[0]) * HALF_WIDTH
+RIPPLE = 1.0 + 0.9 * np.cos(2.0 * np.pi * X / 0.11)
+HEAT = 4e8 * np.sqrt(np.maximum(1.0 - X**2, 0.0)) * np.where(RIPPLE > 0.4, RIPPLE, 0.0)
+
+
+def surface(material, velocity):
+    return HeatedSurface(material, COUNT, PITCH, velocity, reach=8e-3)
+
+
+def test_equal_bodies_share_evenly():
+    one = surface(STEEL, -2.0)
+    found = divided(one, surface(STEEL, -2.0), HEAT)
+    assert found.fraction == pytest.approx(0.5, rel=1e-9)
+    assert found.flux == pytest.approx(0.5 * HEAT, abs=1e-8 * HEAT.max())
+
+
+@pytest.mark.parametrize("other", [COPPER, POLYMER])
+def test_bodies_of_equal_peclet_number_share_by_conductivity(other):
+    speeds = 1.0, other.diffusivity / STEEL.diffusivity
+    found = divided(surface(STEEL, speeds[0]), surface(other, speeds[1]), HEAT)
+    exact = STEEL.conductivity / (STEEL.conductivity + other.conductivity)
+    assert found.fraction == pytest.approx(exact, rel=1e-8)
+    assert found.flux == pytest.approx(exact * HEAT, abs=1e-6 * HEAT.max())
+
+
+def test_fast_unlike_bodies_share_by_effusivity_and_speed():
+    speeds = 2e3, 5e2
+    found = divided(surface(STEEL, speeds[0]), surface(COPPER, speeds[1]), HEAT)
+    sizes = [m.effusivity * np.sqrt(v) for m, v in zip((STEEL, COPPER), speeds, strict=True)]
+    assert found.fraction == pytest.approx(sizes[0] / sum(sizes), rel=2e-3)
+
+
+@pytest.mark.parametrize(("other", "velocity"), [(STEEL, 0.0), (COPPER, 0.0), (POLYMER, 30.0)])
+def test_both_surfaces_have_one_temperature_where_they_touch(other, velocity):
+    first, second = surface(STEEL, -1.0), surface(other, velocity)
+    found = divided(first, second, HEAT, difference=15.0)
+    touch = HEAT > 0.0
+    assert found.first[touch] == pytest.approx(found.second[touch] + 15.0, abs=1e-5)
+    assert found.mismatch < 1e-5
+    assert np.all(found.flux[~touch] == 0.0)
+    assert found.first == pytest.approx(first.rise(found.flux))
+    assert found.second == pytest.approx(second.rise(HEAT - found.flux))
+    assert np.ptp(found.first[~touch] - found.second[~touch]) > 1.0  # not so in the gaps
+
+
+def test_dense_solution():
+    first, second = surface(STEEL, -1.0), surface(POLYMER, 0.0)
+    nodes = np.flatnonzero(HEAT > 0.0)
+    columns = np.array([first.rise(unit) + second.rise(unit) for unit in np.eye(COUNT)[nodes]]).T[
+        nodes
+    ]
+    flux = np.linalg.solve(columns, second.rise(HEAT)[nodes])
+    found = divided(first, second, HEAT).flux[nodes]
+    assert found == pytest.approx(flux, abs=1e-7 * HEAT.max())
+
+
+def test_rules_of_one_fraction():
+    """Exact for like bodies; a moving body takes more than one at rest."""
+    first, second = surface(STEEL, -1.0), surface(STEEL, 0.0)
+    found = divided(first, second, HEAT).fraction
+    for rule in (equal_largest, equal_mean):
+        assert rule(first, surface(STEEL, -1.0), HEAT) == pytest.approx(0.5)
+        assert rule(first, second, HEAT) == pytest.approx(found, abs=0.06)
+        assert rule(second, first, HEAT) == pytest.approx(1.0 - rule(first, second, HEAT))
+    assert found > 0.8
+
+
+def test_layers_have_the_stated_limits():
+    assert layered_fraction((46.0, 1e9), (400.0, 1e9)) == pytest.approx(46.0 / 446.0, rel=1e-6)
+    assert layered_fraction((46.0, 1e-6), (400.0, 3e-6)) == pytest.approx(0.25, rel=1e-6)
+    assert layered_fraction((46.0, 0.2), (46.0, 0.2)) == 0.5

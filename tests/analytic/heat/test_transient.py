@@ -1,0 +1,100 @@
+"""Heated half-spaces and slabs against reference values of 30 digits, and the short formulas."""
+
+import json
+
+import numpy as np
+import pytest
+from scenes import DATA
+
+from analytic.heat import transient
+from analytic.material import ThermalMaterial
+
+REFERENCE = json.loads((DATA / "h_heat.json").read_text())
+UNIT = ThermalMaterial(1.0, 1.0, 1.0)
+STEEL = ThermalMaterial(46.0, 7850.0, 460.0)
+EXACT = 1e-13
+
+
+def test_step_on_a_half_space():
+    for row in REFERENCE["step_semi_infinite"]:
+        depth = float(row["y_over_sqrt_kappa_t"])
+        found = transient.step_half_space(depth, 1.0, 1.0)
+        assert found == pytest.approx(float(row["exact"]), rel=EXACT)
+        short = transient.parabola(depth, 1.0, 1.0)
+        assert short == pytest.approx(float(row["seed_parabola"]), rel=EXACT, abs=1e-30)
+
+
+def test_step_on_a_slab():
+    for row in REFERENCE["step_slab"]:
+        late, place = float(row["t_over_tL"]), float(row["y_over_L"])
+        found = transient.step_slab(place, late / 12.0, 1.0, 1.0)
+        assert found == pytest.approx(float(row["exact"]), rel=EXACT)
+        short = transient.parabola(place, late / 12.0, 1.0)
+        if late >= 1.0:
+            short = transient.late_parabola(place, late / 12.0, 1.0, 1.0)
+        assert short == pytest.approx(float(row["seed"]), rel=EXACT, abs=1e-15)
+
+
+def test_constant_flux():
+    for row in REFERENCE["constant_flux"]:
+        time = float(row["t_over_tL"]) / 12.0
+        half_space = transient.flux_half_space(0.0, time, 1.0, UNIT)
+        assert half_space == pytest.approx(float(row["semi_infinite_exact"]), rel=EXACT)
+        slab = transient.flux_slab(0.0, time, 1.0, 1.0, UNIT)
+        assert slab == pytest.approx(float(row["slab_insulated_exact"]), rel=EXACT)
+        short = transient.surface_rise(time, 1.0, UNIT)
+        assert short == pytest.approx(float(row["seed_1p12"]), rel=EXACT)
+        assert short / half_space - 1.0 == pytest.approx(-0.0074258, abs=1e-7)
+
+
+def test_pulse():
+    for row in REFERENCE["pulse"]:
+        duration, time = (float(row[f"{t}_over_tL"]) / 12.0 for t in ("t0", "t"))
+        found = transient.pulse(0.0, time, duration, 1.0, UNIT)
+        assert found == pytest.approx(float(row["semi_infinite"]), rel=EXACT)
+        found = transient.pulse(0.0, time, duration, 1.0, UNIT, thickness=1.0)
+        assert found == pytest.approx(float(row["slab_insulated"]), rel=EXACT)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.3, 1.0])
+def test_images_and_series_meet(place):
+    below, above = 0.3 - 1e-14, 0.3 + 1e-14
+    for function in (
+        lambda tau: transient.step_slab(place, tau, 1.0, 1.0),
+        lambda tau: transient.flux_slab(place, tau, 1.0, 1.0, UNIT),
+    ):
+        assert function(below) == pytest.approx(function(above), rel=EXACT)
+
+
+def test_slab_keeps_the_heat_that_enters():
+    """The mean rise of an insulated slab is q t / (rho c L), in SI."""
+    thickness, flux = 2e-3, 5e6
+    depth, weight = np.polynomial.legendre.leggauss(40)
+    for time in (2e-3, 0.05, 2.0):
+        places = 0.5 * thickness * (1.0 + depth)
+        rise = transient.flux_slab(places, time, thickness, flux, STEEL)
+        mean = flux * time / (STEEL.density * STEEL.specific_heat * thickness)
+        assert 0.5 * rise @ weight == pytest.approx(mean, rel=1e-8)
+
+
+def test_errors_of_the_short_formulas_are_as_stated():
+    y = np.linspace(0.0, 6.0, 6001)
+    error = transient.parabola(y, 1.0, 1.0) - transient.step_half_space(y, 1.0, 1.0)
+    assert error.max() == pytest.approx(0.0329, abs=1e-4)
+    assert y[error.argmax()] == pytest.approx(1.42, abs=0.01)
+    late = np.linspace(1.0, 30.0, 2901) / 12.0
+    error = transient.bottom_rise(late, 1.0, 1.0) - transient.step_slab(1.0, late, 1.0, 1.0)
+    assert error.max() == pytest.approx(0.0878, abs=1e-4)
+    assert 12.0 * late[error.argmax()] == pytest.approx(4.63, abs=0.02)
+    everywhere = late[:, None], np.linspace(0.0, 1.0, 41)
+    error = transient.late_parabola(everywhere[1], everywhere[0], 1.0, 1.0)
+    error -= transient.step_slab(everywhere[1], everywhere[0], 1.0, 1.0)
+    assert np.abs(error).max() == pytest.approx(0.0878, abs=1e-4)
+
+
+def test_penetration():
+    """20 inches of steel in 32 minutes (Seireg, fig. 5.1)."""
+    kappa = REFERENCE["seed_claims"]["steel_tL"]
+    assert "1.1201e-5" in kappa
+    assert transient.penetration_depth(32 * 60.0, 1.1201e-5) == pytest.approx(20 * 0.0254, rel=1e-4)
+    assert transient.penetration_time(0.0254, 1.1201e-5) == pytest.approx(0.08 * 60, rel=1e-4)
