@@ -3,14 +3,12 @@
     u_z(x) = -(2/(pi E*)) int_0^L p(s) ln|2 sin(pi (x - s)/L)| ds + Z pm
 
 (Westergaard 1939; Johnson 1985, section 13.2). The wave e^ikx of p sinks by 2/(E* |k|), and the
-elements see it together with its aliases k + 2 pi j/h. These sums are Hurwitz zeta functions, here
+hats see it together with its aliases k + 2 pi j/h. These sums are Hurwitz zeta functions, here
 the nearest terms and a power series of the others: right to rounding, as are the coefficients.
 
     h   pitch [m]             E*  modulus [Pa]               c  cycles per pitch, k h/(2 pi)
     L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]
 """
-
-from functools import cache
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -18,7 +16,6 @@ from scipy.fft import irfft
 from scipy.special import binom, zeta
 
 from analytic.operators.convolution import Convolution, made_once
-from analytic.operators.half_plane import Element
 
 FEWEST = 4  # elements of a coarsened period
 TERMS = 14  # of series in (c/2)^2 <= 1/16: the rest is below 1e-16
@@ -34,11 +31,10 @@ class PeriodicHalfPlane(Convolution):
 
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
-    element  "hat" (Galerkin) or "strip" (uniform, collocated)
     """
 
-    def __init__(self, count: int, pitch: float, modulus: float, element: Element = "hat") -> None:
-        self.pitch, self.modulus, self.element = pitch, modulus, element
+    def __init__(self, count: int, pitch: float, modulus: float) -> None:
+        self.pitch, self.modulus = pitch, modulus
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
         column = irfft(self._symbol(cycles), count)
@@ -53,51 +49,29 @@ class PeriodicHalfPlane(Convolution):
         half, odd = divmod(self.count, 2)
         if odd or half < FEWEST:
             return None
-        return PeriodicHalfPlane(half, 2.0 * self.pitch, self.modulus, self.element)
+        return PeriodicHalfPlane(half, 2.0 * self.pitch, self.modulus)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """Eigenvalues of the circulant [m^2/Pa]; `cycles` from 0 to 1/2, the first of them 0."""
         symbol = np.full(len(cycles), self._mean)
-        aliases = hat_aliases if self.element == "hat" else strip_aliases
-        symbol[1:] = self.pitch**2 / (np.pi * self.modulus) * aliases(cycles[1:])
+        symbol[1:] = self.pitch**2 / (np.pi * self.modulus) * hat_aliases(cycles[1:])
         return symbol
 
 
-def hat_aliases(cycles: np.ndarray, beyond: int = 0) -> np.ndarray:
+# sum over |j| >= 2 of |c + j|^-5 in powers of c^2: 2 (4+2k over 4) zeta(5+2k, 2).
+_EVEN = 2.0 * np.arange(TERMS) + 4.0
+_FARTHER = 2.0 * binom(_EVEN, 4.0) * zeta(_EVEN + 1.0, 2)
+
+
+def hat_aliases(cycles: np.ndarray) -> np.ndarray:
     """sum over j of sinc^4(c + j) / |c + j|, any shape, for 0 < c <= 1/2.
 
     A hat's transform is sinc^2 and stands twice, in the pressure and in the average.
-    With `beyond` = J > 0 only over |j| >= J.
     """
-    power = (np.sin(np.pi * cycles) / np.pi) ** 4
-    first = max(beyond, 2)
-    total = polyval(cycles**2, _hat_series(first))
-    for alias in range(beyond, first):
-        total = total + _fifth(alias + cycles)
-        total = total + _fifth(alias - cycles) if alias else total
-    return power * total
-
-
-def strip_aliases(cycles: np.ndarray) -> np.ndarray:
-    """sum over j of sinc(c + j) / |c + j|, any shape, for 0 < c <= 1/2."""
-    nearest = cycles**-2 + (1.0 - cycles) ** -2 - (1.0 + cycles) ** -2
-    farther = cycles * polyval(cycles**2, _strip_series())
-    return np.sin(np.pi * cycles) / np.pi * (nearest + farther)
-
-
-@cache
-def _hat_series(first: int) -> np.ndarray:
-    """sum over |j| >= J of |c + j|^-5 in powers of c^2: 2 (4+2k over 4) zeta(5+2k, J)."""
-    k = np.arange(TERMS)
-    return 2.0 * binom(4.0 + 2.0 * k, 4.0) * zeta(5.0 + 2.0 * k, first)
-
-
-@cache
-def _strip_series() -> np.ndarray:
-    """sum over j >= 2 of (-1)^j ((j+c)^-2 - (j-c)^-2), over c, in powers of c^2."""
-    s = 2.0 * np.arange(TERMS) + 3.0
-    alternating = 2.0**-s * (zeta(s, 1.0) - zeta(s, 1.5))  # sum over j >= 2 of (-1)^j j^-s
-    return -2.0 * (s - 1.0) * alternating
+    total = polyval(cycles**2, _FARTHER) + _fifth(cycles)
+    total = total + _fifth(1.0 + cycles)
+    total = total + _fifth(1.0 - cycles)
+    return (np.sin(np.pi * cycles) / np.pi) ** 4 * total
 
 
 def _fifth(value: np.ndarray) -> np.ndarray:

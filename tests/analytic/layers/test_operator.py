@@ -5,18 +5,15 @@ import json
 import numpy as np
 import pytest
 from scipy.linalg import toeplitz
+from scipy.special import zeta
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
 from analytic.exact.layers import TABLE
 from analytic.grid import HatGrid, roller_gap
-from analytic.layers.kernel import hat_compliance
 from analytic.layers.layered import LayeredBody, normal_compliance
-from analytic.layers.operator import (
-    LayeredSurface,
-    free_coefficients,
-    hat_symbol,
-)
+from analytic.layers.operator import LayeredSurface
+from analytic.layers.tangential import TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 
@@ -30,24 +27,37 @@ def named(value):
     return f"{value.youngs_modulus:g} Pa" if isinstance(value, Material) else str(value)
 
 
-def by_kernel(count, pitch, body, datum):
-    scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
-    log_datum = np.log(datum / pitch)
-    return scale * hat_compliance(count, pitch / body.thickness, body.contrast, log_datum)
+def summed_symbol(cycles, pitch, body):
+    """sum over all j of h C(k + 2 pi j/h) sinc^4: one by one to where the layer is a half-plane."""
+    beyond = 2 + int(3.6 * pitch / body.thickness)
+    alias = cycles[:, None] + np.arange(1 - beyond, beyond)
+    waves = normal_compliance(body, 2.0 * np.pi * np.abs(alias) / pitch)
+    rest = zeta(5.0, beyond + cycles) + zeta(5.0, beyond - cycles)
+    rest *= (np.sin(np.pi * cycles) / np.pi) ** 4 * pitch**2
+    rest /= np.pi * body.material.plane_strain_modulus
+    return pitch * np.sum(np.sinc(alias) ** 4 * waves, axis=1) + rest
 
 
 @pytest.mark.parametrize("pitch", [1e-3, 0.03, 0.5, 4.0, 10.0])
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999])
 @pytest.mark.parametrize("base", RIGID)
-def test_integrated_kernel_is_the_limit_of_long_periods(base, nu, pitch):
-    """Two roads: sums over waves and aliases, and ln|x| with a turned integral (units of t)."""
+def test_coefficients_are_the_limit_of_long_periods(base, nu, pitch):
+    """Sums over waves and aliases, against ln|x| with a turned integral (units of t)."""
     body, count = LayeredBody(Material(1.0, nu), 1.0, base), 700
     length = 2 * int(count + 50.0 / pitch)
-    symbol = hat_symbol(np.arange(length // 2 + 1) / length, pitch, body)
+    symbol = summed_symbol(np.arange(length // 2 + 1) / length, pitch, body)
     summed = np.fft.irfft(symbol, length)[:count]
-    integrated = by_kernel(count, pitch, body, 1.0)
-    assert integrated == pytest.approx(summed, abs=3e-14 * pitch**2)
-    assert free_coefficients(count, pitch, body, 1.0) == pytest.approx(summed, abs=3e-14 * pitch**2)
+    column = LayeredSurface(count, pitch, body).column
+    assert column == pytest.approx(summed, abs=3e-14 * pitch**2)
+
+
+@pytest.mark.parametrize("ratio", [1e3, 1e6])
+@pytest.mark.parametrize("base", RIGID + SUBSTRATES, ids=named)
+def test_operators_on_thin_layers_are_finite_and_positive(base, ratio):
+    body, count = LayeredBody(LAYER, 1.0, base), 128
+    ones = np.cos(3.0 * np.arange(count))
+    assert ones @ LayeredSurface(count, ratio, body).apply(ones) > 0.0
+    assert np.all(np.isfinite(TangentialLayer(count, ratio, body).column))
 
 
 @pytest.mark.parametrize("pitch", [1e-6, 1e-3, 0.4, 10.0, 1e4, 1e6])

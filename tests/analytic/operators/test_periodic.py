@@ -12,7 +12,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import solve_contact
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases, strip_aliases
+from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 
 WESTERGAARD = json.loads((DATA / "d_westergaard.json").read_text())
 PITCH, MODULUS = 0.7e-6, 115e9
@@ -69,46 +69,33 @@ def test_partial_contact_of_a_wave_converges_to_westergaard(waves, quantity, cei
     assert worst[-1] < ceiling
 
 
-@pytest.mark.parametrize("element", ["hat", "strip"])
-def test_symbol_is_the_sum_over_aliases(element):
-    """Summed one by one to 20000, the rest estimated by its integral or its mean."""
+def test_symbol_is_the_sum_over_aliases():
+    """Summed one by one to 20000."""
     cycles = np.array([1e-6, 0.01, 0.2, 0.37, 0.5])
     alias = cycles[:, None] + np.arange(-20000, 20001)
-    power = 4 if element == "hat" else 1
-    summed = np.sum(np.sinc(alias) ** power / np.abs(alias), axis=1)
-    value = hat_aliases(cycles) if element == "hat" else strip_aliases(cycles)
-    assert value == pytest.approx(summed, rel=1e-14 if element == "hat" else 1e-8)
+    summed = np.sum(np.sinc(alias) ** 4 / np.abs(alias), axis=1)
+    assert hat_aliases(cycles) == pytest.approx(summed, rel=1e-14)
 
 
-def test_aliases_beyond_are_what_the_nearer_ones_leave():
-    cycles = np.array([1e-3, 0.1, 0.5])
-    for beyond in (1, 4):
-        alias = cycles[:, None] + np.arange(1 - beyond, beyond)
-        near = np.sum(np.sinc(alias) ** 4 / np.abs(alias), axis=1)
-        assert near + hat_aliases(cycles, beyond) == pytest.approx(hat_aliases(cycles), rel=1e-14)
-
-
-@pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("count", [8, 9])
-def test_coefficients_are_those_of_the_half_plane_and_all_its_images(element, count):
+def test_coefficients_are_those_of_the_half_plane_and_all_its_images(count):
     """Loads of zero sum: the images of elements i and 0 differ like 1/j^2 and 1/j^4."""
     images = 4000
-    free = HalfPlane(count * (images + 1), PITCH, MODULUS, element=element).column
+    free = HalfPlane(count * (images + 1), PITCH, MODULUS).column
     offset = np.abs(np.arange(count)[:, None] + count * np.arange(-images, images + 1))
     padded = free[np.minimum(offset, len(free) - 1)]
     summed = np.sum(padded - padded[:1], axis=1)
     # beyond: ln(j^2 L^2 - x^2) - ln(j^2 L^2) = -x^2/(j L)^2 - ...
     beyond = (np.arange(count) / count) ** 2 * zeta(2.0, images + 1.0)
     summed += 2.0 * PITCH**2 / (np.pi * MODULUS) * beyond
-    column = PeriodicHalfPlane(count, PITCH, MODULUS, element).column
+    column = PeriodicHalfPlane(count, PITCH, MODULUS).column
     expected = summed - summed[:1]
     assert column - column[0] == pytest.approx(expected, abs=1e-11 * np.ptp(expected))
 
 
-@pytest.mark.parametrize("element", ["hat", "strip"])
 @pytest.mark.parametrize("count", [1, 2, 3, 50, 129])
-def test_operator_is_positive_definite_and_its_preconditioner_the_inverse(count, element):
-    operator = PeriodicHalfPlane(count, PITCH, MODULUS, element)
+def test_operator_is_positive_definite_and_its_preconditioner_the_inverse(count):
+    operator = PeriodicHalfPlane(count, PITCH, MODULUS)
     columns = np.eye(count)
     matrix = np.array([operator.apply(column) for column in columns]).T
     np.testing.assert_allclose(matrix, circulant(operator.column), rtol=1e-12)
