@@ -8,6 +8,7 @@ import pytest
 from exact_stresses import flowed_volume, largest_overlap
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
+from text_profiles import read_profile
 
 import analytic.running_in
 from analytic.contact.equilibrium import Constraints
@@ -20,7 +21,6 @@ from analytic.operators.half_plane import HalfPlane
 from analytic.profile import Profile
 from analytic.running_in import SMALLEST_SWEEP, RunIn, run_in
 from analytic.surface.form import trapezoid_widths
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.synthetic import ground_texture, sinusoid, smooth
 
 LOAD, RADIUS, MODULUS = 1e6, 8e-3, 115e9

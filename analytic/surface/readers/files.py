@@ -9,22 +9,16 @@ map's size and unit. Any of them may be packed as gz.
 import gzip
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 
 import numpy as np
 
-from analytic.profile import MAX_SAMPLES, Profile
+from analytic.profile import MAX_SAMPLES
 from analytic.surface.readers.arrays import is_arrays, read_arrays
-from analytic.surface.readers.columns import (
-    MIN_SAMPLES,
-    bridge,
-    fill_gaps,
-    longest_bridge,
-    most_bytes,
-    profile_in,
-)
+from analytic.surface.readers.columns import profile_in
+from analytic.surface.readers.dropouts import MeasuredProfile, known_part, without_gaps
 from analytic.surface.readers.instruments import (
     AbsentReaderError,
     install_command,
@@ -52,26 +46,8 @@ from analytic.surface.readers.topography import (
 )
 
 HEAD = 4096  # bytes by which text is recognised
+BYTES_PER_SAMPLE, BYTES_OF_HEADER = 100, 2**20  # of a text: no export uses more
 SAME_UNIT = 1e-9  # relative
-
-
-@dataclass(frozen=True)
-class MeasuredProfile:
-    """A profile as its file gives it, in m, and how it was read.
-
-    format     text | SDF … | x3p, by SurfaceTopography …
-    place      which line of which map, None for a line scan
-    bridged    dropouts put on the straight line between their neighbours
-    trimmed    dropouts left out at the ends of the trace
-    stretch    [m] from where to where the longest bridge goes, None without any
-    """
-
-    profile: Profile
-    format: str
-    place: str | None
-    bridged: int
-    trimmed: int
-    stretch: tuple[float, float] | None = None
 
 
 class MissingUnitError(ProfileError):
@@ -106,12 +82,11 @@ def open_measured(
         _refuse(path, columns, channel)
         return (read_sdf if is_sdf(head) else read_prf)(path)
     wide = head[:2] in (b"\xff\xfe", b"\xfe\xff")
-    if NOT_TEXT.search(head.decode("latin-1")) and not wide:
+    if channel is not None or (NOT_TEXT.search(head.decode("latin-1")) and not wide):
         return _by_library(path, columns, channel)
-    if channel is not None:
-        return _by_library(path, columns, channel)
+    most_bytes = BYTES_PER_SAMPLE * max_samples + BYTES_OF_HEADER
     try:
-        return read_table(path, most_bytes(max_samples), one_column, columns)
+        return read_table(path, most_bytes, one_column, columns)
     except NotTextError:
         return _by_library(path, columns, channel)
     except NotRowsError as error:
@@ -149,13 +124,8 @@ def read_measured(
     **how: object,
 ) -> MeasuredProfile:
     """The profile in a file: `open_measured`, then `profile_of`, which has the other arguments."""
-    opened = open_measured(
-        path,
-        columns=columns,
-        channel=channel,
-        one_column=spacing is not None,
-        max_samples=max_samples,
-    )
+    which = {"columns": columns, "channel": channel, "one_column": spacing is not None}
+    opened = open_measured(path, **which, max_samples=max_samples)
     return profile_of(opened, spacing=spacing, max_samples=max_samples, **how)
 
 
@@ -180,26 +150,13 @@ def profile_of(
     """
     if isinstance(opened, Topography):
         return _from_topography(opened, x_scale, height_scale, spacing, dropouts, chosen)
-    read = profile_in(
-        opened,
-        x_scale=x_scale or 1.0,
-        height_scale=height_scale or 1.0,
-        spacing=spacing,
-        dropouts=dropouts,
-        max_samples=max_samples,
-    )
-    path = opened.path
-    refuse_line(path, chosen)
+    scales = {"x_scale": x_scale or 1.0, "height_scale": height_scale or 1.0}
+    how = {"spacing": spacing, "dropouts": dropouts, "max_samples": max_samples}
+    read = profile_in(opened, **scales, **how)
+    refuse_line(opened.path, chosen)
     because = f"is {opened.format}, from whose header no unit is taken"
-    _check_given(path, x_scale or spacing, height_scale, because)
-    return MeasuredProfile(
-        profile=read.profile,
-        format=opened.format,
-        place=None,
-        bridged=read.bridged,
-        trimmed=read.trimmed,
-        stretch=read.stretch,
-    )
+    _check_given(opened.path, x_scale or spacing, height_scale, because)
+    return read
 
 
 def _head(path: Path) -> bytes:
@@ -257,36 +214,14 @@ def _from_topography(
     if dropouts == "refuse" and np.any(lost):
         first, count = int(np.argmax(lost)), int(np.count_nonzero(lost))
         where = f"sample {first} of {chosen}" if chosen else f"sample {first}"
-        raise ProfileError(
-            path,
-            f"{where}, at x = {x[first]:g} m, was not measured"
-            + (f", nor {'were' if count > 2 else 'was'} {count - 1} more" if count > 1 else "")
-            + "; choose another line, or ask for dropouts to be bridged",
-        )
-    if np.all(lost):
-        raise ProfileError(path, "holds nothing but dropouts there")
-    x, height, inside = bridge(x, height, lost)
-    if len(inside) < MIN_SAMPLES:
-        raise ProfileError(
-            path,
-            f"has {len(inside)} sample{'s' * (len(inside) != 1)} there; "
-            f"a profile needs at least {MIN_SAMPLES}",
-        )
-    try:
-        profile = Profile(x, height)
-    except ValueError as error:
-        raise ProfileError(path, f"holds no profile: {error}") from error
-    x, height, filled = fill_gaps(path, profile.x, profile.height, dropouts, MAX_SAMPLES)
-    bridged = filled.copy()
-    bridged[~filled] = lost[inside]
-    return MeasuredProfile(
-        profile=Profile(x, height),
-        format=found.format,
-        place=f"{chosen} of {found.size()}" if chosen else None,
-        bridged=int(np.count_nonzero(bridged)),
-        trimmed=len(lost) - len(inside),
-        stretch=longest_bridge(x, bridged),
-    )
+        more = f", nor {'were' if count > 2 else 'was'} {count - 1} more" if count > 1 else ""
+        message = f"{where}, at x = {x[first]:g} m, was not measured{more}"
+        remedy = "choose another line, or ask for dropouts to be bridged"
+        raise ProfileError(path, f"{message}; {remedy}")
+    x, height, samples = known_part(path, x, height, lost)
+    place = f"{chosen} of {found.size()}" if chosen else None
+    how = {"format": found.format, "place": place, "trimmed": len(lost) - len(samples)}
+    return without_gaps(path, x, height, lost[samples], dropouts, **how)
 
 
 def _check_size(found: Topography) -> None:
@@ -312,11 +247,8 @@ def _in_metres(
     if found.unit is not None:
         for name, scale in (("x_unit", x_scale), ("z_unit", height_scale)):
             if scale is not None and abs(scale / found.unit - 1.0) > SAME_UNIT:
-                raise ProfileError(
-                    path,
-                    f"counts in units of {found.unit:g} m and not of {scale:g} m, as {name} has "
-                    f"it; allowed is to leave out {name}",
-                )
+                message = f"counts in units of {found.unit:g} m and not of {scale:g} m, as {name}"
+                raise ProfileError(path, f"{message} has it; allowed is to leave out {name}")
     else:
         _check_given(path, x_scale if sized else spacing, height_scale, "names no unit")
         heights = heights * height_scale

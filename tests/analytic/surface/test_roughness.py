@@ -5,9 +5,9 @@ from math import inf, pi, sqrt
 import numpy as np
 import pytest
 from scenes import MEASURED, PROFILES
+from text_profiles import read_profile
 
 from analytic.profile import Profile
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import (
     bearing_curve,
     power_spectrum,

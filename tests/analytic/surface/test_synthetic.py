@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scenes import PROFILES
 from scipy.ndimage import gaussian_filter1d
+from text_profiles import read_profile
 
 from analytic.profile import MAX_SAMPLES, surface
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.roughness import roughness, shortest_wavelength
 from analytic.surface.synthetic import ground_texture, self_affine, sinusoid, smooth
 

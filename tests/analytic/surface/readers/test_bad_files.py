@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from text_profiles import read_profile
 
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.readers.source import ProfileError
 
 GOOD = b"0,1.5\n1,2.5\n2,3.5\n3,1.0\n4,0.5\n"

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenes import PROFILES
+from text_profiles import read_profile
 
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.readers.source import ProfileError
 from analytic.surface.readers.text import read_table
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from text_profiles import read_profile
 
-from analytic.surface.readers.columns import read_profile
 from analytic.surface.readers.source import ProfileError
 
 
@@ -62,7 +62,7 @@ def test_a_lost_x_at_an_end_is_trimmed(tmp_path):
     ("content", "line", "words"),
     [
         ("0 1\n2 2\n1 2\nNaN 3\n3 3\n4 1\n", 4, "not in order of x"),
-        ("0 NaN\n1 1\n2 1\n3 2\n4 BAD\n", None, "3 samples are left"),
+        ("0 NaN\n1 1\n2 1\n3 2\n4 BAD\n", None, "3 samples but for"),
         ("0 NaN\n1 NaN\n2 NaN\n3 NaN\n", None, "nothing but dropouts"),
         ("0 1\n1 NaN\n1 2\n2 1\n3 1\n", 3, "the same as in line 2"),
         ("0 1\n1 oops\n2 NaN\n3 1\n4 1\n", 2, "'oops' is not a number"),

@@ -114,7 +114,9 @@ def test_lost_heights_are_bridged_and_ends_left_out(tmp_path):
 
 def test_too_little_left_is_refused(tmp_path):
     path = sdf(tmp_path, [[None, 1.0, 2.0, 3.0, None]])
-    assert "has 3 samples there; a profile needs at least 4" in refusal(path, dropouts="bridge")
+    assert "has 3 samples but for dropouts at its ends; a profile needs at least 4" in refusal(
+        path, dropouts="bridge"
+    )
     path = sdf(tmp_path, [[None] * 5])
     assert "holds nothing but dropouts" in refusal(path, dropouts="bridge")
 

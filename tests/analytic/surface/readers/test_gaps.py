@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analytic.surface.readers.columns import gaps, read_profile
+from analytic.surface.readers.dropouts import gaps
 from analytic.surface.readers.files import read_measured
 from analytic.surface.readers.source import ProfileError
 
@@ -19,7 +19,7 @@ def written(folder, x, z, form="%.6g"):
 
 
 def read(path, dropouts, **options):
-    return read_profile(path, x_scale=1e-6, height_scale=1e-6, dropouts=dropouts, **options)
+    return read_measured(path, x_scale=1e-6, height_scale=1e-6, dropouts=dropouts, **options)
 
 
 def test_a_gap_is_refused_where_it_is(tmp_path):
