@@ -49,15 +49,13 @@ class Pass:
     position   x_c [m] on the trace
     volume     taken off the profile, per unit length [m^2]
     lowering   largest overlap taken off [m]
-    touching   first and last contact [m] on the trace
-    at_end     whether that is an end of the trace, beyond which the roller finds no support
+    at_end     whether contact reaches an end of the trace, beyond which nothing supports the roller
     converged  whether the contact solution did; `residual` is its worst
     """
 
     position: float
     volume: float
     lowering: float
-    touching: tuple[float, float]
     at_end: bool
     converged: bool
     residual: float
@@ -217,7 +215,6 @@ class _Surface:
             position=float(position),
             volume=float(self.widths[part] @ taken),
             lowering=float(overlap.max()),
-            touching=(first * grid.pitch + self.origin, last * grid.pitch + self.origin),
             at_end=bool(first == self.whole.first or last == self.whole.last),
             converged=solution.converged,
             residual=solution.residuals.worst,

@@ -22,7 +22,7 @@ from analytic.exact.westergaard import WestergaardContact
 from analytic.layers.layered import LayeredBody, added_stress
 from analytic.numerics import points_below
 from analytic.operators.elements import _EVEN, _Far, _joined, _scaled_difference
-from analytic.stress.elements import FrictionStress, strip_between
+from analytic.stress.elements import FrictionStress, hat_at, strip_between
 from analytic.stress_state import StressState
 
 # Distance from the centre, in h, from which the loads of Gauss-Jacobi's points are summed: with 32
@@ -139,7 +139,7 @@ def _partial(
     contact: WestergaardContact, x: np.ndarray, eta: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """I and z I' [Pa] at 0 <= x <= lambda/2."""
-    unit, a, sine = np.pi / contact.wavelength, contact.half_width, contact._sine
+    unit, a, sine = np.pi / contact.wavelength, contact.half_width, _sine(contact)
     depth, half = np.minimum(eta, _DEEP), 0.5 * contact.wavelength
     # The cosine as a sine of the distance to the valley: next to it only that is exact.
     sin_psi, cos_psi = np.sin(unit * x), np.sin(unit * (half - x))
@@ -178,7 +178,7 @@ def westergaard_gap(contact: WestergaardContact, x: ArrayLike) -> np.ndarray:
     if contact.full:
         return np.zeros_like(x)
     depth = np.sqrt(np.maximum(contact._beyond(x), 0.0))
-    sine = contact._sine
+    sine = _sine(contact)
     tau = np.arcsinh(depth / sine)
     near = 0.5 * sine**2 * _sinh_minus_argument(2.0 * np.minimum(tau, 1.0))
     far = depth * np.hypot(depth, sine) - sine**2 * tau
@@ -209,6 +209,17 @@ def _level(flat: FlattenedCylinder) -> float:
     """L [m^2]."""
     m = (flat.flowed / flat.contact) ** 2
     return flat.contact**2 * (1.0 - ellipe(m) / ellipk(m))
+
+
+def _sine(contact: WestergaardContact) -> float:
+    """S = sin(pi a/lambda)."""
+    return np.sin(np.pi * contact.half_width / contact.wavelength)
+
+
+def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
+    """Under unit p and q at x = 0 that fall linearly to zero at -pitch, pitch; x, z >= 0 [m]."""
+    x, z = points_below(x, z)
+    return hat_at(x / pitch, z / pitch)
 
 
 def strip_stress(x: ArrayLike, z: ArrayLike, half_width: float) -> FrictionStress:

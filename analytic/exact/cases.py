@@ -3,9 +3,11 @@
 A numerical model takes the problem and is judged by the rest.
 """
 
+import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
+from pathlib import Path
 
 import numpy as np
 
@@ -24,7 +26,8 @@ Pair = tuple[Material, Material | None]
 STEEL = Material(207e9, 0.3)
 ALUMINIUM = Material(70e9, 0.33)
 CERAMIC = Material(310e9, 0.26)
-RUBBER = Material(5e6, 0.49)
+MATERIALS = {"steel": STEEL, "aluminium": ALUMINIUM, "ceramic": CERAMIC, "rigid": None}
+MATERIALS["rubber"] = Material(5e6, 0.49)
 
 
 @dataclass(frozen=True)
@@ -194,6 +197,15 @@ def wave_case(
     )
 
 
+MAKERS = {
+    "hertz": hertz_case,
+    "punch": punch_case,
+    "sliding": sliding_case,
+    "capped": capped_case,
+    "wave": wave_case,
+}
+
+
 def _wave_gap(wavelength: float, amplitude: float, x: np.ndarray) -> np.ndarray:
     return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
 
@@ -210,27 +222,10 @@ def _figures(peak_pressure: float, left: float, right: float) -> dict[str, float
 
 @cache
 def exact_contacts() -> tuple[ExactContact, ...]:
-    """The gallery that every numerical model is held to."""
-    return (
-        hertz_case("Hertz, steel on steel", (STEEL, STEEL), 8.2e-3, 1.4e9),
-        hertz_case("Hertz, steel on steel, friction 0.1", (STEEL, STEEL), 8.2e-3, 4.15e9, 0.1),
-        hertz_case("Hertz, steel on steel, friction 0.3", (STEEL, STEEL), 8.2e-3, 1.4e9, 0.3),
-        hertz_case("Hertz, light load", (STEEL, STEEL), 50e-3, 1e6),
-        hertz_case("Hertz, ceramic on aluminium", (ALUMINIUM, CERAMIC), 20e-3, 0.5e9),
-        hertz_case("Hertz, rigid on rubber", (RUBBER, None), 100e-3, 0.2e6),
-        punch_case("rounded punch, flat 0.3", (STEEL, None), 1e-3, 0.3, 0.1),
-        punch_case("rounded punch, flat 0.6", (STEEL, STEEL), 1e-3, 0.6, 0.2),
-        punch_case("rounded punch, flat 0.9", (ALUMINIUM, STEEL), 5e-3, 0.9, 0.5),
-        punch_case("rounded punch, flat 0.99", (STEEL, STEEL), 5e-3, 0.99, 0.05),
-        sliding_case("sliding, rigid on steel, friction 0.1", (STEEL, None), 10e-3, 1e6, 0.1),
-        sliding_case("sliding, rigid on steel, friction 0.5", (STEEL, None), 10e-3, 1e6, 0.5),
-        sliding_case("sliding, rigid on steel, friction -0.3", (STEEL, None), 10e-3, 1e6, -0.3),
-        sliding_case("sliding, steel on aluminium, friction 1", (ALUMINIUM, STEEL), 5e-3, 1e5, 1.0),
-        sliding_case("sliding, rubber on steel, friction 1", (STEEL, RUBBER), 50e-3, 1e3, 1.0),
-        capped_case("flattened cylinder, hardness 0.9", (STEEL, STEEL), 8.2e-3, 1.4e9, 0.9),
-        capped_case("flattened cylinder, hardness 0.7", (STEEL, None), 8.2e-3, 1.4e9, 0.7),
-        wave_case("Westergaard, 0.01 of closing", (STEEL, STEEL), 100e-6, 0.1e-6, 0.01),
-        wave_case("Westergaard, 0.2 of closing", (STEEL, None), 1e-3, 1e-6, 0.2),
-        wave_case("Westergaard, 0.9 of closing", (ALUMINIUM, STEEL), 100e-6, 0.5e-6, 0.9),
-        wave_case("Westergaard, full contact", (STEEL, STEEL), 100e-6, 0.1e-6, 1.5),
+    """The gallery of cases.toml, that every numerical model is held to."""
+    gallery = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+    return tuple(
+        MAKERS[kind](name, (MATERIALS[body], MATERIALS[roller]), *given)
+        for kind, cases in gallery["contacts"].items()
+        for name, body, roller, *given in cases
     )

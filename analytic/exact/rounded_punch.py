@@ -59,11 +59,6 @@ class RoundedPunch:
         return self._pressure(np.abs(np.asarray(x, dtype=float)) - self.half_flat)
 
     @property
-    def peak_position(self) -> float:
-        """Where the right one of the two equal peaks stands [m]; beyond the flat, 0 if b = 0."""
-        return self.half_flat + self._peak_beyond_flat
-
-    @property
     def peak_pressure(self) -> float:
         """Largest pressure [Pa]."""
         return float(self._pressure(np.array(self._peak_beyond_flat)))

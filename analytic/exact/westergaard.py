@@ -73,11 +73,6 @@ class WestergaardContact:
         cosine = np.sin(unit * (0.5 * self.wavelength - x))
         return 2.0 * self.closing_pressure * cosine * np.sqrt(np.maximum(-self._beyond(x), 0.0))
 
-    @property
-    def _sine(self) -> float:
-        """S."""
-        return np.sin(np.pi * self.half_width / self.wavelength)
-
     def _folded(self, x: ArrayLike) -> np.ndarray:
         """Distance to the nearest crest [m]."""
         x = np.fmod(np.abs(np.asarray(x, dtype=float)), self.wavelength)

@@ -12,11 +12,12 @@ own pitch, the displacement at the middle of the strip, (C p)_i = h u_z(x_i).
     phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
 """
 
-from typing import Literal, Protocol
+from typing import Literal, Protocol, Self
 
 import numpy as np
 import scipy.linalg
 
+from analytic.grid import restricted
 from analytic.operators.convolution import Convolution, cholesky_solve, made_once
 from analytic.operators.elements import at_whole_offsets, hat_galerkin, strip_displacement
 
@@ -173,6 +174,12 @@ class DenseMatrix:
     def cropped(self, span: int) -> None:
         """No part of a body has a compliance that depends on distances alone."""
 
+    @made_once
+    def coarsened(self) -> Self:
+        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
+        rows = restricted(self.matrix, self.periodic)
+        return type(self)(restricted(rows.T, self.periodic).T)
+
 
 class DenseCompliance(DenseMatrix):
     """A compliance given as its symmetric positive definite matrix (n, n) [m^2/Pa]."""
@@ -193,13 +200,3 @@ class DenseCompliance(DenseMatrix):
         None where hats finer than a body's elements leave nothing to factor.
         """
         return cholesky_solve(self.block(nodes), right)
-
-    @made_once
-    def coarsened(self) -> "DenseCompliance":
-        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
-        inner = 2 * np.arange(self.count // 2) + 1
-        spread = np.zeros((self.count, len(inner)))
-        for offset, share in ((-1, 0.5), (0, 1.0), (1, 0.5)):
-            inside = inner + offset < self.count
-            spread[(inner + offset)[inside], np.flatnonzero(inside)] = share
-        return DenseCompliance(spread.T @ self.matrix @ spread)

@@ -49,7 +49,7 @@ class PeriodicHalfPlane(Convolution):
         half, odd = divmod(self.count, 2)
         if odd or half < FEWEST:
             return None
-        return PeriodicHalfPlane(half, 2.0 * self.pitch, self.modulus)
+        return type(self)(half, 2.0 * self.pitch, self.modulus)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """Eigenvalues of the circulant [m^2/Pa]; `cycles` from 0 to 1/2, the first of them 0."""

@@ -28,17 +28,8 @@ import scipy.linalg
 from numpy.typing import ArrayLike
 from scipy.linalg import LinAlgError, LinAlgWarning
 
-from analytic.grid import restricted
 from analytic.operators.convolution import DIRECT, Convolution, made_once
 from analytic.operators.half_plane import DenseCompliance, DenseMatrix, HalfPlane, ModelOperator
-
-
-class SkewOperator(Protocol):
-    """Hat tractions (n,) [Pa] to weighted normal displacements (n,) [m^2] that do no work."""
-
-    def apply(self, traction: np.ndarray) -> np.ndarray: ...
-
-    def coarsened(self) -> "SkewOperator | None": ...
 
 
 class CoupledOperator(ModelOperator, Protocol):
@@ -67,7 +58,15 @@ def hat_sign(offset: ArrayLike) -> np.ndarray:
     return np.sign(offset) * np.where(x < 1.0, near, far)
 
 
-class CoupledHalfPlane(Convolution):
+class CoupledConvolution(Convolution):
+    """A convolution that is not symmetric; `skew` and `normal` as of `CoupledOperator`."""
+
+    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
+        """As of `Convolution`, by elimination."""
+        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
+
+
+class CoupledHalfPlane(CoupledConvolution):
     """C + mu T of two half-planes in one convolution: an application costs what C alone does.
 
     count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`
@@ -91,10 +90,6 @@ class CoupledHalfPlane(Convolution):
         odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
         super().__init__(even + odd, self._symbol, row=even - odd)
 
-    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """As of `Convolution`, by elimination."""
-        return None if len(nodes) > DIRECT else eliminated(self.block(nodes), right)
-
     @made_once
     def coarsened(self) -> "CoupledHalfPlane":
         """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
@@ -111,37 +106,19 @@ class CoupledHalfPlane(Convolution):
         return self.pitch**2 / (np.pi * self.modulus) * (even - 1j * self.friction_dundurs * odd)
 
 
-class CoupledPair:
-    """C + mu T of any two operators on the same grid; the approximate inverse is that of C.
+class CoupledPair(CoupledConvolution):
+    """C + mu T of two convolutions on the same grid; the approximate inverse is that of C.
 
     normal      C, symmetric positive definite
     tangential  T: normal displacement under hats of traction q in +x, skew
     friction    mu
     """
 
-    def __init__(self, normal: ModelOperator, tangential: SkewOperator, friction: float) -> None:
+    def __init__(self, normal: Convolution, tangential: Convolution, friction: float) -> None:
         self.normal, self.tangential, self.friction = normal, tangential, friction
-        self.count, self.periodic, self.ring = normal.count, normal.periodic, normal.ring
         self.skew = friction != 0.0
-
-    def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Weighted displacements (n,) [m^2] of pressures (n,) [Pa] and the tractions mu p."""
-        return self.normal.apply(pressure) + self.tangential.apply(self.friction * pressure)
-
-    def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
-        """Approximate inverse of C, positive definite."""
-        return self.normal.precondition(weighted_displacement)
-
-    def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """As of `Convolution`, by elimination; None where a part is no convolution."""
-        normal, tangential = self.normal, self.tangential
-        known = isinstance(normal, Convolution) and isinstance(tangential, Convolution)
-        if not known or len(nodes) > DIRECT:
-            return None
-        return eliminated(normal.block(nodes) + self.friction * tangential.block(nodes), right)
-
-    def cropped(self, span: int) -> None:
-        """Not offered: the parts may be bodies whose compliance depends on more than distances."""
+        odd = friction * tangential.column
+        super().__init__(normal.column + odd, normal.symbol, row=normal.column - odd)
 
     @made_once
     def coarsened(self) -> "CoupledPair | None":
@@ -187,9 +164,3 @@ class DenseCoupledCompliance(DenseMatrix):
                 return eliminated(self.block(nodes), right)
             except (LinAlgError, LinAlgWarning):
                 return None
-
-    @made_once
-    def coarsened(self) -> "DenseCoupledCompliance":
-        """The same body on hats twice as wide, centred on nodes 1, 3, 5, …"""
-        rows = restricted(self.matrix, self.periodic)
-        return DenseCoupledCompliance(restricted(rows.T, self.periodic).T)

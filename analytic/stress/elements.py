@@ -13,10 +13,9 @@ for hats away from the element, replaced by `hat_multipoles`: every component ke
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.special import xlogy
 
-from analytic.numerics import angle_minus_sine, points_below
+from analytic.numerics import angle_minus_sine
 from analytic.stress.potential import NEAREST, Element, hat_multipoles
 from analytic.stress_state import StressState
 
@@ -92,17 +91,11 @@ def strip_between(
     )
 
 
-def hat_stress(x: ArrayLike, z: ArrayLike, pitch: float) -> FrictionStress:
-    """Under unit p and q at x = 0 that fall linearly to zero at -pitch, pitch.
-
-    At x, z [m] (broadcast together), z >= 0. Finite everywhere, the surface included.
-    """
-    x, z = points_below(x, z)
-    return hat_at(x / pitch, z / pitch)
-
-
 def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
-    """`hat_stress` by x and z in pitches."""
+    """Under unit p and q at 0 that fall linearly to zero at -1 and 1, by x and z >= 0 in pitches.
+
+    Finite everywhere, the surface included.
+    """
     parts = np.empty((4, *x.shape))
     near = np.hypot(x, z) < NEAREST
     parts[:, near] = _hat_closed(x[near], z[near])

@@ -2,33 +2,22 @@
 
 import hashlib
 import json
-import marshal
 import os
 import platform
 import subprocess
-import sys
-import time
 from contextlib import suppress
 from datetime import UTC, datetime
 from functools import cache
 from importlib import metadata
-from importlib.util import cache_from_source
 from pathlib import Path
-from types import CodeType
 
 import numpy as np
-
-from comparisons.common.files import write_whole
 
 PROJECT = Path(__file__).resolve().parents[2]
 # Folders and files whose code shapes a level of a scene.
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
 PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
 PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
-# Hashes of code stand beside Python's own of this module, and are good for the same sources: those
-# of equal time and size. What has just changed may change again at the same time [ns]: not kept.
-KNOWN_CODE = Path(cache_from_source(__file__)).with_suffix(".json")
-RACY = 2_000_000_000
 
 
 def versions() -> dict[str, str | None]:
@@ -90,50 +79,13 @@ def _processor() -> str | None:
 
 @cache
 def program_code(*places: str) -> str:
-    """Hash of the code in folders and files of the project: without comments, docstrings and places
-    of lines, which shape no figure."""
-    known, found, settled = _known_code(), {}, time.time_ns() - RACY
+    """Hash of the code in folders and files of the project."""
+    total = hashlib.sha256()
     for place in places:
         path = PROJECT / place
         for source in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
-            state = source.stat()
-            stamp = [state.st_mtime_ns, state.st_size]
-            *before, code = known.get(str(source), [None])
-            found[str(source)] = [*stamp, code if before == stamp else _code_of(source)]
-    kept = known | {name: each for name, each in found.items() if each[0] < settled}
-    if kept != known and not sys.dont_write_bytecode:
-        with suppress(OSError):
-            write_whole(KNOWN_CODE, json.dumps(kept))
-    codes = [code for *_, code in found.values()]
-    return hashlib.sha256("".join(codes).encode()).hexdigest()
-
-
-def _known_code() -> dict[str, list]:
-    """By path: time of change [ns], size and hash of the code of sources as they were compiled."""
-    with suppress(OSError, ValueError):
-        return json.loads(KNOWN_CODE.read_text(encoding="utf-8"))
-    return {}
-
-
-def _code_of(source: Path) -> str:
-    code = compile(source.read_bytes(), source.name, "exec", dont_inherit=True, optimize=2)
-    # version 2 writes no references, so equal code gives equal bytes
-    return hashlib.sha256(marshal.dumps(_without_places(code), 2)).hexdigest()
-
-
-def _without_places(code: CodeType) -> CodeType:
-    """A module's or function's code without the lines that it stands on."""
-    constants = tuple(map(_constant, code.co_consts))
-    return code.replace(co_consts=constants, co_firstlineno=0, co_linetable=b"")
-
-
-def _constant(value: object) -> object:
-    """As marshal's version 2 takes it: Python 3.14 has slices among the constants."""
-    if isinstance(value, CodeType):
-        return _without_places(value)
-    if isinstance(value, tuple):
-        return tuple(map(_constant, value))
-    return ("slice", value.start, value.stop, value.step) if isinstance(value, slice) else value
+            total.update(source.read_bytes())
+    return total.hexdigest()
 
 
 def key_of(*parts: object) -> str:

@@ -14,6 +14,7 @@ from dataclasses import astuple, dataclass
 from functools import lru_cache
 
 import numpy as np
+from periodic_strips import PeriodicStrips
 from scipy.fft import irfft, rfft
 
 from analytic.operators.half_plane import HalfPlane, ModelOperator
@@ -79,5 +80,7 @@ def displacements(pressure: np.ndarray, element: str, periodic: bool) -> np.ndar
 @lru_cache(maxsize=6)
 def operator_of(count: int, element: str, periodic: bool) -> ModelOperator:
     """Of a line of unit length, E* = 1."""
-    kind = PeriodicHalfPlane if periodic else HalfPlane
-    return kind(count, 1.0 / count, 1.0, element=element)
+    if not periodic:
+        return HalfPlane(count, 1.0 / count, 1.0, element=element)
+    kind = PeriodicHalfPlane if element == "hat" else PeriodicStrips
+    return kind(count, 1.0 / count, 1.0)

@@ -7,40 +7,14 @@ from comparisons.assessment.convergence import IRREGULAR, LOWEST_ORDER, REGULAR
 from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.common.numbers import given_percent, percent, plain, scale_of, significant
 from comparisons.common.quantities import LABELS, QUANTITIES, label
-from comparisons.report.tables.text import TextTable, error_text
+from comparisons.report.tables.text import TextTable, error_text, wording
 from comparisons.results.outcome import Outcome
 
 DIFFERENCE = "difference"  # of both models, in place of one
 NO_DATA = "no data"
-WORDS = (
-    ("formal order", "the power of the element size by which the method's error should fall"),
-    (
-        "observed order",
-        "the power by which the last changes do fall; none where they have opposite signs",
-    ),
-    ("extrapolated", "the value at element size zero, by least squares over the levels"),
-    (
-        "monotone, irregular",
-        f"the changes have one sign; with an observed order between {plain(LOWEST_ORDER)} and the "
-        "formal one, or with another",
-    ),
-    (
-        "oscillating, diverging",
-        "the last two changes have opposite signs, or grow: no order is known, and the scatter "
-        "about the fit is a part of the uncertainty",
-    ),
-    ("settled", "the levels are equal but for rounding"),
-    (
-        "safety factor",
-        f"of the error that the fit has left on the finest level: {plain(REGULAR)}, or "
-        f"{plain(IRREGULAR)} where the fit scatters by more than the data range",
-    ),
-    (
-        "coverage",
-        "share of true errors that uncertainties found so must cover where answers are exact, "
-        "measured by crosscheck verify",
-    ),
-)
+_BOUNDS = {"lowest": LOWEST_ORDER, "regular": REGULAR, "irregular": IRREGULAR}
+_BOUNDS = {name: plain(value) for name, value in _BOUNDS.items()}
+WORDS = tuple((term, text.format(**_BOUNDS)) for term, text in wording()["convergence"].items())
 
 
 @dataclass(frozen=True)
@@ -75,9 +49,9 @@ def judged_sequences(outcome: Outcome) -> list[JudgedSequence]:
     problem, found = outcome.problem, []
     for name in (name for name in QUANTITIES if name in problem.scene.tolerance):
         for friction in problem.scene.friction:
-            words = row_name(outcome, name, friction)
-            if words:
-                found += _sequences(outcome, name, friction, words)
+            figure = row_name(outcome, name, friction)
+            if figure:
+                found += _sequences(outcome, name, friction, figure)
     return found
 
 
@@ -90,7 +64,7 @@ def row_name(outcome: Outcome, name: str, friction: float) -> str:
     return label(name) + (f", friction {plain(friction)}" if len(frictions) > 1 else "")
 
 
-def _sequences(outcome: Outcome, name: str, friction: float, words: str) -> list[JudgedSequence]:
+def _sequences(outcome: Outcome, name: str, friction: float, figure: str) -> list[JudgedSequence]:
     problem, found = outcome.problem, []
     for model, run in outcome.runs.items():
         values = [figures(level, problem, friction).get(name) for level in run.levels]
@@ -99,14 +73,14 @@ def _sequences(outcome: Outcome, name: str, friction: float, words: str) -> list
             scale = abs(values[-1]) or QUANTITIES[name].scale(problem.hertz)
             stated = uncertainties(run, problem, friction)[name]
             parts = pitches, tuple(values), scale, stated
-            found.append(JudgedSequence(name, words, model, *parts))
+            found.append(JudgedSequence(name, figure, model, *parts))
     for pair in outcome.pairs:
         if pair.friction == friction and name in pair.uncertainties:
             levels = outcome.runs["finite_element"].levels
             pitches = tuple(level.grid.pitch for level in levels)
             values = tuple(table[name] for table in pair.differences)
             parts = pitches, values, 1.0, pair.uncertainties[name]
-            found.append(JudgedSequence(name, words, DIFFERENCE, *parts))
+            found.append(JudgedSequence(name, figure, DIFFERENCE, *parts))
     return found
 
 
@@ -145,10 +119,10 @@ def validation_table(outcome: Outcome) -> TextTable | None:
     for check in outcome.tolerance_checks:
         name, friction = check.quantity, check.friction
         sampling = outcome.budget.sampling.get(friction, {}).get(name)
-        words = row_name(outcome, name, friction) or f"{label(name)}, friction {plain(friction)}"
+        figure = row_name(outcome, name, friction) or f"{label(name)}, friction {plain(friction)}"
         rows.append(
             (
-                words,
+                figure,
                 error_text(name, check.value, check.uncertainty),
                 percent(check.uncertainty),
                 "no trace" if sampling is None else percent(sampling),

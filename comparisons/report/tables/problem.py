@@ -4,26 +4,13 @@ from analytic.material import Material
 from analytic.surface.roughness_standard import SECTIONS, StandardRoughness
 from comparisons.common.numbers import decimal, given, plain, significant, with_unit
 from comparisons.models.problem import Problem
-from comparisons.report.tables.text import listed
+from comparisons.report.tables.text import listed, wording
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import Coated, ProfileInfo, ResolvedScene, Yielding
 
 Rows = list[tuple[str, str]]
 
-GROUPS = {
-    "a_over_thickness": "half-width over thickness, a/t",
-    "a_over_radius": "half-width over radius, a/R",
-    "a_over_width": "half-width over width, a/w",
-    "rms_slope": "rms slope",
-    "max_slope": "largest slope",
-    "friction_dundurs": "friction times Dundurs' β, µβ",
-    "peak_pressure_over_hardness": "peak pressure over hardness, p/H",
-}
-LOADS = {
-    "load_per_length": ("load per length", "N/m"),
-    "hertz_peak_pressure": ("Hertz peak pressure", "Pa"),
-    "approach": ("approach", "m"),
-}
+GROUPS = wording()["groups"]
 
 
 def problem_sheet(outcome: Outcome) -> list[tuple[str, Rows]]:
@@ -162,7 +149,7 @@ def yielding_text(yielding: Yielding) -> str:
 
 def _load(outcome: Outcome) -> Rows:
     scene, hertz = outcome.problem.scene, outcome.problem.hertz
-    label, unit = LOADS[scene.load.kind]
+    label, unit = wording()["loads"][scene.load.kind]
     rows = [(f"{label} (given)", given(scene.load.value, unit))]
     if scene.load.kind != "load_per_length":
         rows.append(("load per length P", with_unit(hertz.load_per_length, "N/m")))

@@ -1,7 +1,10 @@
 """What the report's tables share: cells of text, and quantities written in one way everywhere."""
 
+import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 from comparisons.common.numbers import percent, plain
 from comparisons.common.quantities import QUANTITIES
@@ -17,6 +20,12 @@ class TextTable:
     title: str
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+
+
+@cache
+def wording() -> dict[str, dict]:
+    """What the tables call things, by the tables of words.toml."""
+    return tomllib.loads(Path(__file__).with_name("words.toml").read_text(encoding="utf-8"))
 
 
 def is_shown(outcome: Outcome, quantity: str) -> bool:

@@ -12,48 +12,10 @@ from comparisons.common.quantities import HYPHENATED, LABELS, QUANTITIES, label
 from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.level import ModelRun
 from comparisons.report.tables.convergence import row_name
-from comparisons.report.tables.text import TextTable, is_shown
+from comparisons.report.tables.text import TextTable, is_shown, wording
 from comparisons.results.outcome import Outcome
 
 ALL_LEVELS = "all levels together: time"
-RESIDUALS = {
-    "load_balance": "load balance",
-    "complementarity": "pressure where there is a gap",
-    "penetration": "overlap",
-    "negative_pressure": "tension",
-    "excess_pressure": "pressure above the hardness",
-}
-# What the check of the compliance found, in few words and in a sentence.
-VERDICTS = {
-    "neither": (
-        "no fault of mesh or body",
-        "Mesh and body are right: what is left between the models is contact.",
-    ),
-    "mesh": (
-        "the mesh is too coarse",
-        "The mesh is too coarse under the pressures: no other figure is better than it.",
-    ),
-    "modulus": (
-        "the elastic constants differ",
-        "The finite elements' elastic constants are not those of the other model.",
-    ),
-    "block": (
-        "the block is too small",
-        "The block is too small, or held too near, to stand for the body.",
-    ),
-    "geometry": (
-        "no fault of the mesh",
-        "The mesh is right; the body is not judged, its own geometry is in the figures.",
-    ),
-}
-HOW_TO_READ = (
-    "Displacements under given pressures on the finest level, before any contact, against those of "
-    "the nearest analytic surface{datum}. Columns: under a single pressure element, the L2 norm of "
-    "the difference; far: without the elements next to the load. Waves: the work of the pressures, "
-    "negative where finite elements are stiffer. Both small: mesh and body are right, what is left "
-    "is contact error. Short waves wrong: the mesh. Columns wrong far from the load, or long waves "
-    "only: the block's size. All waves wrong by the same share: the elastic constants."
-)
 
 
 def convergence_tables(outcome: Outcome) -> list[TextTable]:
@@ -79,11 +41,11 @@ def _of_model(outcome: Outcome, run: ModelRun) -> TextTable:
         found = uncertainties(run, problem, friction)
         values = [figures(level, problem, friction) for level in levels]
         for name in values[0]:
-            words = row_name(outcome, name, friction)
-            if words and is_shown(outcome, name):
+            row = row_name(outcome, name, friction)
+            if row and is_shown(outcome, name):
                 scale = scale_of([v[name] for v in values], QUANTITIES[name].unit)
                 numbers = (scale.text(v[name], 5) for v in values)
-                rows.append((words, *numbers, *_parts(found[name], check is not None)))
+                rows.append((row, *numbers, *_parts(found[name], check is not None)))
     return TextTable(LABELS[run.name].capitalize(), head, tuple(rows))
 
 
@@ -92,11 +54,11 @@ def _of_pair(outcome: Outcome) -> TextTable:
     checked, rows = run.far_boundary_check is not None, []
     for pair in outcome.pairs:
         for name in pair.differences[0]:
-            words = row_name(outcome, name, pair.friction)
-            if words and is_shown(outcome, name):
+            row = row_name(outcome, name, pair.friction)
+            if row and is_shown(outcome, name):
                 shown = {"digits": 3, "signed": not QUANTITIES[name].of_pair}
                 numbers = (percent(values[name], **shown) for values in pair.differences)
-                rows.append((words, *numbers, *_parts(pair.uncertainties[name], checked)))
+                rows.append((row, *numbers, *_parts(pair.uncertainties[name], checked)))
     head = _head(run, with_check=False)
     return TextTable("Difference of both models", head, tuple(rows))
 
@@ -125,7 +87,7 @@ def check_table(outcome: Outcome) -> TextTable:
     """The contact conditions on the finest level, evaluated once more after the solution."""
     runs = outcome.runs.values()
     rows = []
-    for name, words in RESIDUALS.items():
+    for name, words in wording()["residuals"].items():
         values = [getattr(run.finest.solution.residuals, name) for run in runs]
         rows.append((words, *(significant(value, 2) for value in values)))
     converged = [all(level.solution.converged for level in run.levels) for run in runs]
@@ -137,9 +99,9 @@ def check_table(outcome: Outcome) -> TextTable:
 def cost_table(outcome: Outcome) -> TextTable:
     """Iterations, unknowns and memory on the finest level, and the time of all levels."""
     columns = {name: _cost(outcome, run) for name, run in outcome.runs.items()}
-    words = dict.fromkeys(name for cells in columns.values() for name in cells)
-    words = [*(name for name in words if name != ALL_LEVELS), ALL_LEVELS]
-    rows = tuple((name, *(cells.get(name, "") for cells in columns.values())) for name in words)
+    names = dict.fromkeys(name for cells in columns.values() for name in cells)
+    names = [*(name for name in names if name != ALL_LEVELS), ALL_LEVELS]
+    rows = tuple((name, *(cells.get(name, "") for cells in columns.values())) for name in names)
     return TextTable("", ("on the finest level", *(LABELS[name] for name in columns)), rows)
 
 
@@ -212,13 +174,14 @@ def operator_table(outcome: Outcome) -> TextTable | None:
     ]
     for wave in found.waves:
         elements = plain(float(f"{wave.elements:.3g}"))
-        words = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
-        rows.append([words, percent(wave.difference, signed=True), ""])
+        row = f"waves of {with_unit(wave.length, 'm', 3)}, {elements} elements"
+        rows.append([row, percent(wave.difference, signed=True), ""])
     if effect is not None:
         moved = [percent(c.difference) for c in effect.columns]
         moved += [percent(w.difference, signed=True) for w in effect.waves]
         rows = [[*row, cell] for row, cell in zip(rows, moved, strict=True)]
-    title = f"Finite elements' compliance before contact: {VERDICTS[check.verdict][0]}"
+    verdict = wording()["compliance"][check.verdict][0]
+    title = f"Finite elements' compliance before contact: {verdict}"
     return TextTable(title, tuple(head), tuple(map(tuple, rows)))
 
 
@@ -229,7 +192,8 @@ def operator_note(outcome: Outcome) -> str:
         return ""
     datum = "" if check.datum else ", a constant removed"
     because = check.because[0].upper() + check.because[1:]
-    return f"{VERDICTS[check.verdict][1]} {because}. {HOW_TO_READ.format(datum=datum)}"
+    verdict, how = wording()["compliance"][check.verdict][1], wording()["how_to_read"]["compliance"]
+    return f"{verdict} {because}. {how.format(datum=datum)}"
 
 
 def _check(outcome: Outcome) -> ComplianceCheck | None:

@@ -16,7 +16,7 @@ from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
 from analytic.layers.tangential import TangentialLayer
 from analytic.material import Material
-from analytic.operators.half_plane import DenseCompliance, HalfPlane
+from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import (
     CoupledHalfPlane,
     CoupledPair,
@@ -189,13 +189,12 @@ def test_conditions_hold_on_the_dense_matrix(roller, friction_dundurs, hardness)
     assert found.pressure[free] == pytest.approx(solved, abs=1e-7 * solved.max())
 
 
-def test_a_compliance_given_as_a_matrix_can_be_the_normal_part(roller):
-    """The hook for other bodies: any symmetric operator with any tangential one."""
+def test_a_layer_on_its_own_material_drags_as_a_half_plane_does(roller):
     grid = HatGrid.within(-1.1e-3, 1.1e-3, 8e-6)
-    matrix = toeplitz(HalfPlane(grid.count, grid.pitch, roller.modulus).column)
+    normal = HalfPlane(grid.count, grid.pitch, roller.modulus)
     layer = Material(roller.modulus, 0.0)  # beta 1/2
     tangential = TangentialLayer(grid.count, grid.pitch, LayeredBody(layer, 1.0, layer))
-    pair = CoupledPair(DenseCompliance(matrix), tangential, 0.6)
+    pair = CoupledPair(normal, tangential, 0.6)
     weighted_gap = grid.hat_integrals(roller.rough(1))
     found = solve_coupled(pair, weighted_gap, grid.weights, Constraints(load=roller.load))
     expected = roller.sliding(grid, roller.rough(1), 0.3)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from periodic_strips import PeriodicStrips
 
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
@@ -40,8 +41,10 @@ class Contact:
 
     @property
     def operator(self) -> HalfPlane | PeriodicHalfPlane:
-        kind = PeriodicHalfPlane if self.periodic else HalfPlane
-        return kind(len(self.gap), self.pitch, self.modulus, element=self.element)
+        given = len(self.gap), self.pitch, self.modulus
+        if not self.periodic:
+            return HalfPlane(*given, element=self.element)
+        return (PeriodicHalfPlane if self.element == "hat" else PeriodicStrips)(*given)
 
     def solved(self) -> ContactSolution:
         weights = np.full(len(self.gap), self.pitch)

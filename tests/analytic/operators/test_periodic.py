@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from periodic_strips import PeriodicStrips
 from scenes import DATA
 from scipy.linalg import circulant
 from scipy.special import zeta
@@ -77,18 +78,20 @@ def test_symbol_is_the_sum_over_aliases():
     assert hat_aliases(cycles) == pytest.approx(summed, rel=1e-14)
 
 
+@pytest.mark.parametrize("kind", [PeriodicHalfPlane, PeriodicStrips])
 @pytest.mark.parametrize("count", [8, 9])
-def test_coefficients_are_those_of_the_half_plane_and_all_its_images(count):
+def test_coefficients_are_those_of_the_half_plane_and_all_its_images(kind, count):
     """Loads of zero sum: the images of elements i and 0 differ like 1/j^2 and 1/j^4."""
     images = 4000
-    free = HalfPlane(count * (images + 1), PITCH, MODULUS).column
+    element = "hat" if kind is PeriodicHalfPlane else "strip"
+    free = HalfPlane(count * (images + 1), PITCH, MODULUS, element=element).column
     offset = np.abs(np.arange(count)[:, None] + count * np.arange(-images, images + 1))
     padded = free[np.minimum(offset, len(free) - 1)]
     summed = np.sum(padded - padded[:1], axis=1)
     # beyond: ln(j^2 L^2 - x^2) - ln(j^2 L^2) = -x^2/(j L)^2 - ...
     beyond = (np.arange(count) / count) ** 2 * zeta(2.0, images + 1.0)
     summed += 2.0 * PITCH**2 / (np.pi * MODULUS) * beyond
-    column = PeriodicHalfPlane(count, PITCH, MODULUS).column
+    column = kind(count, PITCH, MODULUS).column
     expected = summed - summed[:1]
     assert column - column[0] == pytest.approx(expected, abs=1e-11 * np.ptp(expected))
 

@@ -4,10 +4,10 @@ import json
 
 import numpy as np
 import pytest
-from exact_stresses import strip_stress
+from exact_stresses import hat_stress, strip_stress
 from scenes import DATA
 
-from analytic.stress.elements import FrictionStress, hat_stress
+from analytic.stress.elements import FrictionStress
 from analytic.stress.potential import hat_multipoles
 
 STRIP = json.loads((DATA / "b_uniform_strip.json").read_text())["points"]

@@ -4,11 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from exact_stresses import strip_stress
+from exact_stresses import hat_stress, strip_stress
 from scipy.integrate import trapezoid
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
-from analytic.stress.elements import hat_stress
 from analytic.stress.points import friction_stress_at, stress_at
 
 NAMES = ("sx", "sz", "txz")

@@ -24,10 +24,10 @@ from functools import partial
 
 import numpy as np
 import pytest
-from exact_stresses import strip_stress
+from exact_stresses import hat_stress, strip_stress
 from scipy.special import xlogy
 
-from analytic.stress.elements import FrictionStress, hat_stress
+from analytic.stress.elements import FrictionStress
 from analytic.stress.points import stress_at
 from analytic.stress_state import StressState
 

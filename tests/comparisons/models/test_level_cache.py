@@ -1,6 +1,5 @@
 """Where a run's finished levels are, and what change of the program they survive."""
 
-import os
 from itertools import compress
 from pathlib import Path
 
@@ -82,49 +81,6 @@ def test_what_is_cached_is_lost_to_a_change_of_what_shapes_it_alone(project, pla
     assert list(compress(("levels", "cost", "map"), lost)) == loses.split()
 
 
-def test_the_key_follows_the_code_and_not_its_text(project):
-    before = keys()
-    path = project / "analytic/law.py"
-    path.write_text(
-        '"""Halves."""\n\n\ndef half(x):  # of x\n    """Half."""\n\n    return x / 2\n'
-    )
-    assert keys() == before
-    path.write_text(LAW.replace("x / 2", "x[1:3, 0:2]"))  # a constant from Python 3.14 on
-    sliced = keys()
-    assert sliced != before
-    path.write_text(LAW.replace("x / 2", "x[1:4, 0:2]"))
-    assert keys() not in (before, sliced)
-    path.write_text(LAW.replace("x / 2", "2 * x"))
-    assert keys() != before
-
-
 def test_every_place_that_shapes_a_result_is_there():
     for place in {*CODE, *cost_study.CODE, *map_request.CODE}:
         assert (provenance.PROJECT / place).exists(), place
-
-
-def test_sources_are_compiled_again_only_when_they_have_changed(project, tmp_path, monkeypatch):
-    """Those that changed a moment ago always are: they may change again within the clock's step."""
-    compiled, code_of = [], provenance._code_of
-
-    def noted(source: Path) -> str:
-        compiled.append(source.relative_to(tmp_path).as_posix())
-        return code_of(source)
-
-    def compiled_now() -> list[str]:
-        compiled.clear()
-        provenance.program_code.cache_clear()
-        provenance.program_code("analytic", "meshes")
-        return compiled
-
-    monkeypatch.setattr(provenance, "_code_of", noted)
-    monkeypatch.setattr(provenance, "KNOWN_CODE", tmp_path / "known.json")
-    monkeypatch.setattr(provenance.sys, "dont_write_bytecode", False)
-    os.utime(project / "analytic/law.py", (1e9, 1e9))
-    assert compiled_now() == ["analytic/law.py", "meshes/law.py"]
-    assert compiled_now() == ["meshes/law.py"]
-    (project / "analytic/law.py").write_text(LAW.replace("2", "3"))
-    for path, time in ("analytic", 1e9 + 1.0), ("meshes", 1e9):
-        os.utime(project / path / "law.py", (time, time))
-    assert compiled_now() == ["analytic/law.py", "meshes/law.py"]
-    assert compiled_now() == []
