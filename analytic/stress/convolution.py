@@ -3,7 +3,7 @@
 Of the potential I of one element (`analytic.stress.potential`) Im I and z Re I' are even along the
 surface, Re I and z Im I' odd. The transform of a real sequence that is even plus odd about 0 has
 those of the two as real and imaginary part: two transforms a level give the spectra of all four
-stresses. On a window beside the load each stress is transformed by itself and keeps its own digits.
+stresses, the latter two of them over i.
 
     S  grid points that the load spans      N  length of the circular convolution
 """
@@ -15,32 +15,11 @@ import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
 from analytic.numerics import for_each
-from analytic.stress.elements import FrictionStress, unit_stress
+from analytic.stress.elements import unit_stress
 from analytic.stress.potential import FAR_TERMS, NEAREST_FAR, Element, element_potential
 
-# Of sx, sz, txz under p and of sx under q on a run of the levels, each (levels, N/2 + 1), for
-# `turns` of the load's spectrum
-Spectra = Callable[[slice], tuple[np.ndarray, ...]]
-MIRRORED = (1.0, 1.0, 1j, 1j)
 _STARTS = [start for start, _ in FAR_TERMS]
-
-
-@dataclass(frozen=True)
-class CircularConvolution:
-    """A circular convolution, long enough that no wrapped value reaches the points read.
-
-    length   N
-    source   where the first source stands
-    points   the values wanted
-    spectra  of the element's stresses
-    turns    factors of the load's spectrum: i where a purely imaginary one is given as a real one
-    """
-
-    length: int
-    source: int
-    points: slice | np.ndarray
-    spectra: Spectra
-    turns: tuple[complex, complex, complex, complex] = (1.0, 1.0, 1.0, 1.0)
+_BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 
 @dataclass(frozen=True)
@@ -62,30 +41,26 @@ class StressGrid:
     element: Element
 
 
-def free_convolution(grid: StressGrid, sources: int, start: int) -> CircularConvolution:
-    """For a line of `sources` = S grid points, the first of them `start` steps from the node 0."""
-    depths, subdivisions, stride = grid.z / grid.pitch, grid.subdivisions, grid.stride
-    first, last, element = grid.first - start, grid.last - start, grid.element
-    low, high = first - sources + 1, last
-    if low <= 0 <= high:
-        reach = max(-low, high)
-        size = next_fast_len(2 * reach + 1, real=True)
-        source = max(0, -first)
-        points = slice(first + source, last + source + 1, stride)
-        halves = half_line(depths, reach, subdivisions, element)
+def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray) -> None:
+    """Fill `parts` (4, levels, columns), sx, sz, txz under p and sx under q, for a `source` (S,)
+    [Pa], one a grid step, the first of them `start` steps from the node 0."""
+    first, last = grid.first - start, grid.last - start
+    reach = max(len(source) - 1 - first, last)  # no wrapped value reaches the points read
+    size, place = next_fast_len(2 * reach + 1, real=True), max(0, -first)
+    points = slice(first + place, last + place + 1, grid.stride)
+    placed = np.zeros(size)
+    placed[place : place + len(source)] = source
+    spectrum = rfft(placed)
+    turned = (spectrum, spectrum, 1j * spectrum, 1j * spectrum)
+    halves = half_line(grid.z / grid.pitch, reach, grid.subdivisions, grid.element)
+    levels, step = parts.shape[1], max(1, _BLOCK // size)
 
-        def around(block: slice) -> tuple[np.ndarray, ...]:
-            return mirrored_spectra(halves(block), size)
+    def fill(block: slice) -> None:
+        for row, kernel in enumerate(mirrored_spectra(halves(block), size)):
+            stress = irfft(kernel * turned[row], size, overwrite_x=True)
+            parts[row, block] = stress[:, points]
 
-        return CircularConvolution(size, source, points, around, MIRRORED)
-    offsets = np.arange(low, high + 1) / subdivisions
-    size = next_fast_len(len(offsets), real=True)
-
-    def beside(block: slice) -> tuple[np.ndarray, ...]:
-        unit = unit_stress(*np.broadcast_arrays(offsets, depths[block, None]), element)
-        return tuple(rfft(kernel, size) for kernel in unit.parts)
-
-    return CircularConvolution(size, 0, slice(sources - 1, len(offsets), stride), beside)
+    for_each(fill, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
 
 
 def half_line(
@@ -99,7 +74,9 @@ def half_line(
     # Next to the element stand few points, with the slowest formulas: all such levels at once.
     shallow = int(np.searchsorted(depths, NEAREST_FAR))
     close = x[: NEAREST_FAR * subdivisions]
-    near = as_potential(unit_stress(*np.broadcast_arrays(close, depths[:shallow, None]), element))
+    unit = unit_stress(*np.broadcast_arrays(close, depths[:shallow, None]), element)
+    sx, sz, txz, sx_traction = unit.parts
+    near = np.array([-0.5 * (sx_traction + txz), 0.5 * (sx + sz), 0.5 * (sx - sz), -txz])
 
     def halves(block: slice) -> np.ndarray:
         first, last, _ = block.indices(len(depths))
@@ -126,7 +103,8 @@ def half_line(
 
 
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
-    """Spectra, for the turns MIRRORED, of an element on a closed line of `size` >= 2 reach points.
+    """Spectra of an element's stresses, those of txz under p and of sx under q over i, on a closed
+    line of `size` >= 2 reach points.
 
     From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on its right.
     """
@@ -144,38 +122,11 @@ def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
     )
 
 
-def as_potential(unit: FrictionStress) -> np.ndarray:
-    """Re I, Im I, z Re I', z Im I' (4, …) of these stresses."""
-    sx, sz, txz, sx_traction = unit.parts
-    return np.array([-0.5 * (sx_traction + txz), 0.5 * (sx + sz), 0.5 * (sx - sz), -txz])
-
-
 def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:
     """Write their sum at the offsets 0 … and at -1, -2, …, which stand at the end."""
     reach = even.shape[1] - 1
     np.add(even, odd, out=whole[:, : reach + 1])
     np.subtract(even[:, :0:-1], odd[:, :0:-1], out=whole[:, whole.shape[1] - reach :])
-
-
-_BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
-
-
-def convolve(source: np.ndarray, circular: CircularConvolution, parts: np.ndarray) -> None:
-    """Fill `parts` (4, levels, points), sx, sz, txz under p and sx under q, for a `source` (S,)
-    [Pa], one a grid step."""
-    placed = np.zeros(circular.length)
-    placed[circular.source : circular.source + len(source)] = source
-    spectrum = rfft(placed)
-    turned = [spectrum if turn == 1.0 else turn * spectrum for turn in circular.turns]
-    levels = parts.shape[1]
-    step = max(1, _BLOCK // circular.length)
-
-    def fill(block: slice) -> None:
-        for row, kernel in enumerate(circular.spectra(block)):
-            stress = irfft(kernel * turned[row], circular.length, overwrite_x=True)
-            parts[row, block] = stress[:, circular.points]
-
-    for_each(fill, (slice(i, min(i + step, levels)) for i in range(0, levels, step)))
 
 
 def on_grid(load: np.ndarray, subdivisions: int) -> tuple[np.ndarray, int]:

