@@ -19,21 +19,7 @@ from pathlib import Path
 
 import typer
 
-from comparisons.commands import (
-    cost,
-    doctor,
-    init,
-    maps,
-    paper,
-    report,
-    rerun,
-    run,
-    scenes,
-    stability,
-    sweep,
-    table,
-    verify,
-)
+from comparisons.commands import checks, doctor, finished, run, scenes, studies
 from comparisons.common.errors import ExitStatus, InputError, SolverError, drop, tell
 from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
@@ -68,18 +54,18 @@ app = typer.Typer(
 )
 for name, command in {
     "run": run.run,
-    "cost": cost.cost,
-    "map": maps.map_of,
-    "sweep": sweep.sweep,
-    "report": report.report,
-    "table": table.table,
-    "rerun": rerun.rerun,
-    "stability": stability.stability,
-    "verify": verify.verify,
-    "paper": paper.paper,
+    "cost": studies.cost,
+    "map": studies.map_of,
+    "sweep": studies.sweep,
+    "report": finished.report,
+    "table": finished.table,
+    "rerun": finished.rerun,
+    "stability": checks.stability,
+    "verify": checks.verify,
+    "paper": studies.paper,
     "scenes": scenes.scenes,
     "deck": scenes.deck,
-    "init": init.init,
+    "init": scenes.init,
     "doctor": doctor.doctor,
 }.items():
     app.command(name)(command)

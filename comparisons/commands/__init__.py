@@ -1,1 +1,1 @@
-"""The commands of `crosscheck`, one module each; `comparisons.cli` puts them together."""
+"""The commands of `crosscheck`, by what they are about; `comparisons.cli` puts them together."""

@@ -78,9 +78,8 @@ def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
     return [name for name in names if name.startswith(incomplete)]
 
 
-Scene = Annotated[
-    str,
-    typer.Argument(
-        help="A TOML file, or a name that `scenes` lists.", autocompletion=complete_scenes
-    ),
-]
+SCENE = "A TOML file, or a name that `scenes` lists."
+MODELS = "Models to solve with, separated by commas."
+Scene = Annotated[str, typer.Argument(help=SCENE, autocompletion=complete_scenes)]
+Models = Annotated[str, typer.Option(help=MODELS, autocompletion=complete_models)]
+Junit = Annotated[Path | None, typer.Option(help="File for JUnit XML: a testcase a figure.")]

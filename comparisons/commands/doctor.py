@@ -5,13 +5,16 @@ import platform
 import signal
 import subprocess
 import sys
+import tomllib
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
+from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from comparisons.commands.arguments import job, json_option
-from comparisons.commands.output import progress, show, show_json
+from comparisons.commands.output import progress, show_either
 from comparisons.common.errors import ExitStatus
 from comparisons.common.progress import Step
 
@@ -30,60 +33,8 @@ ENVIRONMENT = {
     for launcher in ("OMPI", "PRTE")
     for suffix in ("", "_CONFIRM")
 }
-CONTACT = """from comparisons import api
-steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-scene = {"roller": {"radius": 0.01, **steel}, "body": steel, "load": {"per_length": 1e6},
-         "tolerance": {"peak_pressure": 0.5, "contact_length": 0.5}, "budget": {"effects": False},
-         "resolution": {"pitch": "30 um", "levels": 2}, "finite_element": {"block": 20}}
-found = api.run(scene, MODEL).result
-peak = found["models"][MODEL.replace("-", "_")][0]["contact"]["peak_pressure"]
-error = abs(peak / found["hertz"]["peak_pressure"] - 1.0)
-assert error < 0.02, f"misses Hertz's pressure by {100.0 * error:.2g} %"
-print(f"coarse smooth contact within {100.0 * error:.2f} % of Hertz's")"""
-
-
-# Programs, a process each, that print the version of an item if it works, and fail otherwise.
-TRIALS = {
-    "numpy and scipy": """import numpy, scipy, scipy.fft
-assert numpy.linalg.solve([[2.0]], [4.0]) == 2.0, "solves wrongly"
-assert abs(scipy.fft.irfft(scipy.fft.rfft([1.0, 2.0])) - [1.0, 2.0]).max() < 1e-12, "wrong FFT"
-print(numpy.__version__, "and", scipy.__version__)""",
-    "dolfinx": """import dolfinx, dolfinx.fem, ufl; from mpi4py import MPI
-square = dolfinx.mesh.create_unit_square(MPI.COMM_SELF, 1, 1)
-area = dolfinx.fem.form(dolfinx.fem.Constant(square, 1.0) * ufl.dx)
-assert abs(dolfinx.fem.assemble_scalar(area) - 1.0) < 1e-12, "integrates wrongly"
-print(dolfinx.__version__)""",
-    "petsc4py": """from petsc4py import PETSc
-matrix = PETSc.Mat().createAIJ([1, 1], comm=PETSc.COMM_SELF); matrix.setUp()
-matrix[0, 0] = 2.0; matrix.assemble()
-right, solution = matrix.createVecLeft(), matrix.createVecRight(); right.set(4.0)
-solver = PETSc.KSP().create(PETSc.COMM_SELF); solver.setOperators(matrix)
-solver.getPC().setType("cholesky"); solver.getPC().setFactorSolverType("mumps")
-solver.solve(right, solution)
-assert abs(solution.getArray()[0] - 2.0) < 1e-12, "MUMPS solves wrongly"
-print(".".join(map(str, PETSc.Sys.getVersion())), "with MUMPS")""",
-    "MPI": """import mpi4py; from mpi4py import MPI
-count = MPI.COMM_WORLD.allreduce(1)
-assert count == 2, f"2 processes see {count}"
-if MPI.COMM_WORLD.rank == 0: print(mpi4py.__version__, MPI.Get_library_version().split(",")[0])""",
-    "gmsh": """import gmsh; gmsh.initialize(["gmsh", "-v", "0"])
-gmsh.model.occ.addRectangle(0.0, 0.0, 0.0, 1.0, 1.0); gmsh.model.occ.synchronize()
-gmsh.model.mesh.generate(2)
-print(gmsh.__version__)""",
-    "pyvista": """import pyvista, vtk
-plotter = pyvista.Plotter(off_screen=True, window_size=(64, 64))
-plotter.add_mesh(pyvista.Sphere(), color="red")
-assert plotter.screenshot(None, return_img=True).std() > 1.0, "draws nothing"
-print(f"{pyvista.__version__}, VTK {vtk.vtkVersion.GetVTKVersion()}")""",
-    "others": """import io; from importlib.metadata import version
-import jinja2, meshio, pint, pydantic, rich, typer; from matplotlib.figure import Figure
-Figure().add_subplot(projection="3d").figure.savefig(io.BytesIO())
-names = ("jinja2", "matplotlib", "meshio", "pint", "pydantic", "rich", "typer")
-print(", ".join(f"{name} {version(name)}" for name in names))""",
-    "half-plane": f"MODEL = 'half-plane'\n{CONTACT}",
-    "finite elements": f"MODEL = 'finite-element'\n{CONTACT}",
-}
 STARTED_BY = {"MPI": ("mpirun", "-n", "2")}  # the interpreter that runs a trial
+MODELS = {"half-plane": "half-plane", "finite elements": "finite-element"}
 REMEDY = "./crosscheck installs everything anew once its folder .venv is removed."
 
 
@@ -96,6 +47,14 @@ class Finding:
     detail: str
 
 
+@cache
+def trials() -> dict[str, str]:
+    """Programs by item, a process each: they print its version if it works, and fail otherwise."""
+    programs = tomllib.loads(Path(__file__).with_name("doctor.toml").read_text(encoding="utf-8"))
+    contact = programs.pop("contact")
+    return programs | {name: f"MODEL = {model!r}\n{contact}" for name, model in MODELS.items()}
+
+
 @job
 def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False) -> int:
     """Show what is installed, what is missing, and how to get it."""
@@ -104,16 +63,14 @@ def doctor(as_json: Annotated[bool, json_option("the findings as JSON")] = False
     findings = [Finding("Python", True, f"{platform.python_version()}, {sys.executable}")]
     findings.append(Finding("crosscheck", True, f"{revision() or 'no revision'}, {PROJECT}"))
     with progress() as callback, ThreadPoolExecutor(2) as pool:
-        for number, finding in enumerate(pool.map(attempt, TRIALS, TRIALS.values()), start=1):
+        programs = trials()
+        for number, finding in enumerate(pool.map(attempt, programs, programs.values()), start=1):
             findings.append(finding)
-            callback(Step(f"tried {finding.name}", number / len(TRIALS)))
+            callback(Step(f"tried {finding.name}", number / len(programs)))
     works = all(finding.ok for finding in findings)
-    if as_json:
-        show_json([asdict(finding) for finding in findings])
-    else:
-        show(findings_table(findings))
-        if not works:
-            print(REMEDY)
+    show_either(as_json, [asdict(each) for each in findings], lambda: findings_table(findings))
+    if not (works or as_json):
+        print(REMEDY)
     return ExitStatus.DONE if works else ExitStatus.SOMETHING_MISSING
 
 

@@ -4,7 +4,7 @@ import json
 import math
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
@@ -83,6 +83,14 @@ def show(renderable: object) -> None:
 def say(sentence: str) -> None:
     """Print to standard error what the user should know but is no failure of the command."""
     tell(sentence)
+
+
+def show_either(as_json: bool, content: object, table: Callable[[], object]) -> None:
+    """Print the content as JSON, or the table that `table` makes."""
+    if as_json:
+        show_json(content)
+    else:
+        show(table())
 
 
 def show_file(path: Path) -> None:

@@ -10,13 +10,14 @@ import typer
 
 from comparisons.commands.arguments import (
     RESULTS,
+    Junit,
+    Models,
     Scene,
-    complete_models,
     job,
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, say, show, show_json
+from comparisons.commands.output import progress, say, show_either
 from comparisons.common.errors import SceneError
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.quantities import HYPHENATED, models_named
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
     from comparisons.scenes.scene import ResolvedScene
 
+BOTH = ",".join(HYPHENATED.values())
 Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 
 
@@ -34,12 +36,7 @@ Fields = Literal["auto", "vtu", "vtkhdf", "msh"]
 def run(
     scene: Scene,
     out: Annotated[Path | None, out_option("results", "<name>")] = None,
-    models: Annotated[
-        str,
-        typer.Option(
-            help="Models to solve with, separated by commas.", autocompletion=complete_models
-        ),
-    ] = ",".join(HYPHENATED.values()),
+    models: Models = BOTH,
     tolerance: Annotated[
         float | None,
         typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
@@ -47,9 +44,7 @@ def run(
     fields: Annotated[
         Fields, typer.Option(help="File format of the stress fields; auto is by their size.")
     ] = "auto",
-    junit: Annotated[
-        Path | None, typer.Option(help="File for JUnit XML: a testcase for each judged figure.")
-    ] = None,
+    junit: Junit = None,
     workers: Annotated[
         str | None,
         typer.Option(help="A Dask scheduler's address: it solves the samples of [scatter]."),
@@ -67,6 +62,7 @@ def run(
 
     with uncollected():
         from comparisons.report.junit import check_place, junit_xml, run_cases_of, write_junit
+        from comparisons.report.terminal import summary
         from comparisons.results.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.resolve import load_scene, with_tolerance
@@ -94,12 +90,7 @@ def run(
     if junit is not None:
         seconds = perf_counter() - began
         write_junit(junit, junit_xml(resolved.name, run_cases_of(outcome), seconds))
-    if as_json:
-        show_json(outcome.result)
-    else:
-        from comparisons.report.terminal import summary
-
-        show(summary(outcome))
+    show_either(as_json, outcome.result, lambda: summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
 

@@ -1,12 +1,14 @@
-"""`crosscheck scenes`: what comes along; `crosscheck deck`: a scene for another code."""
+"""Scene files: `crosscheck scenes` lists those that come along, `init` writes one for a measured
+profile, `deck` hands one to another code."""
 
+import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
 from comparisons.commands.arguments import RESULTS, Scene, job, json_option, out_option
-from comparisons.commands.output import show_json
+from comparisons.commands.output import show, show_json
 from comparisons.common.errors import ExitStatus
 
 Code = Literal["calculix", "abaqus", "fenicsx"]
@@ -24,6 +26,74 @@ def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = F
     width = max(map(len, titles))
     for name, title in titles.items():
         print(f"{name:{width}}  {title}")
+    return ExitStatus.DONE
+
+
+@job
+def init(
+    profile: Annotated[Path, typer.Argument(help="A file with a measured profile.")],
+    out: Annotated[
+        Path | None, typer.Option(help="The scene's file.", show_default="PROFILE.toml")
+    ] = None,
+    x_unit: Annotated[str | None, typer.Option(help="Unit of positions, such as um.")] = None,
+    z_unit: Annotated[str | None, typer.Option(help="Unit of heights, such as um.")] = None,
+    spacing: Annotated[
+        str | None, typer.Option(help='Of samples of heights alone, such as "0.5 um".')
+    ] = None,
+    columns: Annotated[
+        str | None, typer.Option(help="Of x and height in a table: names or numbers, as 0,2.")
+    ] = None,
+    channel: Annotated[
+        str | None, typer.Option(help="Of a file with several; a sheet of an xlsx.")
+    ] = None,
+    row: Annotated[int | None, typer.Option(help="Of an areal map, counted from 0.")] = None,
+    column: Annotated[int | None, typer.Option(help="Of an areal map instead.")] = None,
+    radius: Annotated[str | None, typer.Option(help='Of the roller, such as "8.2 mm".')] = None,
+    load: Annotated[
+        str | None, typer.Option(help='Per length, such as "3.85 N/um".', show_default="an example")
+    ] = None,
+    peak_pressure: Annotated[
+        str | None, typer.Option(help="By Hertz, instead of the load, such as 1GPa.")
+    ] = None,
+    friction: Annotated[str | None, typer.Option(help="Coefficient.")] = None,
+    youngs_modulus: Annotated[
+        str | None, typer.Option(help='Of both bodies, such as "207 GPa".')
+    ] = None,
+    poissons_ratio: Annotated[str | None, typer.Option(help="Of both bodies.")] = None,
+    hardness: Annotated[str | None, typer.Option(help="Of the rough body, as a pressure.")] = None,
+    picture: Annotated[
+        bool, typer.Option(help="Draw trace, power spectrum and bearing curve beside the scene.")
+    ] = True,
+    force: Annotated[bool, typer.Option("--force", help="Replace the scene's file.")] = False,
+    as_json: Annotated[bool, json_option("what was found as JSON")] = False,
+) -> int:
+    """Look at a measured profile and write a commented scene for it."""
+    from comparisons.studies.init.first_scene import (
+        columns_of,
+        given_fields,
+        given_sections,
+        write_first_scene,
+    )
+
+    options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
+    options |= {"channel": channel, "columns": columns and columns_of(columns)}
+    bodies = {"radius": radius, "load": load, "peak_pressure": peak_pressure, "friction": friction}
+    bodies |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
+    sections = given_sections(bodies | {"hardness": hardness})
+    fields = given_fields(options)
+    made = write_first_scene(profile, out, fields, force, sections, draw=picture)
+    if as_json:
+        show_json(made.as_dict())
+        return ExitStatus.DONE
+    from comparisons.models.problem import problem_of
+    from comparisons.report.terminal import PLAIN
+    from comparisons.studies.init.profile_view import init_table
+    from comparisons.studies.maps.place import first_answer
+
+    unicode = (sys.stdout.encoding or "ascii").lower().startswith("utf")
+    show(init_table(made))
+    for line in first_answer(problem_of(made.scene)):
+        print(line if unicode else line.translate(PLAIN))
     return ExitStatus.DONE
 
 

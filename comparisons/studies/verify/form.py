@@ -10,6 +10,7 @@ import io
 import json
 import math
 import re
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cache
@@ -28,7 +29,7 @@ from comparisons.studies.verify.rough import FEW, LAYERED, RoughBody, rough_cont
 from comparisons.studies.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 
 if TYPE_CHECKING:
-    from rich.table import Table
+    from rich.console import Group
 
 COLUMNS = ("case", "quantity", "unit", "expected", "tolerance", "answer", "uncertainty")
 TOLERANCE = 0.01  # of the form as it is written; whoever fills it in may tighten it
@@ -155,30 +156,29 @@ def judged_form(path: Path) -> JudgedForm:
     return JudgedForm(tuple(rows), empty)
 
 
-def form_table(judged: JudgedForm) -> "Table":
-    """The sheet for a terminal."""
+def form_table(judged: JudgedForm) -> "Group":
+    """For rich: the sheet, and how many rows came out how."""
+    from rich.console import Group
+
     from comparisons.report.terminal import plain_table
 
-    words = "case", "quantity"
     numbers = "expected", "answer", "error, %", "uncert., %", "tol., %", "verdict", "covered"
-    table = plain_table(*words, numbers=numbers)
+    table = plain_table("case", "quantity", numbers=numbers)
     for row in judged.rows:
-        unit = QUANTITIES[row.quantity].unit if row.quantity in QUANTITIES else "m"
-        values = (f"{value:.5g} {unit}" for value in (row.expected, row.answer))
+        values = (f"{value:.5g} {unit_of(row.quantity)}" for value in (row.expected, row.answer))
         shares = (f"{100 * value:.3g}" for value in (row.error, row.uncertainty, row.tolerance))
-        table.add_row(
-            row.case, row.quantity, *values, *shares, row.verdict, "yes" if row.covered else "no"
-        )
-    return table
-
-
-def summary_line(judged: JudgedForm) -> str:
-    counts = dict.fromkeys(("agree", "differ", "inconclusive"), 0)
-    for row in judged.rows:
-        counts[row.verdict] += 1
-    listed = ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+        covered = "yes" if row.covered else "no"
+        table.add_row(row.case, row.quantity, *values, *shares, row.verdict, covered)
+    counts = Counter(row.verdict for row in judged.rows)
+    listed = ", ".join(f"{counts[v]} {v}" for v in ("agree", "differ", "inconclusive"))
     covered = sum(row.covered for row in judged.rows)
-    return f"{listed}; {covered} within their own uncertainty; {judged.empty} not filled in"
+    return Group(
+        table, f"{listed}; {covered} within their own uncertainty; {judged.empty} not filled in"
+    )
+
+
+def unit_of(quantity: str) -> str:
+    return QUANTITIES[quantity].unit if quantity in QUANTITIES else "m"
 
 
 def _number(given: Mapping[str, str], column: str, where: str, least: float = -math.inf) -> float:
@@ -200,9 +200,8 @@ def _form(cases: tuple[FormCase, ...]) -> str:
     writer.writerow(COLUMNS)
     for case in cases:
         for quantity, value in case.exact.items():
-            unit = QUANTITIES[quantity].unit if quantity in QUANTITIES else "m"
             expected = f"{value:.{DIGITS}g}"
-            writer.writerow((case.name, quantity, unit, expected, TOLERANCE, "", ""))
+            writer.writerow((case.name, quantity, unit_of(quantity), expected, TOLERANCE, "", ""))
     return file.getvalue()
 
 

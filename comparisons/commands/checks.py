@@ -1,19 +1,40 @@
-"""`crosscheck verify`: both models, or another code, against exact solutions."""
+"""`crosscheck verify` and `crosscheck stability`: what must hold before anything is believed."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from comparisons.commands.arguments import RESULTS, job, json_option, out_option
-from comparisons.commands.output import progress, show, show_file, show_json
+from comparisons.commands.arguments import RESULTS, Junit, job, json_option, out_option
+from comparisons.commands.output import progress, show, show_either, show_file
 from comparisons.common.errors import ExitStatus, InputError
+
+
+@job
+def stability(
+    out: Annotated[Path | None, out_option("rows", "stability")] = None,
+    junit: Junit = None,
+    as_json: Annotated[bool, json_option("stability.json")] = False,
+) -> int:
+    """Solve the stiff and extreme cases; end with 0 only if every one holds."""
+    from comparisons.studies.checks import rows_table, verdict_lines
+    from comparisons.studies.robustness.run import run_robustness
+
+    directory = out or RESULTS / "stability"
+    with progress() as callback:
+        study = run_robustness(directory, junit, callback)
+    if as_json:
+        show_file(directory / "stability.json")
+    else:
+        show(rows_table(study.rows))
+        show(verdict_lines(study))
+    return study.exit_status
 
 
 @job
 def verify(
     out: Annotated[Path | None, out_option("figures", "verify")] = None,
-    junit: Annotated[Path | None, typer.Option(help="File for JUnit XML.")] = None,
+    junit: Junit = None,
     export: Annotated[
         Path | None, typer.Option(help="Only write the exact cases for other codes to this folder.")
     ] = None,
@@ -31,14 +52,10 @@ def verify(
         print(f"{export_form(export)} cases; {export / 'README.md'} says how to answer")
         return ExitStatus.DONE
     if answers is not None:
-        from comparisons.studies.verify.form import form_table, judged_form, summary_line
+        from comparisons.studies.verify.form import form_table, judged_form
 
         judged = judged_form(answers)
-        if as_json:
-            show_json(judged.as_dict())
-        else:
-            show(form_table(judged))
-            print(summary_line(judged))
+        show_either(as_json, judged.as_dict(), lambda: form_table(judged))
         return judged.exit_status
     from comparisons.studies.verify.pages import verify_summary
     from comparisons.studies.verify.run import verify as verify_all

@@ -1,0 +1,86 @@
+"""Of finished runs: `crosscheck report` draws them again, `rerun` repeats one from its own record,
+`table` puts many into one table."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import RESULTS, job, json_option
+from comparisons.commands.output import progress, say, show_either, show_json
+from comparisons.common.errors import ExitStatus
+from comparisons.common.mpi import from_first
+
+
+@job
+def report(
+    folders: Annotated[
+        list[Path], typer.Argument(metavar="DIR...", help="Folders that runs have left.")
+    ],
+    summary: Annotated[
+        Path | None,
+        typer.Option(
+            help="Page over all runs; given by name, no report is drawn again.",
+            show_default="results/summary.html, of several DIR",
+        ),
+    ] = None,
+    pdf: Annotated[bool, typer.Option("--pdf", help="Print each report to PDF, too.")] = False,
+    as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
+) -> int:
+    """Draw reports again from result files, without solving; sum many runs up on one page."""
+    from comparisons.report.redraw import draw_again, reports_content, reports_table
+
+    draws = summary is None
+    if draws and len(folders) > 1:
+        summary = RESULTS / "summary.html"
+    with progress() as callback:
+        reports = from_first(lambda: draw_again(folders, summary, pdf, callback, draws))
+    content = reports_content(reports, summary)
+    show_either(as_json, content, lambda: reports_table(reports, summary))
+    for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):
+        say(why)
+    return ExitStatus.DONE
+
+
+@job
+def rerun(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that a run has left.")],
+    out: Annotated[Path | None, typer.Option(help="Folder that keeps the repetition.")] = None,
+    as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
+) -> int:
+    """Repeat a recorded run from its own record; report every figure that moved."""
+    from comparisons.runs.rerun import rerun as repeat
+    from comparisons.runs.rerun import rerun_summary
+
+    with progress() as callback:
+        repetition = repeat(folder, out, callback)
+    show_either(as_json, repetition.as_dict(), lambda: rerun_summary(repetition))
+    return repetition.exit_status
+
+
+@job
+def table(
+    folders: Annotated[
+        list[Path], typer.Argument(metavar="DIR...", help="Folders with runs in or below them.")
+    ],
+    out: Annotated[
+        Path | None, typer.Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the rows as JSON.")] = False,
+) -> int:
+    """Put the figures of many runs into one table: a row a run, friction and quantity."""
+    from comparisons.results.flat_table import as_csv, check_ending, tidy_rows, write_table
+
+    if out is not None:
+        check_ending(out)
+    rows = tidy_rows(folders)
+    if out is not None:
+        write_table(out, rows)
+    if as_json:
+        show_json(rows)
+    elif out is None:
+        print(as_csv(rows), end="")
+    else:
+        runs = len({row["run"] for row in rows})
+        print(f"{len(rows)} rows of {runs} run{'s' * (runs != 1)} in {out}")
+    return ExitStatus.DONE

@@ -1,0 +1,156 @@
+"""Studies, each with files of its own: `crosscheck cost`, `map` and `sweep` of a scene, and `paper`
+of four that come along."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from comparisons.commands.arguments import (
+    RESULTS,
+    Models,
+    Scene,
+    complete_groups,
+    complete_maps,
+    complete_quantities,
+    complete_scenes,
+    job,
+    json_option,
+    out_option,
+)
+from comparisons.commands.output import progress, show, show_either, show_file
+from comparisons.common.errors import ExitStatus
+from comparisons.common.mpi import from_first
+
+Axis = Annotated[
+    str | None,
+    typer.Option(
+        help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=complete_groups
+    ),
+]
+MAPPED = "As for `run`, or the name of a finished map."
+
+
+@job
+def cost(
+    scene: Scene,
+    out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
+    repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
+    as_json: Annotated[bool, json_option("cost.json")] = False,
+) -> int:
+    """Measure error against time of every method; name the cheapest for each tolerance."""
+    from comparisons.scenes.resolve import load_scene
+    from comparisons.studies.cost.cost import cost as measured_cost
+    from comparisons.studies.cost.page import cost_table
+
+    resolved = load_scene(scene)
+    directory = out or RESULTS / f"{resolved.name}-cost"
+    with progress() as callback:
+        found = measured_cost(resolved, directory, repeats, callback)
+    if as_json:
+        show_file(directory / "cost.json")
+    else:
+        show(cost_table(found))
+        print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
+    return ExitStatus.DONE
+
+
+@job
+def map_of(
+    scene: Annotated[str, typer.Argument(help=MAPPED, autocompletion=complete_maps)],
+    points: Annotated[
+        str | None, typer.Option(help="Values along x and y, as NxM.", show_default="8x8")
+    ] = None,
+    x: Axis = None,
+    y: Axis = None,
+    quantity: Annotated[
+        str, typer.Option(help="The quantity to show.", autocompletion=complete_quantities)
+    ] = "peak_pressure",
+    workers: Annotated[
+        str | None,
+        typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
+    ] = None,
+    mark: Annotated[
+        str | None,
+        typer.Option(help="A scene to be marked on the map.", autocompletion=complete_scenes),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="Solve a finished map's points anew.")
+    ] = False,
+    out: Annotated[Path | None, out_option("map", "<name>")] = None,
+    as_json: Annotated[bool, json_option("map.json")] = False,
+) -> int:
+    """Map where the half-plane holds, over two dimensionless groups."""
+    from comparisons.studies.maps.content import map_table
+    from comparisons.studies.maps.make import exit_status, make_map_by, show_finished
+    from comparisons.studies.maps.place import finished_names, problem_named
+    from comparisons.studies.maps.request import SIZE, request_of
+
+    marked = mark and from_first(lambda: problem_named(mark))
+    is_own = again or any(given is not None for given in (points, x, y, workers))
+    if scene in finished_names() and not is_own:
+        directory = out or RESULTS / scene
+        content = from_first(lambda: show_finished(scene, quantity, marked, directory))
+    else:
+        request = from_first(lambda: request_of(scene, points or SIZE, x, y, quantity))
+        directory = out or RESULTS / request.name
+        with progress() as callback:
+            content = make_map_by(workers, request, directory, callback, marked)
+    if content is None:  # it worked for the first process
+        return ExitStatus.DONE
+    show_either(as_json, content, lambda: map_table(content, directory))
+    return exit_status(content)
+
+
+@job
+def sweep(
+    scene: Scene,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            help="position=40 (placements along the trace), FIELD=A,B,C or FIELD=FROM:TO:N; "
+            "several make every combination."
+        ),
+    ],
+    models: Models = "half-plane",
+    workers: Annotated[
+        int | None, typer.Option(help="Processes.", show_default="one a core", min=1)
+    ] = None,
+    out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
+    as_json: Annotated[bool, json_option("sweep.json")] = False,
+) -> int:
+    """Solve a scene at many values of its fields: one placement is not a surface."""
+    from comparisons.common.quantities import models_named
+    from comparisons.scenes.files import find_scene, read_toml
+    from comparisons.studies.sweep.request import sweep_request
+    from comparisons.studies.sweep.study import make_sweep, sweep_table
+
+    chosen = models_named(models, "--models")
+    path = find_scene(scene)
+    name = path.stem.strip(". ") or "scene"
+    place = {"name": name, "folder": path.parent, "source": scene}
+    request = sweep_request(read_toml(path), over, chosen, **place)
+    directory = out or RESULTS / f"sweep-{name}"
+    with progress() as callback:
+        content = make_sweep(request, directory, workers, callback)
+    show_either(as_json, content, lambda: sweep_table(content, directory))
+    return ExitStatus.DONE
+
+
+@job
+def paper(
+    out: Annotated[Path | None, out_option("page", "paper")] = None,
+    effects: Annotated[
+        bool,
+        typer.Option("--effects", help="compute the half-plane's model error beside each claim"),
+    ] = False,
+    as_json: Annotated[bool, json_option("paper.json")] = False,
+) -> int:
+    """Compute Bailey and Sayles' (1991) figures anew; judge each claim by its number."""
+    from comparisons.studies.paper.claim_table import paper_table
+    from comparisons.studies.paper.reproduce import paper as reproduced
+
+    with progress() as callback:
+        found = reproduced(out or RESULTS / "paper", callback=callback, effects=effects)
+    show_either(as_json, found.as_dict(), lambda: paper_table(found))
+    return found.exit_status
