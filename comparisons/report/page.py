@@ -26,6 +26,7 @@ from comparisons.report.tables.comparison import comparison_rows, coupling_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
+from comparisons.report.tables.quiescent_zone import zone_table
 from comparisons.report.tables.scatter import scatter_table
 from comparisons.report.tables.text import is_shown
 from comparisons.report.tables.verification import (
@@ -88,6 +89,7 @@ def render(outcome: Outcome) -> str:
         model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),
+        zone=zone_table(outcome),
         answers=[
             (each.name, answer_table(outcome, each), answer_facts(each), measured_table(each))
             for each in outcome.answers

@@ -16,6 +16,7 @@ from comparisons.report.tables.answers import answer_facts, answer_rows
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
 from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
+from comparisons.report.tables.quiescent_zone import zone_line
 from comparisons.report.tables.scatter import scatter_lines
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
@@ -197,6 +198,8 @@ def _facts(outcome: Outcome) -> "Table":
     rows += [("inputs", line) for line in scatter_lines(outcome)]
     if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
+    if (zone := zone_line(outcome)) is not None:
+        rows.append(("quiescent zone", zone))
     if (flow := outcome.flow).ratio is not None:
         rows.append(("yield", yield_text(flow)))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}

@@ -15,6 +15,7 @@ from comparisons.assessment.effects.error_budget import (
     error_budget,
 )
 from comparisons.assessment.normal_tangential_coupling import Coupling, couplings
+from comparisons.assessment.quiescent_zone import quiescent_zones
 from comparisons.assessment.refinement import refined
 from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.verdict import Comparison
@@ -147,6 +148,7 @@ def solve(
         cache.discard()
         raise
     result = result_of(problem, plan, runs, rows, stop, moved, budget, scatter)
+    result["quiescent_zone"] = quiescent_zones(problem, runs, window)
     hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
     run_in = problem.scene.run_in
     if run_in is not None:

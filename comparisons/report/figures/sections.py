@@ -9,6 +9,7 @@ from comparisons.common.numbers import decimal, plain, significant
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures import style
 from comparisons.report.figures.pressures import peak_position, reference_level
+from comparisons.report.tables.quiescent_zone import zone_entries
 from comparisons.results.outcome import Outcome
 
 if TYPE_CHECKING:
@@ -95,10 +96,15 @@ def _section(axes: "Axes", outcome: Outcome, column: int, friction: float, depth
     hertz = outcome.problem.hertz
     x, z = outcome.window.x[column], outcome.window.z
     shown = z <= 1.000001 * depth * hertz.half_width
+    first = next(iter(outcome.runs))
     for name in outcome.levels(friction):
         values = _tau1(outcome, name, friction, column)[shown]
         axes.plot(z[shown] / hertz.half_width, values, label=LABELS[name], **style.LINES[name])
     exact = hertz_stress(hertz, x, z[shown], friction).tau1 / hertz.peak_pressure
     axes.plot(z[shown] / hertz.half_width, exact, label="Hertz, exact", **style.REFERENCE)
+    for model, entry in zone_entries(outcome):
+        if entry["friction"] == friction and entry["start"]["value"] and model == first:
+            ends = (entry[name]["value"] / hertz.half_width for name in ("start", "stop"))
+            axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
     axes.set_xlim(0.0, depth)
     axes.locator_params(axis="x", nbins=6)

@@ -15,6 +15,7 @@ from analytic.stress.points import stress_at
 from analytic.stress.potential import Element
 from analytic.stress_state import Extremum, StressState
 from comparisons.assessment.comparison import layer_thickness
+from comparisons.assessment.quiescent_zone import ShearDip, shear_dip, zone_of
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -24,7 +25,6 @@ from comparisons.studies.paper.claims.zones import (
     joining_level,
     share_joined,
     top_of_zone,
-    valley,
 )
 
 NEAR, DEEP = 0.1, 0.5  # a: asperities shear above the one, the smooth contact below the other
@@ -186,10 +186,21 @@ def peak_column(view: LevelView) -> int:
 
 def low_layer(view: LevelView) -> float:
     """Least tau1 between asperity and depth on that vertical, over the smaller of both maxima."""
-    column = view.stress(0.0).tau1[:, peak_column(view)]
-    shallow = np.argmax(np.where(view.z <= NEAR, column, -np.inf))
-    deep = np.argmax(np.where(view.z >= DEEP, column, -np.inf))
-    return valley(column, int(shallow), int(deep))
+    return shear_dip(view.z, view.stress(0.0).tau1[:, peak_column(view)], DEEP).ratio
+
+
+def zone_ratio(friction: float) -> Reading:
+    """Least mean shear of the quiescent zone over the smaller of the maxima above and below."""
+    return lambda view: _zone(view, friction).ratio
+
+
+def zone_end(name: str) -> Reading:
+    """Where the quiescent zone begins (start) or ends (stop) without friction [a]."""
+    return lambda view: getattr(_zone(view, 0.0), name) / view.problem.hertz.half_width
+
+
+def _zone(view: LevelView, friction: float) -> ShearDip:
+    return zone_of(view.problem, view.level, view.window, friction, view.every)
 
 
 def reach_against_smooth(level: float) -> Reading:

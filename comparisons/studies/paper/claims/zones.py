@@ -82,9 +82,3 @@ def highest_point(field: np.ndarray, part: np.ndarray) -> tuple[int, int]:
     """Row and column of the field's largest value inside `part`, (m, 1) or (m, k)."""
     row, column = np.unravel_index(np.argmax(np.where(part, field, -np.inf)), field.shape)
     return int(row), int(column)
-
-
-def valley(column: np.ndarray, first: int, second: int) -> float:
-    """Least value between two rows of a column (m,), over the smaller of the values at both."""
-    low, high = sorted((first, second))
-    return float(np.min(column[low : high + 1]) / min(column[first], column[second]))

@@ -19,7 +19,6 @@ from comparisons.studies.paper.claims.zones import (
     joining_level,
     share_joined,
     top_of_zone,
-    valley,
     zone,
 )
 
@@ -74,11 +73,6 @@ class TestZones:
     def test_a_path_may_go_over_corners(self):
         field = np.array([[5.0, 0.0], [0.0, 5.0]])
         assert zone(field, 5.0, (0, 0)).tolist() == [[True, False], [False, True]]
-
-    def test_valley_between_two_places(self):
-        column = np.array([0.0, 4.0, 1.0, 2.0, 5.0])
-        assert valley(column, 1, 4) == valley(column, 4, 1) == 0.25
-        assert valley(column, 3, 4) == 1.0
 
 
 def hertz_level(pitch: float, fields, wave: float = 0.0) -> Level:
@@ -179,6 +173,12 @@ class TestReadings:
         assert r.open_to_surface(0.1)(view) == pytest.approx(0.2 / view.smooth_maximum)
         assert r.open_to_surface(0.0)(view) < 0.5
         assert r.low_layer(view) < 0.5
+
+    def test_a_sheared_layer_has_a_zone_below_it_until_the_shear_reaches_down(self):
+        layer = 0.3 * np.exp(-((WINDOW.z / (0.02 * A)) ** 2))[:, None] + 0.0 * WINDOW.x
+        view = view_of({0.0: np.maximum(smooth_tau1(), layer), 0.1: smooth_tau1() + 0.5})
+        assert r.zone_ratio(0.0)(view) < 0.4 and r.zone_ratio(0.1)(view) > 0.9
+        assert 0.0 < r.zone_end("start")(view) < 0.04 < r.zone_end("stop")(view) < 0.6
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})
