@@ -27,8 +27,8 @@ from scipy.fft import dst
 
 from analytic.contact.smooth_pressure import contact_ends, curve_between, nodal_values
 from analytic.stress.elements import FrictionStress
-from analytic.stress.points import friction_stress_at
 from analytic.stress.potential import stresses
+from analytic.stress.tree import LoadedLine, tree_stress
 from analytic.stress_state import StressState
 
 REACH = 8.0  # pitches from an end: beyond, hats are right to 2e-4 of the largest stress
@@ -81,14 +81,14 @@ class EndStress:
         """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z [m] (broadcast together),
         z >= 0; zero far from any end."""
         x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
-        reach, found = REACH * (self.x_nodes[1] - self.x_nodes[0]), np.zeros((4, *x.shape))
+        pitch, found = self.x_nodes[1] - self.x_nodes[0], np.zeros((4, *x.shape))
         for patch in self.patches:
             away = np.minimum(*(np.abs(x - end) for end in patch.ends))
-            near = np.hypot(away, z) < reach
+            near = np.hypot(away, z) < REACH * pitch
             if near.any():
                 own, at = slice(patch.first, patch.last + 1), (x[near], z[near])
-                hats = friction_stress_at(self.x_nodes[own], self.pressure[own], *at)
-                found[:, near] += patch.parts(*at) - hats.parts
+                hats = LoadedLine(self.x_nodes[own], self.pressure[own], pitch, "hat")
+                found[:, near] += patch.parts(*at) - tree_stress(hats, *at)
         return found
 
     def at(self, friction: float) -> Callable[[ArrayLike, ArrayLike], StressState]:

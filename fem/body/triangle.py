@@ -122,6 +122,7 @@ class Locator:
 
     def __init__(self, points: np.ndarray, triangles: np.ndarray, curved: bool) -> None:
         self.points, self.triangles, self.curved = points, triangles, curved
+        self._last: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     @cached_property
     def _centres(self) -> cKDTree:
@@ -140,7 +141,13 @@ class Locator:
         return across.reshape(count, 3)
 
     def __call__(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Element (k,), -1 outside the body, and reference coordinates (k, 2) of points (k, 2)."""
+        """Element (k,), -1 outside the body, and reference coordinates (k, 2) of points (k, 2).
+        The last ones are known: other loads ask for the same points."""
+        if self._last is None or not np.array_equal(self._last[0], where):
+            self._last = where, *self._located(where)
+        return self._last[1:]
+
+    def _located(self, where: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         _, element = self._centres.query(where)
         at = self._reference(element, where)
         lost = np.flatnonzero(_outside(at) > ROUNDING)

@@ -274,8 +274,10 @@ class FiniteCompliance:
         raise FemError(f"forces of {rest:.1e} are left after {MOST_CORRECTIONS} corrections")
 
     def solution(self, pressure: np.ndarray, approach: float) -> NonlinearSolution:
-        """The state of the last pressure, at the `approach` [m] that belongs to it."""
+        """The state of the last pressure, at the `approach` [m] that belongs to it. Raises FemError
+        where an element is inverted."""
         contact, moved = self._contact, self.displacement
+        contact.response.accept(moved)
         load = float(contact.weights @ pressure)
         gap = contact.contact.loaded(moved, pressure)[0] / contact.weights - approach
         state = ContactState((moved,), pressure, approach, load)

@@ -64,28 +64,28 @@ class HyperelasticBody:
         """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric. Raises FemError if the
         displacement inverts an element."""
         force = self.force(displacement)
+        self.accept(displacement)
         tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))
         return force, self._unit * tangent
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
-        """The internal forces alone."""
+        """The internal forces alone. Raises FemError where they are not finite."""
         self._moved.x.array[:] = displacement.ravel()[self._component]
         force = np.empty(displacement.size)
         force[self._component] = compat.assembled_vector(self._work)
-        if not np.isfinite(force).all() or self._inverted(displacement):
+        if not np.isfinite(force).all():
             raise FemError("an element is inverted")
         return self._unit * force.reshape(-1, 2)
 
     def accept(self, displacement: np.ndarray) -> None:
-        """No history: the energy depends on the displacement alone."""
-
-    def _inverted(self, displacement: np.ndarray) -> bool:
-        """At a corner; laws in ln J find it inside, too."""
+        """Raises FemError if it inverts an element at a corner; laws in ln J find it inside, too.
+        There is no history: the energy depends on the displacement alone."""
         moved = [u[self.body.elements] @ self._slopes for u in displacement.T]
         (x_r, x_s), (z_r, z_s) = (
             np.split(at + u, 2, axis=1) for at, u in zip(self._jacobian, moved, strict=True)
         )
-        return bool(np.any(x_r * z_s - x_s * z_r <= 0.0))
+        if np.any(x_r * z_s - x_s * z_r <= 0.0):
+            raise FemError("an element is inverted")
 
     def _in_our_order(self, matrix) -> csr_matrix:
         """The matrix (2n, 2n) in the order of the body's own nodes."""

@@ -13,9 +13,10 @@ from comparisons.common.progress import Stages
 from comparisons.models.finite_element.mesh import (
     Refinement,
     block_spec,
-    boundary_key,
+    roller_key,
     roller_mesh,
     roller_spec,
+    rough_key,
     rough_mesh,
 )
 from comparisons.models.plan import Plan
@@ -28,7 +29,7 @@ from meshes.build import build_block
 Result = TypeVar("Result")
 
 UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
-HELD = 2  # of the body and of the roller
+HELD = 3  # a rough body, and what presses it in two sets of effects
 
 
 @dataclass(frozen=True)
@@ -118,7 +119,7 @@ def bodies_of(
     with stages.stage("mesh", "finite elements: mesh"):
         flat = body_cache.mesh(spec)
         mesh = rough_mesh(problem, flat)
-    shape = _key(spec) if mesh is flat else (_key(spec), boundary_key(problem))
+    shape = _key(spec) if mesh is flat else (_key(spec), rough_key(problem))
     coating = scene.coating and Coating(scene.coating.material, scene.coating.thickness)
     rough = body(mesh, shape, scene.body, support, coating)
     if scene.roller is None:
@@ -131,7 +132,7 @@ def bodies_of(
         flat = body_cache.mesh(wanted)
         mesh = roller_mesh(problem, flat)
     # flat, it is that of a flat rough body, if they are alike
-    shape = _key(wanted) if mesh is flat else (_key(wanted), "roller", boundary_key(problem))
+    shape = _key(wanted) if mesh is flat else (_key(wanted), roller_key(problem))
     within = beyond * wanted.half_width, beyond * wanted.depth
     support = Support("bonded", UNBOUNDED_SIDES, within)
     if settings.roller_body == "disc":

@@ -82,13 +82,16 @@ def rough_mesh(problem: Problem, flat: BlockMesh) -> BlockMesh:
     return roughen(flat, _boundary(problem)) if is_rough(problem) else flat
 
 
-def boundary_key(problem: Problem) -> Hashable:
-    """What shapes the real boundaries of rough bodies and of rollers, beside their flat meshes."""
-    scene = problem.scene
-    profile = scene.profile and (scene.profile.x.tobytes(), scene.profile.height.tobytes())
-    settings = scene.finite_element
-    shape = scene.roller_radius, settings.roller_shape, settings.roller_body
-    return profile, problem.extent, problem.pitches[0], shape
+def rough_key(problem: Problem) -> Hashable:
+    """What shapes the rough boundary of a body, beside its flat mesh."""
+    profile = problem.scene.profile
+    return profile.x.tobytes(), profile.height.tobytes(), problem.extent, problem.pitches[0]
+
+
+def roller_key(problem: Problem) -> Hashable:
+    """What shapes the boundary of a roller, beside its flat mesh."""
+    scene, settings = problem.scene, problem.scene.finite_element
+    return scene.roller_radius, settings.roller_shape, settings.roller_body, problem.extent
 
 
 def is_rough(problem: Problem) -> bool:

@@ -32,6 +32,15 @@ def test_points_come_back_from_their_element(case):
     assert at.min() > -1e-9 and at.sum(axis=1).max() < 1.0 + 1e-9
 
 
+def test_the_same_points_again_are_known_and_others_are_not(case):
+    points, triangles, locator = case
+    where = points[triangles[:7, :3]].mean(axis=1)
+    first, again = locator(where)[0], locator(where.copy())[0]
+    np.testing.assert_array_equal(first, np.arange(7))
+    assert again is first
+    np.testing.assert_array_equal(locator(where[::-1])[0], np.arange(7)[::-1])
+
+
 def test_mesh_points_the_boundary_ones_included_are_inside(case):
     points, triangles, locator = case
     element, at = locator(points)

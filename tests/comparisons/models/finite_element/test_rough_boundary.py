@@ -109,10 +109,11 @@ def test_finite_deformation_takes_no_factorisation_of_its_own():
     assert peaks[1] == pytest.approx(peaks[0], rel=2e-4)
 
 
-def test_friction_coefficients_share_rough_bodies_and_profiles_do_not():
+def test_friction_coefficients_and_rollers_share_rough_bodies_and_profiles_do_not():
     one = problem_with(SINUSOID, deformation="finite")
     scene = one.scene
-    other = replace(one, scene=replace(scene, friction=(0.1,)))
+    disc = replace(scene.finite_element, roller_body="disc")
+    other = replace(one, scene=replace(scene, friction=(0.1,), finite_element=disc))
     higher = replace(scene.profile, height=1.5 * scene.profile.height)
     third = replace(one, scene=replace(scene, profile=higher))
     held, patches, rough = BodyCache(), np.array([one.extent]), []
