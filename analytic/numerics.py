@@ -30,16 +30,15 @@ def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return changes[0::2], changes[1::2]
 
 
-def thread_count() -> int:
-    """OMP_NUM_THREADS where it is a number, else the machine's cores."""
-    asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
-    return max(1, int(asked)) if asked.isdecimal() else os.cpu_count() or 1
-
-
 def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:
-    """Call `work` on every piece. Pieces write to places of their own: threads change no result."""
+    """Call `work` on every piece, on OMP_NUM_THREADS threads, or one a core without such a number.
+
+    Pieces write to places of their own: threads change no result.
+    """
     pieces = list(pieces)
-    workers = min(thread_count(), len(pieces))
+    asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
+    threads = max(1, int(asked)) if asked.isdecimal() else os.cpu_count() or 1
+    workers = min(threads, len(pieces))
     if workers < 2:
         for piece in pieces:
             work(piece)

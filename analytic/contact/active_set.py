@@ -118,14 +118,20 @@ def _free_beside(
     return padded[starts], padded[stops + 1]
 
 
+def exchange(problem: "EquilibriumProblem", start: np.ndarray, settled: float = 0.0) -> np.ndarray:
+    """Pressures (n,) [Pa] by block exchanges from `start`, and where these get stuck by the primal
+    method; with settled > 0 as `exchange_blocks` leaves them.
+    """
+    pressure, active, ended = exchange_blocks(problem, start, settled)
+    return pressure if ended or settled else exchange_feasibly(problem, pressure, active)
+
+
 def exchange_blocks(
     problem: "EquilibriumProblem", start: np.ndarray, settled: float = 0.0
-) -> np.ndarray:
-    """Pressures (n,) [Pa] by block exchanges from `start`.
-
-    They end when no more than `settled` of the edges' number break theirs, and with settled = 0
-    when none does in an accurate equilibrium. With settled > 0 the primal method is not tried.
-    """
+) -> tuple[np.ndarray, ActiveSet, bool]:
+    """Pressures (n,) [Pa] by block exchanges from `start`, their set, and whether they have ended:
+    when no more than `settled` of the edges' number break their sign conditions, and with
+    settled = 0 when none does in an accurate equilibrium."""
     pressure, reduction = start, REDUCTION
     active = ActiveSet.of(start, problem.constraints.hardness)
     fewest, patience = len(start) + 1, PATIENCE
@@ -136,17 +142,15 @@ def exchange_blocks(
         violated = problem.violations(state, active)
         count = violated.count()
         if count == 0 and state.accurate:
-            return pressure
+            return pressure, active, True
         if settled and count <= settled * active.edges():
-            return pressure
+            return pressure, active, True
         if count < fewest:
             fewest, patience = count, PATIENCE
         else:
             patience -= 1
             reduction *= SHARPER
         if patience == 0:
-            if settled:
-                return pressure
             break
         if count == 0 or (not settled and count <= max(2, NEARLY * active.edges())):
             reduction = 0.0
@@ -155,7 +159,7 @@ def exchange_blocks(
         else:
             moving = count > 2 and patience == PATIENCE
             active = active.exchanged(extrapolated(violated, active) if moving else violated)
-    return exchange_feasibly(problem, pressure, active)
+    return pressure, active, False
 
 
 def exchange_feasibly(

@@ -7,8 +7,8 @@ symbols as in `analytic.contact.problem`.
 
 Method: block exchanges of the active set on nested grids; on a fixed set GMRES (Saad 2003,
 algorithm 9.4, left preconditioning), whose residual, turned into pressures by the approximate
-inverse, measures the error of the pressures themselves. Where a set comes back, or too many have
-been tried, a contraction takes over, which unlike block exchanges is proved to converge:
+inverse, measures the error of the pressures themselves. Where exchanges make no progress, a
+contraction takes over, which unlike them is proved to converge:
 
     p_k+1 = argmin 1/2 q'Nq + (t (G + C p_k) - N p_k)'q   over the constraints,   N = (C + C')/2,
 
@@ -20,10 +20,11 @@ step is a contact problem of N, `solve_contact`.
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from analytic.contact.active_set import REDUCTION, ActiveSet
+from analytic.contact.active_set import ActiveSet, exchange, exchange_blocks
 from analytic.contact.equilibrium import Constraints, Equilibrium, EquilibriumProblem
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.contact.problem import (
@@ -124,7 +125,6 @@ def krylov_step(apply: _Vectors, target: np.ndarray, goal: float) -> tuple[np.nd
     return found, abs(float(right[-1]))
 
 
-MAX_EXCHANGES = 100  # on one grid; nested starts were seen to take up to 20
 COARSEST = 128  # nodes; below this a coarser start saves nothing
 MAX_CONTRACTIONS = 400
 SHORTEST = 1e-10  # a contraction step this small, relative in the norm of N, is the last
@@ -157,10 +157,10 @@ def solve_coupled(
     problem = CoupledEquilibrium(operator, weighted_gap, weights, constraints, spent)
     settled = False
     if start is not None:
-        pressure, settled = _exchange(problem, start)
+        pressure, _, settled = exchange_blocks(problem, start)
     if not settled:
-        start = coarse_start(problem, lambda *given: _exchange(*given, EDGES_OFF)[0], COARSEST)
-        pressure, settled = _exchange(problem, start)
+        start = coarse_start(problem, partial(exchange, settled=EDGES_OFF), COARSEST)
+        pressure, _, settled = exchange_blocks(problem, start)
     solution = _solution(problem, pressure)
     if not (settled or solution.converged):
         solution = _contract(problem, solution.pressure)
@@ -172,38 +172,6 @@ def _solution(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolut
     pressure = np.clip(pressure, 0.0, limits.hardness)
     moved, given = problem.apply(pressure), (problem.weighted_gap, problem.weights)
     return assessed(moved, pressure, *given, problem.approach, limits, problem.spent)
-
-
-def _exchange(
-    problem: CoupledEquilibrium, start: np.ndarray, settled: float = 0.0
-) -> tuple[np.ndarray, bool]:
-    """Block exchanges until no more than `settled` of the edges' number break their sign
-    conditions, with 0 until none does in an accurate equilibrium; and whether that was reached."""
-    pressure, reduction = start, REDUCTION
-    active = ActiveSet.of(start, problem.constraints.hardness)
-    seen: set[tuple[bytes, bytes]] = set()
-    for _ in range(MAX_EXCHANGES):
-        active = problem.with_a_free_node(active)
-        state = problem.equilibrium(pressure, active, reduction)
-        pressure = state.pressure
-        violated = problem.violations(state, active)
-        count = violated.count()
-        if count == 0 and state.accurate:
-            return pressure, True
-        if settled and count <= settled * active.edges():
-            return pressure, True
-        if count == 0:
-            reduction = 0.0
-            continue
-        short = problem.short_of_free_nodes(active)
-        active = problem.balanced(state) if short else active.exchanged(violated)
-        key = np.packbits(active.lower).tobytes(), np.packbits(active.upper).tobytes()
-        if key in seen:
-            if reduction == 0.0:
-                break
-            reduction, seen = 0.0, set()  # the cycle may be that of loose equilibria
-        seen.add(key)
-    return pressure, False
 
 
 def _contract(problem: CoupledEquilibrium, pressure: np.ndarray) -> ContactSolution:

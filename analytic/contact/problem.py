@@ -19,7 +19,7 @@ from functools import partial
 
 import numpy as np
 
-from analytic.contact.active_set import exchange_blocks
+from analytic.contact.active_set import exchange
 from analytic.contact.equilibrium import SET_TOLERANCE, TIGHT, Constraints, EquilibriumProblem
 from analytic.contact.nested_start import EDGES_OFF, coarse_start
 from analytic.operators.half_plane import ModelOperator
@@ -145,9 +145,8 @@ def solve_contact(
     weighted_gap = weighted_gap - common * weights
     problem = EquilibriumProblem(operator, weighted_gap, weights, constraints, spent, tolerance)
     if start is None:
-        start = coarse_start(problem, partial(exchange_blocks, settled=EDGES_OFF))
-    pressure = exchange_blocks(problem, start)
-    pressure = np.clip(pressure, 0.0, constraints.hardness)
+        start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
+    pressure = np.clip(exchange(problem, start), 0.0, constraints.hardness)
     moved, approach = problem.applied(pressure), problem.approach
     solution = assessed(moved, pressure, weighted_gap, weights, approach, constraints, spent)
     return replace(solution, approach=solution.approach + common)

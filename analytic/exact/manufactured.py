@@ -197,7 +197,8 @@ class ManufacturedContact:
         constant = self.load * weights * np.exp(-(w**2))
         share = 4.0 * np.exp(-2.0 * w) * added(self.layer.contrast, w)[0] / w
         share = share * 2.0 / self.body.plane_strain_modulus
-        waves = [(np.exp(1j * np.outer(part, k)) @ (load * share)).real for part in _parts(x)]
+        parts = np.split(x, np.arange(_TOGETHER, len(x), _TOGETHER))
+        waves = [(np.exp(1j * np.outer(part, k)) @ (load * share)).real for part in parts]
         return half_plane + np.concatenate(waves) - np.sum(constant * share)
 
     def loaded_gap(self, x: np.ndarray) -> np.ndarray:
@@ -322,10 +323,6 @@ def _decaying(s: np.ndarray, depth: np.ndarray) -> np.ndarray:
     z = np.empty(np.shape(s), dtype=complex)
     z.real, z.imag = s, np.abs(depth)
     return 1.0 / (z + np.sqrt(z - 1.0) * np.sqrt(z + 1.0))
-
-
-def _parts(x: np.ndarray) -> list[np.ndarray]:
-    return np.split(x, np.arange(_TOGETHER, len(x), _TOGETHER))
 
 
 def _step(s: np.ndarray) -> np.ndarray:

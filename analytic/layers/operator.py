@@ -1,6 +1,7 @@
-"""Compliance of a layered body's surface: Galerkin hats on a free line.
+"""Normal displacement of a layered body's surface under hats of pressure and of sliding traction.
 
     (C p)_i = int phi_i uz dx,   uz of the wave p e^ikx: C(k) p      (`analytic.layers.layered`)
+    (T q)_i = int phi_i uz dx,   uz of the wave q e^ikx: i sign(k) C(k) q, C its `coupling`
 
 The coefficients are integrals over all waves (`analytic.layers.kernel`); the approximate inverse
 sees each wave with its nearest aliases k + 2 pi j/h.
@@ -8,14 +9,20 @@ sees each wave with its nearest aliases k + 2 pi j/h.
 Displacements and an approach count from a rigid base. A half-plane below leaves them undefined up
 to a constant, as in `analytic.operators.half_plane`.
 
+T beside C makes the compliance of a surface that slides (`analytic.operators.tangential`). Being
+odd it does no work. Where the layer slides on its base, a net traction Q is held by its two ends:
+the one is stretched and the other pressed, and the surface is left higher by nu Q/(2 G) on one side
+than on the other.
+
     h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum [m]
+    p   pressure [Pa]  q   traction in +x [Pa]
 """
 
 import numpy as np
 
-from analytic.layers.kernel import hat_compliance
+from analytic.layers.kernel import hat_compliance, hat_coupling
 from analytic.layers.layered import LayeredBody, normal_compliance
-from analytic.operators.convolution import Convolution, made_once
+from analytic.operators.convolution import Convolution
 
 
 class LayeredSurface(Convolution):
@@ -32,15 +39,11 @@ class LayeredSurface(Convolution):
     ) -> None:
         self.pitch, self.body = pitch, body
         self.datum = (count + 1) * pitch + 4.0 * _spread(body) if datum is None else datum
+        self.given = body, self.datum
         log_datum = float(np.log(self.datum / pitch))
         scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
         column = scale * hat_compliance(count, pitch / body.thickness, body.contrast, log_datum)
         super().__init__(column, self._symbol)
-
-    @made_once
-    def coarsened(self) -> "LayeredSurface":
-        """The same body under elements twice as wide, centred on nodes 1, 3, 5, …"""
-        return LayeredSurface(self.count // 2, 2.0 * self.pitch, self.body, self.datum)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """sum over j = -1, 0, 1 of h C(k + 2 pi j/h) sinc^4 [m^2/Pa], positive at every wave."""
@@ -49,6 +52,22 @@ class LayeredSurface(Convolution):
         seen = np.abs(cycles + np.array([[-1.0], [0.0], [1.0]]))
         waves = normal_compliance(self.body, 2.0 * np.pi * seen / self.pitch)
         return self.pitch * np.sum(np.sinc(seen) ** 4 * waves, axis=0)
+
+
+class TangentialLayer(Convolution):
+    """T of a layered body, hat tractions (n,) [Pa] in +x to weighted displacements (n,) [m^2].
+
+    count  number of elements      pitch    h [m]
+    body   the layer and its base
+    """
+
+    def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
+        self.pitch, self.body, self.given = pitch, body, (body,)
+        scale = pitch**2 / (2.0 * np.pi * body.material.shear_modulus)
+        column = scale * hat_coupling(count, pitch / body.thickness, body.contrast)
+        column[0] = 0.0  # odd, but for rounding
+        # no inverse to approximate
+        super().__init__(column, lambda cycles: np.full(len(cycles), np.inf), row=-column)
 
 
 def _spread(body: LayeredBody) -> float:

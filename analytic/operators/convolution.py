@@ -9,6 +9,7 @@ on a periodic line the matrix is the circulant.
 
 from collections.abc import Callable
 from functools import cached_property, wraps
+from typing import Self
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
@@ -83,6 +84,12 @@ class Convolution:
         if self.symbol is None:
             return 1.0 / self._transfer.real
         return 1.0 / self.symbol(np.arange(self.ring // 2 + 1) / self.ring)
+
+    @made_once
+    def coarsened(self) -> Self | None:
+        """The same on elements twice as wide, centred on nodes 1, 3, 5, …; `given` are what it was
+        made with beside their number and its `pitch`."""
+        return type(self)(self.count // 2, 2.0 * self.pitch, *self.given)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Weighted displacements (n,) [m^2] of nodal pressures (n,) [Pa]."""

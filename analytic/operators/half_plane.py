@@ -87,18 +87,13 @@ class HalfPlane(Convolution):
     ) -> None:
         self.pitch, self.modulus, self.element = pitch, modulus, element
         self.datum = (count + 1) * pitch if datum is None else datum
+        self.given = modulus, self.datum, element
         self._further = max(0.0, np.log(self.datum / ((count + 1) * pitch)))
         kernel = hat_galerkin if element == "hat" else strip_displacement
         log_integral = at_whole_offsets(kernel, count)
         scale = 2.0 * pitch**2 / (np.pi * modulus)
         column = -scale * (log_integral + np.log(pitch / self.datum))
         super().__init__(column, self._symbol)
-
-    @made_once
-    def coarsened(self) -> "HalfPlane":
-        """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        given = self.modulus, self.datum, self.element
-        return HalfPlane(self.count // 2, 2.0 * self.pitch, *given)
 
     def on_base(self, compliance: float) -> "HalfPlane":
         """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.

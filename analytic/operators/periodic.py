@@ -15,7 +15,7 @@ from numpy.polynomial.polynomial import polyval
 from scipy.fft import irfft
 from scipy.special import binom, zeta
 
-from analytic.operators.convolution import Convolution, made_once
+from analytic.operators.convolution import Convolution
 
 FEWEST = 4  # elements of a coarsened period
 TERMS = 14  # of series in (c/2)^2 <= 1/16: the rest is below 1e-16
@@ -34,22 +34,15 @@ class PeriodicHalfPlane(Convolution):
     """
 
     def __init__(self, count: int, pitch: float, modulus: float) -> None:
-        self.pitch, self.modulus = pitch, modulus
+        self.pitch, self.modulus, self.given = pitch, modulus, (modulus,)
         self._mean = count * pitch**2 / (np.pi * modulus)  # h Z
         cycles = np.arange(count // 2 + 1) / count
         column = irfft(self._symbol(cycles), count)
         super().__init__(column, None, periodic=True)
 
-    @made_once
     def coarsened(self) -> "PeriodicHalfPlane | None":
-        """The same half-plane on elements twice as wide, centred on nodes 1, 3, 5, …
-
-        None for an odd number of elements and once few are left.
-        """
-        half, odd = divmod(self.count, 2)
-        if odd or half < FEWEST:
-            return None
-        return type(self)(half, 2.0 * self.pitch, self.modulus)
+        """As of `Convolution`; None for an odd number of elements and once few are left."""
+        return None if self.count % 2 or self.count < 2 * FEWEST else super().coarsened()
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """Eigenvalues of the circulant [m^2/Pa]; `cycles` from 0 to 1/2, the first of them 0."""

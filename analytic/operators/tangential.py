@@ -84,18 +84,11 @@ class CoupledHalfPlane(CoupledConvolution):
     ) -> None:
         self.pitch, self.modulus, self.friction_dundurs = pitch, modulus, friction_dundurs
         self.datum = (count + 1) * pitch if datum is None else datum
-        self.skew = friction_dundurs != 0.0
+        self.given, self.skew = (modulus, friction_dundurs, self.datum), friction_dundurs != 0.0
         self.normal = HalfPlane(count, pitch, modulus, self.datum)
         even = self.normal.column
         odd = friction_dundurs * pitch**2 / modulus * hat_sign(np.arange(count))
         super().__init__(even + odd, self._symbol, row=even - odd)
-
-    @made_once
-    def coarsened(self) -> "CoupledHalfPlane":
-        """The same half-planes on elements twice as wide, centred on nodes 1, 3, 5, …"""
-        return CoupledHalfPlane(
-            self.count // 2, 2.0 * self.pitch, self.modulus, self.friction_dundurs, self.datum
-        )
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2/(E*|k|) (1 - i mu beta sign k) seen through two hats, with the nearest aliases."""

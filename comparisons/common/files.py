@@ -31,14 +31,8 @@ OTHER_FILES = tuple(f"{model}/stress.{name}" for model in OWN_FOLDERS for name i
 FURTHER = "whole/friction_*"
 OTHER_FILES += (f"{FURTHER}/contact.csv", f"{FURTHER}/stress.*")
 RECORD = "record.json"  # of a run: its "files" are this program's
-STUDIES = (
-    "cost",
-    "map",
-    "paper",
-    "stability",
-    "sweep",
-    "verify",
-)  # whose own record is <name>.json
+# Those whose own record is <name>.json.
+STUDIES = ("cost", "map", "paper", "stability", "sweep", "verify")
 RECORDS = (RECORD, *(f"{name}.json" for name in STUDIES))
 LARGEST_RECORD = 2**28  # bytes; a larger one is nobody's that this program knows
 PART = ".part"  # ends the name of a file that is not whole yet

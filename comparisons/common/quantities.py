@@ -49,29 +49,24 @@ def _one(hertz: "HertzContact") -> float:
     return 1.0
 
 
+def _stress(label: str, unit: str, scale: Callable, formal_order: float) -> Quantity:
+    return Quantity(label, unit, scale, formal_order, needs_stress=True)
+
+
+def _norm(label: str, needs_stress: bool = True) -> Quantity:
+    return Quantity(f"{label}, relative L2 difference", "", _one, 1.0, True, needs_stress)
+
+
 QUANTITIES: dict[str, Quantity] = {
     "peak_pressure": Quantity("peak pressure", "Pa", _pressure, 2.0),
     "contact_length": Quantity("contact length", "m", _half_width, 1.0),
     "contact_ratio": Quantity("contact length over Hertz 2a", "", _one, 1.0),
-    "pressure_l2": Quantity("pressures, relative L2 difference", "", _one, 1.0, of_pair=True),
-    "tau1_max": Quantity("largest principal shear stress", "Pa", _pressure, 2.0, needs_stress=True),
-    "tau1_max_depth": Quantity(
-        "depth of the largest principal shear", "m", _half_width, 1.0, needs_stress=True
-    ),
-    "txz_max_abs": Quantity(
-        "largest orthogonal shear stress", "Pa", _pressure, 2.0, needs_stress=True
-    ),
-    "tau1_field_near": Quantity(
-        "tau1 down to 0.1 a, relative L2 difference", "", _one, 1.0, of_pair=True, needs_stress=True
-    ),
-    "tau1_field_deep": Quantity(
-        "tau1 deeper than 0.5 a, relative L2 difference",
-        "",
-        _one,
-        1.0,
-        of_pair=True,
-        needs_stress=True,
-    ),
+    "pressure_l2": _norm("pressures", needs_stress=False),
+    "tau1_max": _stress("largest principal shear stress", "Pa", _pressure, 2.0),
+    "tau1_max_depth": _stress("depth of the largest principal shear", "m", _half_width, 1.0),
+    "txz_max_abs": _stress("largest orthogonal shear stress", "Pa", _pressure, 2.0),
+    "tau1_field_near": _norm("tau1 down to 0.1 a"),
+    "tau1_field_deep": _norm("tau1 deeper than 0.5 a"),
 }
 
 _SYMBOLS = {

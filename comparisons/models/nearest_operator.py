@@ -11,8 +11,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import ContactSolution, solve_contact
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
-from analytic.layers.operator import LayeredSurface
-from analytic.layers.tangential import TangentialLayer
+from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import combined_modulus, dundurs_constants
 from analytic.operators.half_plane import HalfPlane, ModelOperator, SumOfConvolutions
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair

@@ -34,7 +34,7 @@ def read_arrays(
     raw = contents(path, max_bytes)
     kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
     try:
-        arrays = {"npy": _npy, "npz": _npz, "mat": _mat}[kind](raw, max_bytes)
+        arrays = (_mat if kind == "mat" else _numpy)(raw, max_bytes)
     except MemoryError:
         raise ProfileError(path, f"is too large; allowed are {max_bytes / 1e9:.3g} GB") from None
     except Exception as error:  # scipy and numpy raise whatever a damaged file brings about
@@ -47,7 +47,11 @@ def read_arrays(
             allowed = ", ".join(map(shown, names)) or "none"
             raise ProfileError(path, f"has no channel {shown(channel)}; allowed is {allowed}")
         arrays = {channel: arrays[channel]}
-    vectors = {name: np.ravel(found) for name, found in arrays.items() if _is_vector(found)}
+
+    def is_vector(found: np.ndarray) -> bool:
+        return found.size > 1 and found.size == max(found.shape)
+
+    vectors = {name: np.ravel(found) for name, found in arrays.items() if is_vector(found)}
     longest = max((len(found) for found in vectors.values()), default=0)
     vectors = {name: found for name, found in vectors.items() if len(found) == longest}
     if longest > 1:
@@ -60,7 +64,7 @@ def read_arrays(
         raise ProfileError(path, f"holds {len(fields)} maps; allowed is channel, of {allowed}")
     if not fields:
         raise ProfileError(path, "holds no arrays of one or two dimensions; a profile is one")
-    ((_, field),) = fields.items()
+    (field,) = fields.values()
     if field.shape[1] <= MOST_COLUMNS and field.shape[0] > field.shape[1]:
         return _table(path, kind, field, (), columns)
     return Topography(path, field, None, None, None, kind)
@@ -80,20 +84,15 @@ def _table(
     return chosen_columns(table, columns)
 
 
-def _is_vector(found: np.ndarray) -> bool:
-    return found.size > 1 and found.size == max(found.shape)
-
-
-def _npy(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
-    return {"array": np.load(io.BytesIO(raw), allow_pickle=False)}
-
-
-def _npz(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
-    with zipfile.ZipFile(io.BytesIO(raw)) as archive:
-        if sum(entry.file_size for entry in archive.infolist()) > max_bytes:
-            raise MemoryError
-    with np.load(io.BytesIO(raw), allow_pickle=False) as arrays:
-        found = {name: arrays[name] for name in arrays.files}
+def _numpy(raw: bytes, max_bytes: int) -> Mapping[str, np.ndarray]:
+    if raw.startswith(ZIP):
+        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+            if sum(entry.file_size for entry in archive.infolist()) > max_bytes:
+                raise MemoryError
+    arrays = np.load(io.BytesIO(raw), allow_pickle=False)
+    if isinstance(arrays, np.ndarray):
+        return {"array": arrays}
+    found = {name: arrays[name] for name in arrays.files}
     return {name: array for name, array in found.items() if array.dtype.kind in "fiu"}
 
 

@@ -186,11 +186,8 @@ VARIETIES = {
     "file": Variety(
         "a measured profile",
         needed=("file",),
-        optional=(
-            "z_unit",
-            "columns",
-            "channel",
-        ),  # a file that is not text may bring its units and its size
+        # a file that is not text may bring its units and its size
+        optional=("z_unit", "columns", "channel"),
         defaults={"form": "line", "dropouts": "refuse"},
         at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
     ),

@@ -14,7 +14,7 @@ from analytic.contact.problem import assessed
 from analytic.exact.sliding import sliding_from_load
 from analytic.grid import HatGrid
 from analytic.layers.layered import LayeredBody
-from analytic.layers.tangential import TangentialLayer
+from analytic.layers.operator import TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import (

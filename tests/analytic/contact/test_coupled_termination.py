@@ -20,7 +20,7 @@ class TestContraction:
     @pytest.fixture
     def unsettled(self, monkeypatch):
         monkeypatch.setattr(
-            coupled_contact, "_exchange", lambda problem, start, settled=0.0: (start, False)
+            coupled_contact, "exchange_blocks", lambda problem, start: (start, None, False)
         )
 
     @pytest.mark.parametrize("friction_dundurs", [0.05, 0.3, 0.75, 1.5])

@@ -14,8 +14,7 @@ from analytic.contact.equilibrium import Constraints
 from analytic.contact.problem import assessed, solve_contact
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
-from analytic.layers.operator import LayeredSurface
-from analytic.layers.tangential import TangentialLayer
+from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair

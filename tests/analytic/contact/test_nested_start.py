@@ -6,7 +6,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from analytic.contact.active_set import exchange_blocks
+from analytic.contact.active_set import exchange
 from analytic.contact.equilibrium import Constraints, EquilibriumProblem
 from analytic.contact.nested_start import COARSEST, EDGES_OFF, coarse_start, prolonged
 from analytic.contact.problem import solve_contact
@@ -118,7 +118,7 @@ def test_a_coarse_start_is_close_to_the_solution(kind, count):
     spent = {"exchanges": 0, "applications": 0}
 
     problem = EquilibriumProblem(operator, gap, weights, Constraints(load=0.03), spent)
-    start = coarse_start(problem, partial(exchange_blocks, settled=EDGES_OFF))
+    start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
     assert start.shape == (count,) and np.all(start >= 0.0)
     nested = count >= COARSEST and not (kind is PeriodicHalfPlane and count % 2)
     assert (spent["exchanges"] > 0) == nested

@@ -12,8 +12,7 @@ from analytic.contact.problem import solve_contact
 from analytic.exact.layers import TABLE
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody, normal_compliance
-from analytic.layers.operator import LayeredSurface
-from analytic.layers.tangential import TangentialLayer
+from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
 

@@ -9,8 +9,7 @@ from analytic.contact.coupled import solve_coupled
 from analytic.contact.equilibrium import Constraints
 from analytic.grid import HatGrid, roller_gap
 from analytic.layers.layered import LayeredBody
-from analytic.layers.operator import LayeredSurface
-from analytic.layers.tangential import TangentialLayer
+from analytic.layers.operator import LayeredSurface, TangentialLayer
 from analytic.material import Material
 from analytic.operators.tangential import CoupledHalfPlane, CoupledPair, hat_sign
 

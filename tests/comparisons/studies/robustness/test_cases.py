@@ -67,12 +67,12 @@ def test_a_broken_solver_fails_the_rows(monkeypatch, row_of):
 
 
 def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch, row_of):
-    original = contact.exchange_blocks
+    original = contact.exchange
 
     def hasty(problem, start, **settled):
         return np.maximum(original(problem, start, **settled), 1e-6)
 
-    monkeypatch.setattr(contact, "exchange_blocks", hasty)
+    monkeypatch.setattr(contact, "exchange", hasty)
     assert not row_of(rough, "load 1e-12 of modulus times length").holds
 
 
