@@ -6,8 +6,9 @@ peak, both 1 here; r, t distance and angle from an end of the element, t = atan2
 sz under q is txz under p, and txz under q is sx under p: four arrays hold what any friction needs.
 
 Written as in the sources, the formulas are sums of angles and logarithms that cancel: sz falls
-like z^3/x^4 while its terms do not fall at all. Each is recast here into terms of one sign, or,
-for hats away from the element, replaced by `hat_multipoles`: every component keeps its digits.
+like z^3/x^4 while its terms do not fall at all. A strip's are recast here into terms of one sign:
+every component keeps its digits. A hat's are, close to it; away from it moments of its potential
+are right to rounding of the largest of the four.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ import numpy as np
 from scipy.special import xlogy
 
 from analytic.numerics import angle_minus_sine
-from analytic.stress.potential import NEAREST, Element, hat_multipoles
+from analytic.stress.potential import NEAREST_FAR, Element, element_series, stresses
 from analytic.stress_state import StressState
 
 
@@ -97,9 +98,10 @@ def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     Finite everywhere, the surface included.
     """
     parts = np.empty((4, *x.shape))
-    near = np.hypot(x, z) < NEAREST
+    near = np.hypot(x, z) < NEAREST_FAR
     parts[:, near] = _hat_closed(x[near], z[near])
-    parts[:, ~near] = hat_multipoles(x[~near], z[~near])
+    potential, slope = element_series(x[~near] + 1j * z[~near], "hat")
+    parts[:, ~near] = stresses(potential, z[~near] * slope)
     return FrictionStress.of(parts)
 
 

@@ -2,8 +2,8 @@
 
 Nodal pressures p_i stand on a uniform grid x_i; as "hat" they are joined linearly and fall to
 zero one pitch beyond the ends, as "strip" each holds over its own pitch. Tractions have the same
-shape. Few pairs of point and element are summed one by one, which keeps the relative accuracy of
-every component; more by a tree (`analytic.stress.tree`). Both agree to 1e-13 of the largest load.
+shape. Few pairs of point and element are summed one by one, more by a tree
+(`analytic.stress.tree`). Both agree to 1e-13 of the largest load.
 
 Nodes count as whole pitches h apart, and a place by its distance from the nearest one: at a node no
 rounding of the coordinates enters. Between nodes it moves the place by up to eps |x|, which changes

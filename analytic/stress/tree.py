@@ -8,9 +8,9 @@ from the centre and reaches the point in one inner expansion: the parent's, move
 ones of those halves of the parent's near boxes that are not near themselves. Only boxes over
 points, and their ancestors, have one. The work grows with n + m in place of n m.
 
-Where all of the load is farther than twice its half-width, its moments are summed
-(`line_multipoles`), and every component keeps its own digits. Elsewhere all are right to 1e-14 of
-the largest pressure, at places that are known to rounding as `analytic.stress.points` says.
+Farther from the box of all the load than twice its half-width its own outer expansion is taken. All
+are right to 1e-14 of the largest pressure, at places that are known to rounding as
+`analytic.stress.points` says.
 """
 
 from dataclasses import dataclass
@@ -22,12 +22,9 @@ import numpy as np
 from analytic.numerics import for_each
 from analytic.stress.elements import from_nearest, unit_stress
 from analytic.stress.potential import (
-    FARTHER,
     ORDER,
     Element,
-    far_moments,
     inner_to_child,
-    line_multipoles,
     nodes_to_outer,
     outer_to_inner,
     outer_to_parent,
@@ -190,22 +187,24 @@ def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> 
 
 
 _DEEPEST = 3.5  # half-widths of a box: points below belong to a larger one
+_FAR = 2.0  # half-widths of the largest box, from whose middle on it is all that is seen
 _BLOCK, _NEAR_BLOCK = 4096, 256  # points at a time
 
 
 def tree_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
     """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m]."""
-    nodes, pitch = line.nodes, line.pitch
-    parts = np.empty((4, len(x)))
-    middle, half = 0.5 * (nodes[0] + nodes[-1]), 0.5 * (nodes[-1] - nodes[0]) + pitch
-    far = np.hypot(x - middle, z) >= FARTHER * half
+    _, nearest, rest = from_nearest(line.nodes, line.pitch, x)
+    along, down = nearest + (rest + 0.5), z / line.pitch
+    half = 0.5 * LEAF * 2.0 ** np.ceil(np.log2(max(len(line.load) / LEAF, 1.0)))
+    parts, far = np.empty((4, len(x))), np.hypot(along - half, down) >= _FAR * half
     if far.any():
-        moments = far_moments(nodes - middle, line.load, pitch, half, line.element)
-        parts[:, far] = line_multipoles((x[far] - middle) / half, z[far] / half, moments)
-    among = np.flatnonzero(~far)
-    if len(among):
-        _, nearest, rest = from_nearest(nodes, pitch, x[among])
-        parts[:, among] = _among(line, nearest, rest, z[among] / pitch)
+        u = (along[far] - half + 1j * down[far]) / half
+        (*_, root), v = box_levels(line.load, line.element, []), 1.0 / u
+        value, slope = polynomial(root.outer[::-1, 0], v)
+        potential, slope = v * value, -v * v * (value + v * slope)
+        parts[:, far] = stresses(potential, u.imag * slope) / (np.pi * half)
+    if not far.all():
+        parts[:, ~far] = _among(line, nearest[~far], rest[~far], down[~far])
     return parts
 
 
@@ -264,7 +263,7 @@ def line_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def direct_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """`line_stress` as the sum over all elements, each component with its own digits."""
+    """`line_stress` as the sum over all elements."""
     parts = np.empty((4, len(x)))
     step = max(1, _PAIRS // len(line.nodes))
     whole, nearest, rest = from_nearest(line.nodes, line.pitch, x)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from analytic.contact import problem as contact
-from analytic.layers import layered
+from analytic.layers import kernel
 from analytic.operators import half_plane as operators
 from analytic.operators.elements import hat_galerkin
 from comparisons.studies.checks import named_cases, run_case
@@ -77,8 +77,8 @@ def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch, row_of):
 
 
 def test_a_broken_layer_fails_the_rows(monkeypatch, row_of):
-    original = layered.normal
-    monkeypatch.setattr(layered, "normal", lambda layer, w: original(layer, w) * 1.05)
+    original = kernel.normal
+    monkeypatch.setattr(kernel, "normal", lambda layer, w: original(layer, w) * 1.05)
     assert not row_of(layers, "a/t = 100, bonded").holds
 
 
