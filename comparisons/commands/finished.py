@@ -7,8 +7,8 @@ from typing import Annotated
 import typer
 
 from comparisons.commands.arguments import RESULTS, job, json_option
-from comparisons.commands.output import progress, say, show_either, show_json
-from comparisons.common.errors import ExitStatus
+from comparisons.commands.output import progress, show_either, show_json
+from comparisons.common.errors import ExitStatus, tell
 from comparisons.common.mpi import from_first
 
 
@@ -38,7 +38,7 @@ def report(
     content = reports_content(reports, summary)
     show_either(as_json, content, lambda: reports_table(reports, summary))
     for why in dict.fromkeys(report.no_pdf for report in reports if report.no_pdf):
-        say(why)
+        tell(why)
     return ExitStatus.DONE
 
 

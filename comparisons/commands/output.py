@@ -80,11 +80,6 @@ def show(renderable: object) -> None:
     (Console() if is_watched() else unseen).print(renderable)
 
 
-def say(sentence: str) -> None:
-    """Print to standard error what the user should know but is no failure of the command."""
-    tell(sentence)
-
-
 def show_either(as_json: bool, content: object, table: Callable[[], object]) -> None:
     """Print the content as JSON, or the table that `table` makes."""
     if as_json:

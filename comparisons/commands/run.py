@@ -17,8 +17,8 @@ from comparisons.commands.arguments import (
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, say, show_either
-from comparisons.common.errors import SceneError
+from comparisons.commands.output import progress, show_either
+from comparisons.common.errors import SceneError, tell
 from comparisons.common.mpi import from_first, is_first
 from comparisons.common.quantities import HYPHENATED, models_named
 
@@ -113,7 +113,7 @@ def _say_warnings(warnings: list[str]) -> None:
     from comparisons.report.terminal import PLAIN
 
     for warning in warnings:
-        say(f"plausibility warning: {warning.translate(PLAIN)}")
+        tell(f"plausibility warning: {warning.translate(PLAIN)}")
 
 
 def _say_first_answer(scene: "ResolvedScene") -> None:
@@ -124,7 +124,7 @@ def _say_first_answer(scene: "ResolvedScene") -> None:
     from comparisons.studies.maps.place import first_answer
 
     for line in first_answer(problem_of(scene)):
-        say(line)
+        tell(line)
 
 
 def _print(directory: Path) -> None:
@@ -134,4 +134,4 @@ def _print(directory: Path) -> None:
     try:
         print_report(directory)
     except NoPdfError as error:
-        say(str(error))
+        tell(str(error))

@@ -167,7 +167,6 @@ class CheckedRow:
 
 
 def run_case(case: CheckedCase) -> CheckedRow:
-    """The row of a case, whatever it raises except an interrupt."""
     return CheckedRow(case, *_found(None, case.solve))
 
 
@@ -268,7 +267,6 @@ def _without_nan(value: object) -> object:
 
 
 def study_junit(study: CheckedStudy) -> str:
-    """JUnit XML with a testcase for each figure, or for an error."""
     cases = (case for row in study.rows for case in _junit_cases(study.command, row))
     return junit_xml(study.command, cases, study.seconds)
 
@@ -287,7 +285,6 @@ def _junit_cases(command: str, row: CheckedRow) -> list[JunitCase]:
 
 
 def rows_table(rows: Sequence[CheckedRow]) -> "Table":
-    """The rows for a terminal, each with its decisive figure."""
     from rich.table import Table
     from rich.text import Text
 
@@ -316,7 +313,6 @@ def rows_table(rows: Sequence[CheckedRow]) -> "Table":
 
 
 def verdict_lines(study: CheckedStudy) -> "RenderableType":
-    """What does not hold, and how many rows hold."""
     from rich.console import Group
     from rich.text import Text
 

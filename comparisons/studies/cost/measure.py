@@ -41,7 +41,6 @@ class CostTask:
 
     @property
     def name(self) -> str:
-        """Of the file of what was measured."""
         method = re.sub(r"\W+", "-", self.method)
         return f"{method}_{self.setting!r}{'_half_block' if self.half_block else ''}"
 
@@ -118,7 +117,6 @@ def measure(task: CostTask) -> MeasuredRun | RefusedRun:
 def _timed(
     method: SolutionMethod, problem: Problem, task: CostTask, window: Window | None
 ) -> tuple[SolvedContact, dict[str, float], float]:
-    """One solution, its processor seconds by stage, and its wall time [s]."""
     stages, begin = ProcessorStages(), time.perf_counter()
     contact = solved(method, problem, task.setting, window, stages, task.half_block)
     return contact, stages.seconds, time.perf_counter() - begin

@@ -26,7 +26,6 @@ class SolutionMethod:
     element: str
 
     def settings(self, problem: Problem) -> tuple[float, ...]:
-        """From coarse to fine."""
         factors = HALF_PLANE_PITCHES if self.model == "half_plane" else FINITE_ELEMENT_PITCHES
         return tuple(factor * problem.pitches[0] for factor in factors)
 

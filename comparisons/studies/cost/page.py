@@ -26,7 +26,6 @@ ERRORS = 5  # columns of errors in a narrow terminal
 
 
 def cost_table(cost: Cost) -> "RenderableType":
-    """For rich: rows, sentences, references and machine."""
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text
@@ -143,7 +142,6 @@ def _error(cost: Cost, each: AssessedRow, name: str) -> str:
 
 
 def refusals(cost: Cost) -> list[str]:
-    """Why settings have no result, a line each."""
     return [
         f"{row.method.name} {row.label if row.setting else ''}".strip()
         + f" {row.status}: {row.because}"
@@ -153,7 +151,6 @@ def refusals(cost: Cost) -> list[str]:
 
 
 def notes_of(cost: Cost) -> list[str]:
-    """How to read the numbers, the references, and the machine."""
     by_source: dict[str, list[str]] = {}
     for name, reference in cost.references.items():
         if name in REDUNDANT:

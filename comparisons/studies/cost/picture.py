@@ -73,7 +73,6 @@ def cost_picture(cost: Cost, quantity: str) -> Picture:
 
 
 def _in_words(cost: Cost, quantity: str, stresses: bool) -> str:
-    """The rows on the Pareto front, for those who cannot see the diagram."""
     rows = "; ".join(
         f"{each.row.method.name} {each.row.label} {percent(each.errors[quantity])} in "
         f"{with_unit(each.row.seconds(stresses), 's', 2)}"

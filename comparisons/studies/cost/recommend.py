@@ -67,7 +67,6 @@ def pareto(assessed: list[AssessedRow], quantity: str, floor: float) -> list[Ass
 def recommendations(
     assessed: list[AssessedRow], references: dict[str, Reference], tolerances: Tolerances
 ) -> list[Recommendation]:
-    """One for each tolerance of the scene, and one for all of them together."""
     floors = {name: reference.floor for name, reference in references.items()}
     known = {name: value for name, value in tolerances.items() if name in floors}
     found = [_recommendation(assessed, floors, {name: value}) for name, value in known.items()]

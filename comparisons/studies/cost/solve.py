@@ -82,7 +82,6 @@ def _of_level(level: Level, problem: Problem) -> SolvedContact:
 
 
 def _by_strips(problem: Problem, pitch: float, window: Window | None, stages: Stages) -> Level:
-    """The half-plane with uniform strips of pressure."""
     grid = problem.grid(pitch)
     with stages.stage("contact"):
         operator = HalfPlane(grid.count, pitch, problem.modulus, element="strip")

@@ -65,7 +65,6 @@ class CostRow:
 
     @property
     def label(self) -> str:
-        """The setting in words."""
         if self.setting is None:
             return "–"
         return with_unit(self.setting, "m", 3)
@@ -84,12 +83,10 @@ class Study:
     far_boundary_check: dict[str, MeasuredRun]
 
     def of(self, name: str) -> tuple[CostRow, ...]:
-        """The solved rows of a method."""
         return tuple(r for r in self.rows if r.method.name == name and r.status == OK)
 
 
 def measuring_machine() -> dict:
-    """This machine, as a measuring process uses it."""
     return machine() | {"threads": THREADS}
 
 

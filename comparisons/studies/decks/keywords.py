@@ -46,7 +46,6 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
 
 
 def _materials(deck: DeckProblem, code: str) -> Iterator[tuple[str, tuple[str, str]]]:
-    """By element set: keyword and data line."""
     scene = deck.problem.scene
     for name, body in deck.bodies.items():
         for material, part in zip(body.materials, ("", "_COATING"), strict=False):

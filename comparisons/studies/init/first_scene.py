@@ -34,7 +34,6 @@ EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"))
 
 
 def columns_of(text: str) -> list[str | int]:
-    """What `--columns` lists: numbers where they are such, else names."""
     return [int(word) if word.isdecimal() else word for word in map(str.strip, text.split(","))]
 
 
@@ -84,7 +83,6 @@ def given_sections(options: Mapping[str, str | None]) -> Sections:
 
 
 def _number(text: str) -> float | str:
-    """A number without unit as such, anything else as text."""
     try:
         return float(text)
     except ValueError:
@@ -158,7 +156,6 @@ def write_first_scene(
 
 
 def _check_place(profile: Path, out: Path, force: bool) -> None:
-    """Refuse a scene's file that is there already, or has no folder."""
     if os.path.lexists(out):
         if out.is_dir():
             raise InputError(f"{out}: is a folder; allowed is --out FILE.toml")

@@ -301,7 +301,6 @@ def _no_spacing(path: Path, what: str) -> str:
 
 
 def _check_unit(path: Path, name: str, guess: Guess) -> None:
-    """InputError where the file names a unit that is no length, or unknown."""
     try:
         in_metres(guess.value)
     except UnitError:
@@ -339,7 +338,6 @@ def _profile(opened: ProfileTable | Topography, fields: Mapping[str, str]) -> Me
 
 
 def _form(profile: Profile) -> tuple[str, str]:
-    """The form to remove, and why: an arc where it leaves far less than a line does."""
     straight, _ = remove_form(profile, "line")
     try:
         curved, removed = remove_form(profile, "arc")

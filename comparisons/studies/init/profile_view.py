@@ -21,7 +21,6 @@ UNEVEN = 0.01  # of the spacing: samples whose distances differ by more are not 
 
 
 def init_table(made: FirstScene) -> "RenderableType":
-    """For rich to print."""
     from rich.console import Group
     from rich.text import Text
 
@@ -51,7 +50,6 @@ def init_table(made: FirstScene) -> "RenderableType":
 
 
 def _two_columns(info: ProfileInfo) -> list[str]:
-    """What the two columns of roughness are of, and why they differ."""
     off = "nothing" if info.form.kind == "none" else f"its {info.form.kind}"
     pressed = f"as pressed: the whole trace without {off}"
     if info.standard is None:

@@ -53,12 +53,10 @@ def toml(value: object) -> str:
 
 
 def value_of(text: str) -> object:
-    """What a piece of TOML stands for."""
     return tomllib.loads(f"value = {text}")["value"]
 
 
 def _comment(text: str) -> list[str]:
-    """Lines that explain; text in quotes stays on one line."""
     whole = re.sub(r'"[^"]*"', lambda quoted: quoted[0].replace(" ", NO_BREAK), text)
     lines = wrap(whole, WIDTH, break_long_words=False, break_on_hyphens=False)
     return [f"# {line}".replace(NO_BREAK, " ") for line in lines]

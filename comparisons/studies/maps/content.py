@@ -29,7 +29,6 @@ SMALLEST = 1e-3  # errors below are drawn, and interpolated, as if on a straight
 
 
 def map_content(request: MapRequest, cache: Cache) -> dict:
-    """The content, with every point in the order of the axes, x inside."""
     points = []
     for point in request.points:
         found = cache.load(point.key)["found"]
@@ -125,7 +124,6 @@ def significance(found: dict, quantity: str) -> dict:
 
 
 def map_table(content: dict, out: Path) -> "Group":
-    """For rich to print: the rules, what they rest on, and what failed."""
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text

@@ -314,7 +314,6 @@ class Axis:
         return tuple(float(f"{value:.{FIGURES}g}") for value in found)
 
     def __str__(self) -> str:
-        """As the command line takes it."""
         return f"{self.group}={self.low:g}:{self.high:g}"
 
 
@@ -350,7 +349,6 @@ def axis_of(given: str, count: int, option: str) -> Axis:
 
 
 def counts_of(given: str) -> tuple[int, int]:
-    """The numbers of values that "NxM" means: along x, along y."""
     found = _POINTS.fullmatch(given)
     counts = tuple(map(int, found.groups())) if found else ()
     if not counts or not all(FEWEST <= count <= MOST for count in counts):
@@ -361,7 +359,6 @@ def counts_of(given: str) -> tuple[int, int]:
 
 
 def usual_axes(tables: dict) -> tuple[str, str]:
-    """Groups for a scene where none are asked for."""
     load, profile = tables["load"], tables.get("profile") or {}
     if profile.get("kind") in ("sinusoid", "self-affine", "ground"):
         return "wavelength_over_a", "rms_slope"

@@ -46,7 +46,6 @@ def map_picture(content: dict, mark: Mark | None = None) -> str:
 
 
 def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
-    """The same as a figure, to be called inside `drawing()`."""
     drawn = figure(*SIZE)
     axes = drawn.add_axes(BOX)
     x, y = (places(content[name]) for name in ("x", "y"))
@@ -65,7 +64,6 @@ def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
 
 
 def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
-    """Draw the mark, on the border where it lies beyond; its entry in the legend."""
     if mark is None:
         return []
     name, values = mark
@@ -79,7 +77,6 @@ def _marked(axes: "Axes", content: dict, mark: Mark | None) -> list[object]:
 
 
 def _edges(places: np.ndarray) -> np.ndarray:
-    """Borders of cells about ascending places."""
     middles = 0.5 * (places[1:] + places[:-1])
     return np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]])
 
@@ -129,7 +126,6 @@ def _ink(colour: tuple[float, ...]) -> str:
 
 
 def _share(error: float) -> float:
-    """Of the colours, by the band that an error is in."""
     return (np.searchsorted(BANDS, error, side="right") - 1) / (len(BANDS) - 1)
 
 

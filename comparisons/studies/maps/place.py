@@ -66,7 +66,6 @@ def finished_map(name: str) -> dict:
 
 
 def problem_named(scene: str) -> Problem:
-    """Of a scene's file or name. Raises InputError."""
     return problem_of(load_scene(scene))
 
 

@@ -160,8 +160,6 @@ def model_errors(
     friction: float,
     window: Window | None,
 ) -> dict[str, PointError]:
-    """By quantity, in the order of QUANTITIES."""
-
     history = pair_history(half_plane, finite_element, problem, friction, window)
     one, other = (figures(run.finest, problem, friction) for run in (half_plane, finite_element))
     found = {}

@@ -119,7 +119,6 @@ class MapRequest:
 
 
 def point_cache(out: Path) -> Cache:
-    """Answers of points in the folder of a map, each under the point's key."""
     return Cache(out / FOLDER, "", {})
 
 

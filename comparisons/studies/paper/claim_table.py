@@ -108,7 +108,6 @@ def summary(judged: tuple[JudgedClaim, ...]) -> str:
 
 
 def paper_table(paper: "Paper") -> "RenderableType":
-    """For rich: one row a claim, how many ended how, and where the page is."""
     from rich.console import Group
     from rich.text import Text
 
@@ -124,7 +123,6 @@ def paper_table(paper: "Paper") -> "RenderableType":
 
 
 def _power(value: float) -> int:
-    """Of ten, of the leading digit."""
     return int(f"{abs(value):.0e}".partition("e")[2])
 
 

@@ -1,5 +1,6 @@
 """A contact on a grid of hats, its solution, and the figures that every solution is held to."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -10,11 +11,9 @@ from scipy.optimize import lsq_linear
 from analytic.contact.equilibrium import Constraints
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE, ContactSolution
-from analytic.exact.cases import Curve
 from analytic.grid import HatGrid, roller_gap
 from analytic.operators.elements import hat_galerkin
 from analytic.operators.half_plane import HalfPlane, ModelOperator
-from analytic.operators.tangential import CoupledHalfPlane
 from comparisons.models.level import Level
 from comparisons.models.nearest_operator import solve_on
 from comparisons.studies.checks import BoundedFigure, Findings, relative_error
@@ -24,6 +23,7 @@ MOST_TIMES = 10.0  # the applications of the ordinary contact on as many nodes
 MOST_NODES = 512  # in contact, for their condition number
 LEAST_SQUARES = 1e-8  # of the peak: error of bounded least squares
 SAME = 1e-9  # of the peak: difference of pressures that should be equal
+Constants = Sequence[float]  # Young's modulus [Pa] and Poisson's ratio
 HATS_PER_HALF_WIDTH = 77.3  # as on the third level of a scene; no edge falls on a node
 
 
@@ -78,7 +78,6 @@ class LoadedContact:
 def load_contact(
     operator: ModelOperator, x: np.ndarray, weighted_gap: np.ndarray, constraints: Constraints
 ) -> LoadedContact:
-    """Solve the contact of a weighted gap (n,) [m^2] on nodes x (n,) [m]."""
     weights = np.full(operator.count, operator.pitch)
     solution = solve_on(operator, weighted_gap, weights, constraints)
     return LoadedContact(x, weighted_gap, operator, constraints, solution)
@@ -93,35 +92,12 @@ def load_line(
 
 
 def load_cylinder(
-    operator: ModelOperator,
-    radius: float,
-    constraints: Constraints,
-    height: Curve | None = None,
-    knots: np.ndarray | None = None,
+    operator: ModelOperator, radius: float, constraints: Constraints
 ) -> LoadedContact:
-    """Press a parabola of `radius` [m] on a surface z(x) [m], flat if None."""
-    x, weighted_gap = cylinder_gap(operator, radius, height, knots)
-    return load_contact(operator, x, weighted_gap, constraints)
-
-
-def cylinder_gap(
-    operator: ModelOperator,
-    radius: float,
-    height: Curve | None = None,
-    knots: np.ndarray | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n,) [m] about x = 0 and weighted gap (n,) [m^2] of a parabola over z(x) [m]."""
+    """Press a parabola of `radius` [m] on a flat."""
     half = operator.count // 2
     grid = HatGrid(operator.pitch, -half, operator.count - 1 - half)
-    return grid.x, grid.hat_integrals(roller_gap(radius, height), knots)
-
-
-def mirrored(contact: LoadedContact) -> LoadedContact:
-    """The same problem seen from the other side, solved anew."""
-    own = operator = contact.operator
-    if isinstance(own, CoupledHalfPlane):
-        operator = CoupledHalfPlane(own.count, own.pitch, own.modulus, -own.friction_dundurs)
-    return load_contact(operator, contact.x, contact.weighted_gap[::-1], contact.constraints)
+    return load_contact(operator, grid.x, grid.hat_integrals(roller_gap(radius)), constraints)
 
 
 def residual_figures(solution: ContactSolution) -> tuple[BoundedFigure, ...]:
@@ -176,27 +152,18 @@ def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.
 
 
 def least_squares_deviation(contact: LoadedContact, modulus: float) -> BoundedFigure:
-    """Deviation from bounded least squares at the same approach."""
-    pitch, approach = contact.pitch, contact.solution.approach
+    """Deviation from the pressures by scipy's bounded least squares at the same approach."""
+    pitch, gap = contact.pitch, contact.weighted_gap / contact.pitch
     matrix = dense_matrix(len(contact.pressure), pitch, modulus)
-    hardness = contact.constraints.hardness
-    expected = least_squares(matrix, contact.weighted_gap, pitch, approach, hardness)
-    return deviation(contact.pressure, expected, "pressure", LEAST_SQUARES, "least squares")
-
-
-def least_squares(
-    matrix: np.ndarray, weighted_gap: np.ndarray, pitch: float, approach: float, hardness: float
-) -> np.ndarray:
-    """Pressures (n,) [Pa] of a dense compliance (n, n) at an approach [m], by scipy's BVLS."""
-    lowest = np.min(weighted_gap) / pitch
-    depth = approach - lowest
+    depth = contact.solution.approach - np.min(gap)
     unit = pitch * depth / np.abs(matrix).max()
     # the size of a gap that nothing closes does not matter
-    rise = np.minimum((weighted_gap / pitch - lowest) / depth, 1e3)
+    rise = np.minimum((gap - np.min(gap)) / depth, 1e3)
     factor = np.linalg.cholesky(matrix * unit / (pitch * depth))
     target = np.linalg.solve(factor, 1.0 - rise)
-    bounds = (0.0, hardness / unit)
-    return unit * lsq_linear(factor.T, target, bounds, method="bvls", tol=1e-14).x
+    bounds = (0.0, contact.constraints.hardness / unit)
+    expected = unit * lsq_linear(factor.T, target, bounds, method="bvls", tol=1e-14).x
+    return deviation(contact.pressure, expected, "pressure", LEAST_SQUARES, "least squares")
 
 
 def deviation(

@@ -1,6 +1,8 @@
-"""All stiff and extreme cases, as `crosscheck stability` runs them."""
+"""All stiff and extreme cases, as `crosscheck stability` runs them: the rows of rows.toml."""
 
+import tomllib
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 
@@ -9,21 +11,25 @@ from comparisons.studies.checks import (
     CheckedCase,
     CheckedStudy,
     check_places,
-    named_cases,
     run_cases,
     write_study,
 )
-from comparisons.studies.robustness.cases import algebra, friction, layers, rough, smooth
-from comparisons.studies.robustness.finite_element import extremes, scenes, stiffness
+from comparisons.studies.robustness import algebra, bodies, friction, layers, rough, scenes, smooth
+
+MODULES = (smooth, rough, friction, layers, algebra, bodies, scenes)
 
 
 def all_cases() -> list[CheckedCase]:
-    """Every case; cheap ones first."""
-    analytic = (smooth, rough, friction, layers, algebra)
-    finite_elements = (stiffness, scenes, extremes)
-    groups = [("half_plane", module.cases()) for module in analytic]
-    groups += [("finite_element", module.cases()) for module in finite_elements]
-    return [case for model, given in groups for case in named_cases(model, given)]
+    text = Path(__file__).with_name("rows.toml").read_text(encoding="utf-8")
+    named = {module.__name__.rpartition(".")[2]: module for module in MODULES}
+    return [
+        CheckedCase(group, name, model, partial(getattr(named[module], function), **given))
+        for model, modules in tomllib.loads(text).items()
+        for module, functions in modules.items()
+        for function, groups in functions.items()
+        for group, rows in groups.items()
+        for name, given in rows.items()
+    ]
 
 
 def run_robustness(

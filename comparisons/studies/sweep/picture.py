@@ -28,7 +28,6 @@ def sweep_picture(content: dict) -> str:
 
 
 def sweep_figure(content: dict) -> "Figure":
-    """The same as a figure, to be called inside `drawing()`."""
     rows = [row for point in content["points"] for row in point["rows"]]
     names = [name for name in DRAWN if any(row["quantity"] == name for row in rows)]
     drawn = style.figure(WIDTH, len(names) * (ABOVE + TALL) + FOOT)

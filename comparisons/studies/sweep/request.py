@@ -37,7 +37,6 @@ class SweptField:
 
     @property
     def text(self) -> str:
-        """As `--over` takes it."""
         return f"{self.name}={','.join(map(str, self.values))}"
 
 
@@ -135,7 +134,6 @@ def _swept(given: str, tables: Tables, scene: ResolvedScene) -> SweptField:
 
 
 def _number(text: str) -> Value:
-    """A number as TOML has it, or the text of one with its unit."""
     try:
         return float(text)
     except ValueError:

@@ -148,7 +148,6 @@ def sweep_csv(content: dict) -> str:
 
 
 def sweep_table(content: dict, out: Path | None) -> "Group":
-    """For rich to print: the scatter, what failed, and where the files are."""
     from rich.console import Group
     from rich.text import Text
 

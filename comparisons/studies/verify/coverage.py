@@ -90,7 +90,6 @@ class Pair:
 
     @property
     def stated(self) -> float:
-        """Stated uncertainty, relative."""
         return self.uncertainty.total
 
     @property
@@ -172,7 +171,6 @@ class ExactFindings(Findings):
 def exact_findings(
     pairs: Iterable[Pair], pressure_errors: tuple[float, ...] | None = None
 ) -> ExactFindings:
-    """The findings whose figures are those of the pairs."""
     pairs = tuple(pairs)
     figures = tuple(pair.figure for pair in pairs)
     return ExactFindings(figures, pairs=pairs, pressure_errors=pressure_errors)

@@ -157,7 +157,6 @@ def judged_form(path: Path) -> JudgedForm:
 
 
 def form_table(judged: JudgedForm) -> "Group":
-    """For rich: the sheet, and how many rows came out how."""
     from rich.console import Group
 
     from comparisons.report.terminal import plain_table

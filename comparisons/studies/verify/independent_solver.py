@@ -37,7 +37,6 @@ SCENES = {
 
 
 def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
-    """The coarsest level of a few scenes."""
     named = {name: partial(independent_findings, name) for name in names}
     return named_cases("finite_element", {"independent solver": named})
 

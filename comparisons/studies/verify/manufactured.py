@@ -160,7 +160,6 @@ BODIES: dict[str, tuple[Callable[[int], BlockMesh], Coating | None]] = {
 
 
 def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
-    """Both norms of the error on a body of a kind with elements of a degree."""
     mesh, coating = BODIES[kind]
     exact = Exact(BODY, COAT, THICKNESS) if coating else Exact(BODY)
     body = elastic_body(mesh(cells), BODY, Support(), degree=degree, coating=coating)
@@ -177,7 +176,6 @@ def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
 
 
 def manufactured_findings(kind: str, degree: int) -> Findings:
-    """Orders of both norms, and the errors on the finer mesh."""
     coarse, fine = (np.array(errors_of(kind, cells, degree)) for cells in CELLS[degree])
     orders, reference = np.log2(coarse / fine), "manufactured displacement"
     figures = []

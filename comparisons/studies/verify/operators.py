@@ -69,7 +69,6 @@ class OperatorContact:
 
 
 def operator_contacts() -> tuple[OperatorContact, ...]:
-    """Waves and punches of the gallery, and the layers of the table."""
     contacts = [_contact(c) for c in exact_contacts() if c.period is not None or c.knots]
     layers = [_layer(r, r.poissons_ratio or NEARLY_INCOMPRESSIBLE) for r in layer_references()]
     return (*contacts, *layers)

@@ -38,7 +38,6 @@ def verify_summary(found: Verification) -> "RenderableType":
 
 
 def verify_page(found: Verification) -> str:
-    """One self-contained page: coverage, every figure without a pair, and every pair."""
     figures = [
         [row.case.group, f"{row.case.name}: {f.name}", f"{f.value:.4g}", f.bounds, _yes(f.holds)]
         for row in found.rows

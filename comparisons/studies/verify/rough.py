@@ -189,7 +189,6 @@ def trace_of(contact: ManufacturedContact) -> KnownTrace:
 
 
 def _no_error(scene: ExactScene, problem: Problem) -> Mapping[str, float]:
-    """Figures of the half-plane where that is the body."""
     return scene.exact
 
 

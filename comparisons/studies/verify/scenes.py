@@ -101,7 +101,6 @@ def exact_scenes() -> tuple[ExactScene, ...]:
 
 
 def gallery_scenes() -> tuple[ExactScene, ...]:
-    """The gallery's rollers (one parabola, sliding forwards) on the default resolution."""
     return tuple(
         scene_of(case)
         for case in exact_contacts()

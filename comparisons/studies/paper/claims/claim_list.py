@@ -20,7 +20,6 @@ SURFACES = {
 
 
 def claims() -> tuple[Claim, ...]:
-    """All of them, in the order of the figures."""
     tables = tomllib.loads(Path(__file__).with_name("claims.toml").read_text(encoding="utf-8"))
     found = [_claim(table, {}) for table in tables["claim"]]
     for scene in (UNRUN, RUN_IN, POLISHED):

@@ -1,17 +1,19 @@
-"""Named cases of a module, run."""
+"""Rows of `stability`, run by their module and name."""
 
 from collections.abc import Callable
 from types import ModuleType
 
 import pytest
 
-from comparisons.studies.checks import CheckedRow, named_cases, run_case
+from comparisons.studies.checks import CheckedRow, run_case
+from comparisons.studies.robustness.run import all_cases
 
 
 @pytest.fixture
 def row_of() -> Callable[[ModuleType, str], CheckedRow]:
     def run(module: ModuleType, name: str) -> CheckedRow:
-        case = next(c for c in named_cases("any", module.cases()) if c.name == name)
-        return run_case(case)
+        functions = vars(module).values()
+        cases = (case for case in all_cases() if case.solve.func in functions)
+        return run_case(next(case for case in cases if case.name == name))
 
     return run

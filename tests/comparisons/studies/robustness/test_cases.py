@@ -13,23 +13,17 @@ from analytic.contact import problem as contact
 from analytic.layers import kernel
 from analytic.operators import half_plane as operators
 from analytic.operators.elements import hat_galerkin
-from comparisons.studies.checks import named_cases, run_case
-from comparisons.studies.robustness import loaded_contact
+from comparisons.studies.checks import run_case
+from comparisons.studies.robustness import algebra, friction, layers, loaded_contact, rough, smooth
 from comparisons.studies.robustness.backward_error import THRESHOLD
-from comparisons.studies.robustness.cases import (
-    algebra,
-    friction,
-    layers,
-    rough,
-    smooth,
-)
+from comparisons.studies.robustness.run import all_cases
 
 SLOW = ("1000000 p", "65536 points")
 
 
 @pytest.mark.parametrize("module", [smooth, rough, friction, layers, algebra])
 def test_quick_cases_hold(module):
-    cases = named_cases("half_plane", module.cases())
+    cases = [case for case in all_cases() if case.solve.func in vars(module).values()]
     rows = [run_case(case) for case in cases if not case.name.startswith(SLOW)]
     assert rows and [fault for row in rows for fault in row.faults] == []
 
@@ -46,14 +40,13 @@ def test_a_broken_kernel_fails_the_rows(monkeypatch, row_of):
     try:
         broken = (
             row_of(smooth, "ordinary: steel on steel"),
-            row_of(rough, "two equal highest peaks, heavy"),
+            row_of(rough, "plateau, heavy"),
         )
-        mirror = row_of(rough, "profile reversed")
     finally:
         for each in cached:
             each.cache_clear()
-    assert [row.decisive.name for row in broken if not row.holds] == 2 * ["gap against pressure"]
-    assert mirror.holds  # a symmetric mistake cannot be seen from behind
+    assert not any(row.holds for row in broken)
+    assert broken[0].decisive.name == "gap against pressure"
 
 
 def test_a_broken_solver_fails_the_rows(monkeypatch, row_of):

@@ -4,8 +4,6 @@ References: the exact limits of thick and thin layers (`verify` has the range in
 half-plane where the coating or its base does not matter.
 """
 
-from functools import partial
-
 import numpy as np
 
 from analytic.contact.equilibrium import Constraints
@@ -19,9 +17,10 @@ from analytic.layers.layered import LayeredBody
 from analytic.layers.operator import LayeredSurface
 from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane
-from comparisons.studies.checks import Findings, Groups
+from comparisons.studies.checks import Findings
 from comparisons.studies.robustness.loaded_contact import (
     HATS_PER_HALF_WIDTH,
+    Constants,
     LoadedContact,
     deviation,
     load_cylinder,
@@ -58,22 +57,22 @@ def thick_findings(base: str, a_over_t: float) -> Findings:
     return limit_findings(LayeredBody(NYLON, 1.0, base), limit, RADIUS, 0.23 * a_over_t**4)
 
 
-def thin_findings(base: str, a_over_t: float) -> Findings:
-    radius = 1e3 * a_over_t
-    limit = thin_compressible_layer(a_over_t, radius, 1.0, NYLON, base)
-    share = 0.53 if base == "frictionless" else 0.37
-    return limit_findings(LayeredBody(NYLON, 1.0, base), limit, radius, share / a_over_t)
+def thin_findings(base: str, a_over_t: float, incompressible: bool = False) -> Findings:
+    radius, share = 1e3 * a_over_t, 0.53 if base == "frictionless" else 0.37
+    limit, material = thin_compressible_layer(a_over_t, radius, 1.0, NYLON, base), NYLON
+    if incompressible:
+        limit, material = thin_incompressible_layer(a_over_t, radius, 1.0, 1.0), ELASTOMER
+        share = 8.0
+    return limit_findings(LayeredBody(material, 1.0, base), limit, radius, share / a_over_t)
 
 
-def incompressible_findings(a_over_t: float) -> Findings:
-    radius = 1e3 * a_over_t
-    limit = thin_incompressible_layer(a_over_t, radius, 1.0, 1.0)
-    return limit_findings(LayeredBody(ELASTOMER, 1.0, "bonded"), limit, radius, 8.0 / a_over_t)
-
-
-def coated_findings(body: LayeredBody, equivalent: Material, high: float) -> Findings:
-    """A coating that does not matter, or is all that matters: a half-plane of `equivalent`."""
-    modulus = equivalent.plane_strain_modulus
+def coated_findings(
+    coating: Constants, thickness: float, base: Constants, equivalent: Constants, high: float
+) -> Findings:
+    """A coating of a thickness over a that does not matter, or is all that matters: a half-plane of
+    the `equivalent` material."""
+    body = LayeredBody(Material(*coating), thickness, Material(*base))
+    modulus = Material(*equivalent).plane_strain_modulus
     load = np.pi * modulus / (4.0 * RADIUS)  # half-width 1
     contact = on_layer(body, 1.0, load)
     half_plane = HalfPlane(contact.operator.count, contact.pitch, modulus)
@@ -90,27 +89,3 @@ def rigid_base_findings(softness: float) -> Findings:
     rigid = on_layer(LayeredBody(coating, 1.0, "bonded"), 0.25, load).pressure
     reference = "the layer on a rigid base"
     return soft.findings(deviation(soft.pressure, rigid, "pressure", 10.0 * softness, reference))
-
-
-def cases() -> Groups:
-    layers = {
-        f"a/t = {ratio:g}, {base}": partial(thick_findings, base, ratio)
-        for base in ("bonded", "frictionless")
-        for ratio in (1e-3, 0.1)
-    }
-    layers |= {
-        "a/t = 100, bonded": partial(thin_findings, "bonded", 100.0),
-        "a/t = 100, frictionless": partial(thin_findings, "frictionless", 100.0),
-        "a/t = 100, bonded, incompressible": partial(incompressible_findings, 100.0),
-    }
-    hard, soft = Material(0.91e6, 0.2), Material(0.91, 0.3)
-    thin_hard, thin_soft = LayeredBody(hard, 1e-12, soft), LayeredBody(soft, 1e-12, hard)
-    equivalent = {
-        "coating of the body's own material": (LayeredBody(soft, 0.3, soft), soft, 1e-9),
-        "stiff coating 1e-12 a thin, 1e6 times as stiff": (thin_hard, soft, 5e-5),
-        "soft coating 1e-12 a thin, 1e-6 times as stiff": (thin_soft, hard, 5e-5),
-        "stiff coating 1e6 a thick": (LayeredBody(hard, 1e6, soft), hard, 1e-6),
-    }
-    coatings = {name: partial(coated_findings, *given) for name, given in equivalent.items()}
-    coatings["soft coating on a body 1e6 times as stiff"] = partial(rigid_base_findings, 1e-6)
-    return {"layer": layers, "coating": coatings}

@@ -5,8 +5,7 @@ for layers and coatings the analytic layer's contact on the same hats, which kno
 locking (and is held to its own references by the half-plane's rows).
 """
 
-from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -25,14 +24,10 @@ from comparisons.models.plan import make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import window_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.checks import BoundedFigure, Findings, Groups, relative_error
-from comparisons.studies.robustness.cases.smooth import flowed_figure
-from comparisons.studies.robustness.finite_element.loaded_body import (
-    MOST_COUPLED_STEPS,
-    MOST_STEPS,
-    finite_element_findings,
-)
+from comparisons.studies.checks import BoundedFigure, Findings, relative_error
+from comparisons.studies.robustness.bodies import MOST_STEPS, finite_element_findings
 from comparisons.studies.robustness.loaded_contact import deviation, peak_and_length
+from comparisons.studies.robustness.smooth import flowed_figure
 
 Tables = dict[str, dict[str, Any]]
 
@@ -40,14 +35,17 @@ STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
 RIGID = {"radius": 8e-3, "rigid": True}
 LOAD = {"per_length": 1e6}
 ORDINARY: Tables = {"roller": RIGID, "body": STEEL, "load": LOAD}
-CUBIC = {"finite_element": {"element": "P3"}}
+MOST_COUPLED_STEPS = 40
 PEAK, LENGTH, PLACE = 2e-3, 3e-3, 4e-3  # of Hertz's, with 19 hats on a half-width
-CUBIC_PEAK = 1e-3
-LOCKING_RATIO = 0.49  # Poisson's ratio from which cubic elements are due (`fem.body.elasticity`)
 SAME = 1e-7  # what another unit may change: a mesh's coordinates are rounded to 1e-9 of an edge
 # L2 of the pressure on the coarsest level: of a thick layer that of the half-plane, of a thin one
-# that of springs. Quadratic elements near nu = 1/2 leave more.
-THICK, MEDIUM, THIN, LOCKING = 8e-3, 3e-3, 1e-4, 1.5e-2
+# (rows.toml) that of springs; quadratic elements near nu = 1/2 leave more.
+THICK = 8e-3
+
+
+def changed(tables: Tables) -> Tables:
+    """The ordinary scene with other fields."""
+    return ORDINARY | {name: ORDINARY.get(name, {}) | fields for name, fields in tables.items()}
 
 
 def problem_from(tables: Tables) -> Problem:
@@ -67,7 +65,6 @@ def finite_element_solution(tables: Tables, refinement: int = 0) -> tuple[Proble
 
 @lru_cache
 def ordinary_level() -> Level:
-    """A rigid roller on steel: what the others' steps are compared with."""
     return finite_element_solution(ORDINARY)[1]
 
 
@@ -77,14 +74,15 @@ def findings(level: Level, *figures: BoundedFigure, most: int = MOST_STEPS) -> F
     return finite_element_findings(level.solution, *figures, most=most, ordinary=ordinary)
 
 
-def hertz_findings(tables: Tables, peak: float = PEAK) -> Findings:
-    problem, level = finite_element_solution(tables)
+def hertz_findings(peak: float = PEAK, **tables: dict) -> Findings:
+    """Of the ordinary scene with other fields; `peak`, what its relative error may be."""
+    problem, level = finite_element_solution(changed(tables))
     exact = (problem.hertz.peak_pressure, problem.hertz.half_width)
     return findings(level, *peak_and_length(level, exact, (peak, LENGTH), "Hertz, exact"))
 
 
-def shear_findings(tables: Tables) -> Findings:
-    problem, level = finite_element_solution({**tables, "stress": {"points": [40, 20]}})
+def shear_findings(**tables: dict) -> Findings:
+    problem, level = finite_element_solution(changed(tables | {"stress": {"points": [40, 20]}}))
     hertz, found = problem.hertz, level.stresses[0].extremes["tau1"]
     depth, reference = hertz.tau1_max_depth, "Hertz, exact"
     return findings(
@@ -94,16 +92,11 @@ def shear_findings(tables: Tables) -> Findings:
     )
 
 
-def sliding_findings(friction: float, poissons_ratio: float) -> Findings:
+def sliding_findings(**tables: dict) -> Findings:
     """A rigid roller that slides, its traction moving the surface."""
-    tables = {
-        **with_body(poissons_ratio=poissons_ratio),
-        "load": {**LOAD, "friction": friction, "coupled": True},
-        **(CUBIC if poissons_ratio > LOCKING_RATIO else {}),
-    }
-    problem, level = finite_element_solution(tables)
+    problem, level = finite_element_solution(changed(tables))
+    hertz, (friction,) = problem.hertz, problem.scene.friction
     beta = dundurs_constants(problem.scene.body, None)[1]
-    hertz = problem.hertz
     exact = sliding_from_load(hertz.load_per_length, hertz.radius, problem.modulus, friction, beta)
     x, pressure, reference = level.grid.x, level.solution.pressure, "sliding cylinder, exact"
     place = abs(x @ pressure / pressure.sum() - exact.load_position) / exact.half_width
@@ -116,12 +109,10 @@ def sliding_findings(friction: float, poissons_ratio: float) -> Findings:
 
 
 def hardness_findings(share: float) -> Findings:
-    """A hardness of `share` of the peak without one."""
     hardness = share * float(ordinary_level().solution.pressure.max())
-    tables = with_body(hardness=hardness)
     if share >= 1.0:
-        return hertz_findings(tables)
-    problem, level = finite_element_solution(tables)
+        return hertz_findings(body={"hardness": hardness})
+    problem, level = finite_element_solution(changed({"body": {"hardness": hardness}}))
     hertz = problem.hertz
     exact = flattened_cylinder(hertz.load_per_length, hertz.radius, problem.modulus, hardness)
     length, reference = 0.5 * level.contact_length, "flattened cylinder, exact"
@@ -157,9 +148,22 @@ def unit_findings(metre: float, pascal: float) -> Findings:
     )
 
 
-def layer_findings(tables: Tables, high: float = THICK, refinement: int = 0) -> Findings:
-    """A scene with a layer or a coating against the analytic one on the same hats."""
-    problem, level = finite_element_solution(tables, refinement)
+def layer_findings(a_over_t: float, high: float = THICK, **tables: dict) -> Findings:
+    """A layer of thickness t on a rigid base against the analytic one on the same hats."""
+    thickness = problem_from(ORDINARY).hertz.half_width / a_over_t
+    body = tables.get("body", {}) | {"thickness": thickness}
+    return analytic_findings(tables | {"body": body}, high)
+
+
+def coating_findings(times_as_stiff: float, a_over_t: float, refinement: int = 0) -> Findings:
+    """A coating against the analytic one on the same hats."""
+    coating = {"youngs_modulus": times_as_stiff * STEEL["youngs_modulus"], "poissons_ratio": 0.25}
+    coating["thickness"] = problem_from(ORDINARY).hertz.half_width / a_over_t
+    return analytic_findings({"coating": coating}, THICK, refinement)
+
+
+def analytic_findings(tables: Tables, high: float, refinement: int = 0) -> Findings:
+    problem, level = finite_element_solution(changed(tables), refinement)
     grid, pressure = level.grid, level.solution.pressure
     expected = solve_contact(
         nearest_operator(problem.scene, grid),
@@ -174,77 +178,3 @@ def layer_findings(tables: Tables, high: float = THICK, refinement: int = 0) -> 
         BoundedFigure("pressure, L2", error, high, reference),
         relative_error("peak pressure", pressure.max(), expected.max(), high, reference),
     )
-
-
-def with_body(**fields: object) -> Tables:
-    return {**ORDINARY, "body": {**STEEL, **fields}}
-
-
-def with_roller(times_as_stiff: float) -> Tables:
-    modulus = times_as_stiff * STEEL["youngs_modulus"]
-    roller = {"radius": RIGID["radius"], "youngs_modulus": modulus, "poissons_ratio": 0.2}
-    return {**ORDINARY, "roller": roller}
-
-
-def cases() -> Groups:
-    half_width = problem_from(ORDINARY).hertz.half_width
-    cubic = {**with_body(poissons_ratio=0.4999), **CUBIC}
-    held_close_by = {**ORDINARY, "finite_element": {"far_field": "half-plane"}}
-
-    def layer(a_over_t: float, high: float, **fields: object) -> Callable[[], Findings]:
-        return partial(layer_findings, with_body(thickness=half_width / a_over_t, **fields), high)
-
-    def coated(times_as_stiff: float, part: float, refinement: int = 0) -> Callable[[], Findings]:
-        modulus = times_as_stiff * STEEL["youngs_modulus"]
-        coating = {"youngs_modulus": modulus, "poissons_ratio": 0.25}
-        coating["thickness"] = half_width / part
-        return partial(layer_findings, {**ORDINARY, "coating": coating}, refinement=refinement)
-
-    thin_cubic = {**with_body(thickness=half_width / 10.0, poissons_ratio=0.4999), **CUBIC}
-    materials = {
-        "ordinary: rigid on steel": ORDINARY,
-        "roller 1e+06 times as stiff": with_roller(1e6),
-        "roller 1e-06 times as stiff": with_roller(1e-6),
-        "Poisson's ratio 0": with_body(poissons_ratio=0.0),
-        "Poisson's ratio 0.49": with_body(poissons_ratio=0.49),
-        "Poisson's ratio 0.4999": with_body(poissons_ratio=0.4999),
-        "held like a half-plane close by": held_close_by,
-    }
-    return {
-        "materials": {name: partial(hertz_findings, given) for name, given in materials.items()}
-        | {
-            "Poisson's ratio 0.4999, cubic": partial(hertz_findings, cubic, CUBIC_PEAK),
-            "stresses": partial(shear_findings, ORDINARY),
-            "stresses, Poisson's ratio 0.4999, cubic": partial(shear_findings, cubic),
-        },
-        "friction": {
-            f"friction {mu:g}, nu = {nu:g}": partial(sliding_findings, mu, nu)
-            for mu, nu in ((0.5, 0.3), (1.0, 0.0), (1.0, 0.4999))
-        },
-        "hardness": {
-            f"hardness {share:g} of the peak": partial(hardness_findings, share)
-            for share in (1.0 + 1e-6, 1.0 - 1e-2)
-        },
-        "units": {
-            f"lengths in {m:g} m, stresses in {p:g} Pa": partial(unit_findings, m, p)
-            for m, p in ((1e-9, 1.0), (1e3, 1.0), (1.0, 1e-6), (2.0**-20, 2.0**10))
-        },
-        "layer": {
-            "a/t = 0.001, bonded": layer(1e-3, THICK),
-            "a/t = 0.1, bonded": layer(0.1, THICK),
-            "a/t = 1, bonded": layer(1.0, THICK),
-            "a/t = 10, bonded": layer(10.0, MEDIUM),
-            "a/t = 100, bonded": layer(100.0, THIN),
-            "a/t = 1, frictionless": layer(1.0, THICK, base="frictionless"),
-            "a/t = 100, frictionless": layer(100.0, THIN, base="frictionless"),
-            "a/t = 1, bonded, nu = 0.4999": layer(1.0, LOCKING, poissons_ratio=0.4999),
-            "a/t = 10, bonded, nu = 0.4999, cubic": partial(layer_findings, thin_cubic, MEDIUM),
-        },
-        "coating": {
-            # a stiff one concentrates the pressure: one level finer
-            "coating a/10 thick, 1000 times as stiff": coated(1e3, 10.0, refinement=1),
-            "coating a/10 thick, 0.001 times as stiff": coated(1e-3, 10.0),
-            "coating a/0.5 thick, 1e-06 times as stiff": coated(1e-6, 0.5),
-            "coating a/50 thick, 3 times as stiff": coated(3.0, 50.0),
-        },
-    }

@@ -1,1 +1,0 @@
-"""Stiff and extreme cases of the half-plane side."""
