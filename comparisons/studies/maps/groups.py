@@ -13,6 +13,7 @@ their slopes. Groups that change a are set before those that are measured by it.
 import copy
 import difflib
 import re
+import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -44,26 +45,30 @@ class Origin:
     folder: Path
 
 
+SetTo = Callable[[dict, float, Origin], None]
+ValueOf = Callable[[Problem], float]
+
+
 @dataclass(frozen=True)
 class Group:
-    """A dimensionless group.
+    """A dimensionless group, one of groups.toml.
 
+    set_to          gives the SI tables of a scene (changed in place) a value of the group
+    value_of        the group's value of a scene, where it says how large an effect is
     symbol, label   for axes: short, and in words
     span            its range unless another one is asked for
-    set_to          gives the SI tables of a scene (changed in place) a value of the group
     finite_element  fields of [finite_element] that drop the assumption that the group is about
     early           the group changes a
-    value_of        the group's value of a scene, where it says how large an effect is
     vanishes        the effect goes to zero with the group
     """
 
+    set_to: SetTo
+    value_of: ValueOf | None
     symbol: str
     label: str
     span: tuple[float, float]
-    set_to: Callable[[dict, float, Origin], None]
     finite_element: Mapping[str, object] = field(default_factory=dict)
     early: bool = False
-    value_of: Callable[[Problem], float] | None = None
     vanishes: bool = True
 
 
@@ -226,63 +231,23 @@ def _set_slope(tables: dict, value: float, origin: Origin) -> None:
             profile[name] *= factor
 
 
-ROUGH_BOUNDARY = {"geometry": "rough", "gap": "displaced"}
-
-GROUPS: dict[str, Group] = {
-    **{
-        f"a_over_{size}": Group(
-            symbol,
-            f"half-width over {size}",
-            span,
-            partial(_set_size, size),
-            {"far_field": "held"},
-            value_of=partial(_size, size),
-        )
-        for size, symbol, span in (("thickness", "a/t", (0.05, 5.0)), ("width", "a/w", (0.02, 0.4)))
-    },
-    "a_over_radius": Group(
-        "a/R",
-        "half-width over radius",
-        (0.005, 0.3),
-        _set_radius,
-        {"deformation": "finite", "roller_shape": "circle"},
-        early=True,
-        value_of=_radius,
-    ),
-    "rms_slope": Group(
-        "rms slope",
-        "of the surface",
-        (0.005, 0.2),
-        _set_slope,
-        ROUGH_BOUNDARY,
-        value_of=_slope,
-    ),
-    "wavelength_over_a": Group(
-        "λ/a",
-        "shortest wavelength over half-width",
-        (0.2, 4.0),
-        _set_wavelength,
-        ROUGH_BOUNDARY,
-        value_of=_wavelength,
-        vanishes=False,
-    ),
-    "friction_dundurs": Group(
-        "μβ",
-        "friction times Dundurs' beta",
-        (0.01, 0.3),
-        _set_friction,
-        {"coupled": True},
-        value_of=_friction,
-    ),
-    "peak_pressure_over_hardness": Group(
-        "p₀/H", "Hertz's peak pressure over hardness", (0.3, 1.5), _set_hardness, {"plastic": True}
-    ),
-    "poissons_ratio": Group(
-        "ν", "Poisson's ratio of the body", (0.0, 0.49), _set_poissons_ratio, early=True
-    ),
-    "modulus_ratio": Group(
-        "E/E'", "roller's modulus over the body's", (0.01, 100.0), _set_modulus_ratio, early=True
-    ),
+# How each group is set, and how large it is in a scene where it says how large an effect is.
+FUNCTIONS: dict[str, tuple[SetTo, ValueOf | None]] = {
+    "a_over_thickness": (partial(_set_size, "thickness"), partial(_size, "thickness")),
+    "a_over_width": (partial(_set_size, "width"), partial(_size, "width")),
+    "a_over_radius": (_set_radius, _radius),
+    "rms_slope": (_set_slope, _slope),
+    "wavelength_over_a": (_set_wavelength, _wavelength),
+    "friction_dundurs": (_set_friction, _friction),
+    "peak_pressure_over_hardness": (_set_hardness, None),
+    "poissons_ratio": (_set_poissons_ratio, None),
+    "modulus_ratio": (_set_modulus_ratio, None),
+}
+GROUPS = {
+    name: Group(*FUNCTIONS[name], **fields)
+    for name, fields in tomllib.loads(
+        Path(__file__).with_name("groups.toml").read_text(encoding="utf-8")
+    ).items()
 }
 
 
@@ -360,7 +325,7 @@ def counts_of(given: str) -> tuple[int, int]:
 
 def usual_axes(tables: dict) -> tuple[str, str]:
     load, profile = tables["load"], tables.get("profile") or {}
-    if profile.get("kind") in ("sinusoid", "self-affine", "ground"):
+    if profile.get("kind") in WAVES:
         return "wavelength_over_a", "rms_slope"
     rigid = tables["roller"].get("rigid", False)
     if np.max(load.get("friction", 0.0)) > 0.0 and rigid:

@@ -30,6 +30,7 @@ CODE = (
     "comparisons/common/quantities.py",
     "comparisons/assessment",
     "comparisons/studies/maps/groups.py",
+    "comparisons/studies/maps/groups.toml",
     "comparisons/studies/maps/point.py",
 )
 FINISHED = Path(__file__).parent / "finished"

@@ -79,13 +79,3 @@ def coated_findings(
     plain = load_cylinder(half_plane, RADIUS, Constraints(load=load)).pressure
     reference = "the equivalent half-plane"
     return contact.findings(deviation(contact.pressure, plain, "pressure", high, reference))
-
-
-def rigid_base_findings(softness: float) -> Findings:
-    """A coating `softness` times as stiff as its body: a layer on a rigid base."""
-    coating, stiff = Material(0.91, 0.3), Material(0.91 / softness, 0.3)
-    load = thick_layer(0.25, RADIUS, 1.0, coating, "bonded").load_per_length
-    soft = on_layer(LayeredBody(coating, 1.0, stiff), 0.25, load)
-    rigid = on_layer(LayeredBody(coating, 1.0, "bonded"), 0.25, load).pressure
-    reference = "the layer on a rigid base"
-    return soft.findings(deviation(soft.pressure, rigid, "pressure", 10.0 * softness, reference))

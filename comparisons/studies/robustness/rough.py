@@ -1,15 +1,13 @@
-"""Rough lines at their extremes: one node, every node, plateaus, spikes, steep slopes, other units.
+"""Rough lines at their extremes: one node, plateaus, spikes, steep slopes, other units.
 
 References: a load over one node's weight; bounded least squares and the contact conditions on a
-dense matrix; the wave that a half-plane carries node by node; the same profile in other units.
+dense matrix; the same profile in other units.
 """
 
 import numpy as np
 
 from analytic.contact.equilibrium import Constraints
-from analytic.exact.westergaard import westergaard_from_mean_pressure
 from analytic.operators.half_plane import HalfPlane
-from analytic.operators.periodic import PeriodicHalfPlane, hat_aliases
 from analytic.surface.synthetic import self_affine
 from comparisons.studies.checks import BoundedFigure, Findings, relative_error
 from comparisons.studies.robustness.loaded_contact import (
@@ -78,32 +76,6 @@ def steps(count: int) -> np.ndarray:
 
 
 SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
-
-
-def wave_findings(share: float) -> Findings:
-    """A sinusoid under `share` of the pressure that closes it, on one periodic line.
-
-    In full contact hats carry the wave exactly: the amplitude is that of the averaged gap over
-    the wave's own symbol. In partial contact the reference is Westergaard's.
-    """
-    count = 1024
-    closing = np.pi / count
-    mean = share * closing
-    wave = np.cos(2.0 * np.pi * (np.arange(count) - count // 2) / count)
-    sinc4 = np.sinc(1.0 / count) ** 2
-    load = Constraints(load=mean * count)
-    contact = load_line(PeriodicHalfPlane(count, 1.0, 1.0), sinc4 * wave - 1.0, load)
-    # in units that keep digits: the discrete wave closes at its own symbol's pressure
-    amplitude = sinc4 / (float(hat_aliases(np.array([1.0 / count]))[0]) / np.pi)
-    figures = []
-    if mean >= amplitude:
-        exact = mean + amplitude * wave
-        reference = "the wave's symbol, exact"
-        figures.append(deviation(contact.pressure, exact, "pressure", SAME, reference))
-    peak = westergaard_from_mean_pressure(mean, float(count), 1.0, 1.0).peak_pressure
-    found = contact.pressure.max()
-    figures.append(relative_error("peak pressure", found, peak, 2e-4, "Westergaard, exact"))
-    return contact.findings(*figures)
 
 
 def scaled_findings(
