@@ -36,7 +36,7 @@ MAY_IMPORT = {
 }
 # Rooms of a package, folders or modules at its root: each may import those to its right.
 ROOMS = {
-    "analytic": "running_in exact heat layers contact stress operators surface "
+    "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
     "fem": "nonlinear contact compliance stress body solver compat",
     "comparisons": "cli commands api studies runs report results answers assessment "

@@ -91,14 +91,21 @@ def turning_points(curve: PPoly) -> np.ndarray:
     return np.sort(np.append(curve.x, crossings(curve.derivative(1))))
 
 
-def summits(profile: Profile) -> tuple[float, float]:
-    """Standard deviation [m] of the heights of the spline's summits (its maxima, ends aside), and
-    the mean of their curvatures [1/m], positive; both 0 without any."""
+def peaks(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (n,) [m] of the spline's maxima, ends aside, their heights (n,) [m] and curvatures
+    (n,) [1/m], positive."""
     curve = profile.spline()
     place = np.unique(crossings(curve.derivative(1)))
     bend = curve(place, 2)
     place, bend = place[bend < 0.0], bend[bend < 0.0]
-    return (float(np.std(curve(place))), float(-bend.mean())) if len(place) else (0.0, 0.0)
+    return place, curve(place), -bend
+
+
+def summits(profile: Profile) -> tuple[float, float]:
+    """Standard deviation [m] of the heights of the profile's peaks, and the mean of their
+    curvatures [1/m], positive; both 0 without any."""
+    _, height, bend = peaks(profile)
+    return (float(np.std(height)), float(bend.mean())) if len(height) else (0.0, 0.0)
 
 
 def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:

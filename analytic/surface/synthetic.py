@@ -166,6 +166,25 @@ def ground_texture(
     return Profile(0.5 * length * u, z * (rms_height / np.std(z)))
 
 
+def same_spectrum(profile: Profile, seed: int) -> Profile:
+    """A Gaussian profile with the power spectrum of another, as many samples and its rms height.
+
+    The other's waves under a Hann window, with new phases and Rayleigh distributed amplitudes. It
+    is one whole period about x = 0, the last sample repeats the first.
+    """
+    count = len(profile.x) - 1
+    x = np.linspace(profile.x[0], profile.x[-1], count + 1)
+    height = profile.spline()(x[:-1])
+    window = np.sin(np.pi * np.arange(count) / count) ** 2
+    waves = np.fft.rfft((height - np.average(height, weights=window)) * window)
+    phase, chance = random_generator(seed).random((2, len(waves)))
+    waves = np.abs(waves) * np.sqrt(-np.log1p(-chance)) * np.exp(2j * np.pi * phase)
+    waves[0] = 0.0
+    period = np.fft.irfft(waves, count)
+    period *= np.std(height) / np.std(period)
+    return Profile(x - 0.5 * (x[0] + x[-1]), np.append(period, period[0]))
+
+
 def random_generator(seed: int) -> np.random.Generator:
     """Random numbers that are the same everywhere; ValueError unless `seed` is whole, 0 or more."""
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or seed < 0:

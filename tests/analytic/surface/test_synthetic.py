@@ -8,7 +8,13 @@ from text_profiles import read_profile
 
 from analytic.profile import MAX_SAMPLES, surface
 from analytic.surface.roughness import roughness, shortest_wavelength
-from analytic.surface.synthetic import ground_texture, self_affine, sinusoid, smooth
+from analytic.surface.synthetic import (
+    ground_texture,
+    same_spectrum,
+    self_affine,
+    sinusoid,
+    smooth,
+)
 
 FRACTAL = {"hurst": 0.7, "samples": 1025, "length": 1e-3, "seed": 1, "rms_slope": 0.05}
 GROUND = {
@@ -238,3 +244,21 @@ def test_parameters_that_make_no_sense(maker, changes, words):
 def test_two_samples_a_wave_are_just_allowed():
     profile = self_affine(**FRACTAL, shortest_wavelength=2 * FRACTAL["length"] / 1024)
     assert roughness(profile).rms_slope == pytest.approx(0.05, rel=1e-9)
+
+
+def test_random_traces_have_the_spectrum_of_another():
+    """Root mean square height exactly; slope and curvature on average, phases anew."""
+    trace = ground_texture(
+        rms_height=0.4e-6, samples=4001, length=4e-3, seed=5, roll_off_wavelength=60e-6,
+        shortest_wavelength=12e-6, longest_wavelength=300e-6, one_sidedness=0.4,
+    )  # fmt: skip
+    found, expected = [same_spectrum(trace, seed) for seed in range(20)], roughness(trace)
+    assert np.std(found[0].height) == pytest.approx(np.std(trace.height), rel=1e-3)
+    slopes = [roughness(each).rms_slope for each in found]
+    assert np.mean(slopes) == pytest.approx(expected.rms_slope, rel=0.03)
+    bends = [np.std(each.spline()(each.x, 2)) for each in found]
+    assert np.mean(bends) == pytest.approx(np.std(trace.spline()(trace.x, 2)), rel=0.05)
+    skewness = [roughness(each).rsk for each in found]
+    assert abs(np.mean(skewness)) < 0.1 and expected.rsk < -0.6  # Gaussian, as the other is not
+    assert abs(np.corrcoef(found[0].height, found[1].height)[0, 1]) < 0.2
+    assert np.array_equal(found[3].height, same_spectrum(trace, 3).height)

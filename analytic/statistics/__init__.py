@@ -1,0 +1,1 @@
+"""Statistical theories of rough contact: Greenwood and Williamson, Greenwood and Tripp, Persson."""
