@@ -54,35 +54,44 @@ def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: i
     return create_mesh(comm, cells, x=points, e=_equispaced(degree))
 
 
-def _equispaced(degree: int):
-    """basix's element of two components with evenly spaced nodes, for 0.9 and later."""
+def _equispaced(degree: int, shape: tuple | None = (2,)):
+    """basix's element of evenly spaced nodes, for 0.9 and later; a scalar one has no shape."""
     import basix
     import basix.ufl
 
     variant = basix.LagrangeVariant.equispaced
-    return basix.ufl.element(basix.ElementFamily.P, "triangle", degree, variant, shape=(2,))
+    return basix.ufl.element(basix.ElementFamily.P, "triangle", degree, variant, shape=shape)
 
 
 def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
-    """Continuous vector space of evenly spaced nodes.
+    """Continuous vector space of evenly spaced nodes."""
+    return _continuous(mesh, degree, (2,))
 
-    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by default.
-    0.5 looks up the compiled element on disk each time; here once a process.
+
+def temperature_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
+    """Continuous scalar space of evenly spaced nodes."""
+    return _continuous(mesh, degree, None)
+
+
+def _continuous(mesh: "Mesh", degree: int, shape: tuple | None) -> "FunctionSpace":
+    """0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by
+    default. 0.5 looks up the compiled element on disk each time; here once a process.
     """
     from dolfinx import fem
 
     if not hasattr(fem, "VectorFunctionSpace"):
-        return fem.functionspace(mesh, _equispaced(degree))
+        return fem.functionspace(mesh, _equispaced(degree, shape))
     import ufl
     from dolfinx import cpp
 
     scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
-    vector = ufl.VectorElement(scalar)
-    (element, dofmap), module, _ = _compiled_once(("element", degree), lambda: vector, mesh.comm)
+    used = ufl.VectorElement(scalar) if shape else scalar
+    name = ("element", degree, shape)
+    (element, dofmap), module, _ = _compiled_once(name, lambda: used, mesh.comm)
     element, dofmap = (_address(module, each) for each in (element, dofmap))
     element = cpp.fem.FiniteElement(element)
     dofmap = cpp.fem.create_dofmap(mesh.comm, dofmap, mesh.topology, element)
-    return fem.FunctionSpace(mesh, vector, cpp.fem.FunctionSpace(mesh._mesh, element, dofmap))
+    return fem.FunctionSpace(mesh, used, cpp.fem.FunctionSpace(mesh._mesh, element, dofmap))
 
 
 def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tuple:

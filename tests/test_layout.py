@@ -38,7 +38,7 @@ MAY_IMPORT = {
 ROOMS = {
     "analytic": "running_in exact heat layers statistics contact stress operators surface "
     "grid profile stress_state material numerics",
-    "fem": "nonlinear contact compliance stress body solver compat",
+    "fem": "heat nonlinear contact compliance stress body solver compat",
     "comparisons": "cli commands api studies runs report results answers assessment "
     "models scenes common",
 }

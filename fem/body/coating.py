@@ -4,16 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analytic.material import Material
+from analytic.material import Material, ThermalMaterial
 from fem.body.surface import SAME_POINT
 from meshes.block import BlockMesh
 
 
 @dataclass(frozen=True)
 class Coating:
-    """A layer of another `material` on the body; `thickness` [m] as in the flat block's mesh."""
+    """A layer of another `material`, elastic or thermal, on the body; `thickness` [m] as in the flat block's mesh."""
 
-    material: Material
+    material: Material | ThermalMaterial
     thickness: float
 
     def __post_init__(self) -> None:

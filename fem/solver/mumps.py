@@ -148,31 +148,38 @@ def _attempt(matrix: "Mat", symmetric: bool, spare: int) -> "tuple[KSP, Mat, int
     return ksp, factor, factor.getMumpsInfog(1)
 
 
-def solve_once(matrix: csr_matrix, right: np.ndarray, symmetric: bool) -> np.ndarray:
-    """x (n,) of matrix x = right, on one process. `symmetric` matrices, definite or not, are
-    factored as LDL^T. Raises FemError if MUMPS cannot factor it or the solution is not finite."""
-    from petsc4py import PETSc
+class Factor:
+    """LU of a scipy matrix, on one process; of a `symmetric` one, definite or not, LDL^T.
 
-    matrix.sort_indices()
-    csr = (matrix.indptr, matrix.indices, matrix.data)
-    system = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
-    if symmetric:
-        system.setOption(PETSc.Mat.Option.SYMMETRIC, True)
-    load, found = system.createVecs()
-    load.setArray(right)
-    try:
-        ksp, factor = factorised(system, symmetric)
-        try:
-            ksp.solve(load, found)
-        finally:
-            destroy(factor, ksp)
-        solution = found.getArray().copy()
-    finally:
-        for used in (load, found, system):
-            used.destroy()
-    if not np.isfinite(solution).all():
-        raise FemError(f"the system of {matrix.shape[0]} unknowns is singular")
-    return solution
+    Raises FemError if MUMPS cannot factor it.
+    """
+
+    def __init__(self, matrix: csr_matrix, symmetric: bool = False) -> None:
+        from petsc4py import PETSc
+
+        matrix.sort_indices()
+        csr = (matrix.indptr, matrix.indices, matrix.data)
+        system = PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
+        if symmetric:
+            system.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+        self._right, self._left = system.createVecs()
+        self._ksp, factor = factorised(system, symmetric)
+        used = factor, self._ksp.getPC(), self._ksp, self._right, self._left, system
+        release_with(self, *used)
+
+    def solve(self, right: np.ndarray) -> np.ndarray:
+        """x (n,) of matrix x = right. Raises FemError if it is not finite."""
+        self._right.setArray(right)
+        self._ksp.solve(self._right, self._left)
+        solution = self._left.getArray().copy()
+        if not np.isfinite(solution).all():
+            raise FemError(f"the system of {len(right)} unknowns is singular")
+        return solution
+
+
+def solve_once(matrix: csr_matrix, right: np.ndarray, symmetric: bool) -> np.ndarray:
+    """x (n,) of matrix x = right by `Factor`, with its errors."""
+    return Factor(matrix, symmetric).solve(right)
 
 
 def factorisation_seconds(unknowns: int) -> float:

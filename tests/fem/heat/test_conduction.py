@@ -1,0 +1,228 @@
+"""Steady conduction: manufactured solutions, Jaeger's moving band, layers, balance of heat."""
+
+import json
+
+import numpy as np
+import pytest
+from scenes import DATA
+
+from analytic.heat.moving_source import band_maximum, band_surface
+from analytic.material import ThermalMaterial
+from fem.body.coating import Coating
+from fem.body.surface import boundary_points
+from fem.body.triangle import collapsed_gauss, jacobians, shapes
+from fem.heat.body import thermal_body
+from fem.heat.conduction import Conduction, Surroundings
+from fem.heat.surface_heat import flux_load
+from meshes.block import BlockSpec, real_points
+from meshes.build import build_block
+from meshes.real_shape import bent
+from meshes.thermal_layer import thermal_spec
+
+UNIT = ThermalMaterial(1.0, 1.0, 1.0)
+MATERIAL = ThermalMaterial(2.0, 3.0, 0.5)
+BAND = np.linspace(-1.0, 1.0, 3)
+OPEN = Surroundings("open", "open")
+JAEGER = json.loads((DATA / "h_heat.json").read_text())["jaeger"]
+
+
+class Wave:
+    """T = sin(a x + b z) exp(c z), its gradient and its Laplacian."""
+
+    a, b, c = 1.3, 0.4, 0.3
+
+    def parts(self, x, z):
+        phase, swell = self.a * x + self.b * z, np.exp(self.c * z)
+        return np.sin(phase) * swell, np.cos(phase) * swell
+
+    def temperature(self, x, z):
+        return self.parts(x, z)[0]
+
+    def gradient(self, x, z):
+        sine, cosine = self.parts(x, z)
+        return self.a * cosine, self.b * cosine + self.c * sine
+
+    def laplacian(self, x, z):
+        sine, cosine = self.parts(x, z)
+        return (self.c**2 - self.a**2 - self.b**2) * sine + 2.0 * self.b * self.c * cosine
+
+
+def load_of(wave, mesh, exact_forces, velocity, radius, degree):
+    """Nodal heat of the source in the body and of the flux through all its sides."""
+    k = MATERIAL.conductivity
+
+    def source(x, z):
+        along, down = wave.gradient(x, z)
+        moved = (1.0 - z / radius) * along + x / radius * down
+        heat = velocity * MATERIAL.density * MATERIAL.specific_heat * moved
+        return heat - k * wave.laplacian(x, z), 0.0 * x
+
+    def flux(x, z):
+        along, down = wave.gradient(x, z)
+        return k * along, 0.0 * x, k * down
+
+    return exact_forces(mesh, flux, source, degree)[:, 0]
+
+
+def l2_error(body, temperature, exact):
+    at, weight = collapsed_gauss(6)
+    nodes = real_points(body.mesh)[body.mesh.triangles]
+    place = np.einsum("mac,qa->mqc", nodes, shapes(at))
+    area = np.abs(np.linalg.det(jacobians(nodes, at))) * weight
+    found = temperature[body.numbering.elements] @ shapes(at, body.numbering.degree).T
+    return np.sqrt((area * (found - exact(place[..., 0], place[..., 1])) ** 2).sum())
+
+
+@pytest.mark.parametrize("velocity", [0.0, 5.0, -40.0])
+@pytest.mark.parametrize(("degree", "order"), [(1, 2.0), (2, 3.0), (3, 4.0)])
+def test_manufactured_solution_on_a_block(structured_block, exact_forces, degree, order, velocity):
+    """The surface takes the flux; the other sides have the temperature."""
+    wave, errors = Wave(), []
+    for cells in (8, 16, 32):
+        mesh = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
+        body = thermal_body(mesh, MATERIAL, degree=degree)
+        moving = Conduction(body, velocity, Surroundings("held", "held"))
+        load = load_of(wave, mesh, exact_forces, velocity, np.inf, degree)
+        found = moving.steady(load, wave.temperature(*body.nodes.T))
+        errors.append(l2_error(body, found, wave.temperature))
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders[-1] == pytest.approx(order, abs=0.12)
+    assert errors[-1] < {1: 1e-3, 2: 2e-5, 3: 2e-7}[degree]
+
+
+def test_manufactured_solution_on_a_turning_disc(structured_block, exact_forces):
+    wave, errors = Wave(), []
+    for cells in (6, 12, 24):
+        flat = structured_block(np.linspace(-1, 1, 2 * cells + 1), np.linspace(0, 1, cells + 1))
+        mesh = bent(flat, 1.6)
+        body = thermal_body(mesh, MATERIAL, radius=1.6)
+        turning = Conduction(body, 10.0, Surroundings("held", "held"))
+        load = load_of(wave, mesh, exact_forces, 10.0, 1.6, 2)
+        found = turning.steady(load, wave.temperature(*body.nodes.T))
+        errors.append(l2_error(body, found, wave.temperature))
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert orders[-1] == pytest.approx(3.0, abs=0.15)
+
+
+def under_band(peclet, layers, size=0.05, degree=2):
+    """Surface x and k T / (q l) of a half-plane under a unit band |x| < 1 that moves towards +x."""
+    velocity = -2.0 * peclet
+    spec = thermal_spec(
+        [[-1, 1]], size, half_width=10, depth=10, length=1 / velocity, layers=layers
+    )
+    body = thermal_body(build_block(spec), UNIT, degree=degree)
+    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    return body.surface.x, found[body.surface.point]
+
+
+@pytest.mark.parametrize(
+    "exact", JAEGER, ids=lambda each: f"Peclet number {each['Pe_Vl_over_2kappa']}"
+)
+def test_jaeger_s_band(exact):
+    x, found = under_band(float(exact["Pe_Vl_over_2kappa"]), 2)
+    largest = float(exact["max_kT_over_ql"])
+    assert found.max() == pytest.approx(largest, rel=2e-4)
+    for place in (-2, -1, -0.5, 0, 0.5, 1, 1.5):
+        value = float(exact[f"kT_over_ql_at_x_{place}"])
+        assert np.interp(place, x, found) == pytest.approx(value, abs=3e-3 * largest)
+
+
+@pytest.mark.parametrize("peclet", [0.1, 1.0, 10.0, 100.0])
+def test_jaeger_s_largest_temperature(peclet):
+    found = under_band(peclet, 2)[1].max()
+    assert found == pytest.approx(band_maximum(peclet)[0], rel=2e-4)
+
+
+@pytest.mark.parametrize(("peclet", "bound"), [(100.0, 1e-3), (1000.0, 2e-3)])
+def test_a_fast_band_needs_no_upwinding(peclet, bound):
+    """The whole surface, with its wake and what lies ahead of the band."""
+    x, found = under_band(peclet, 2)
+    exact = band_surface(x, peclet)
+    assert np.abs(found - exact).max() < bound * exact.max()
+    assert found.min() > -bound * exact.max()
+    coarse = np.abs(under_band(peclet, 1)[1].max() / exact.max() - 1.0)
+    assert coarse < 1e-3 and np.abs(found.max() / exact.max() - 1.0) < 5e-5
+
+
+def test_an_open_boundary_stands_for_the_half_plane():
+    """At a twentieth of the diffusion length kappa/V, and at rest."""
+    load, surface = {}, {}
+    for half in (5.0, 10.0):
+        spec = thermal_spec([[-1, 1]], 0.1, half_width=half, depth=half)
+        body = thermal_body(build_block(spec), UNIT)
+        load[half] = flux_load(body, BAND, np.ones(3))
+        moving, resting = Conduction(body, -0.005, OPEN), Conduction(body, 0.0, OPEN, reach=1e3)
+        point = body.surface.point[np.abs(body.surface.x) <= 1.0]
+        surface[half] = [each.steady(load[half])[point].max() for each in (moving, resting)]
+    at_rest = (np.log(1e3) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(reach / |x|)
+    assert surface[10.0] == pytest.approx(
+        [band_surface(np.linspace(-1, 1, 401), 0.0025).max(), at_rest], rel=2e-4
+    )
+    assert surface[5.0] == pytest.approx(surface[10.0], rel=2e-3)
+
+
+def leaving(conduction, temperature, load):
+    """Heat [W/m] that moving material carries out at both sides, and that held nodes take."""
+    body, total = conduction.body, 0.0
+    sides = boundary_points(body.numbering.flat, body.mesh.spec)
+    heat = body.material.density * body.material.specific_heat * conduction.velocity
+    for side, sign in ((sides.right, 1.0), (sides.left, -1.0)):
+        side = side[np.argsort(body.nodes[side, 1])]
+        t, z = temperature[side], body.nodes[side, 1]
+        simpson = np.diff(z[::2]) / 6.0 * (t[:-1:2] + 4.0 * t[1::2] + t[2::2])
+        total += sign * heat * simpson.sum()
+    return total, (load - conduction.matrix @ temperature)[conduction.held].sum()
+
+
+@pytest.mark.parametrize("velocity", [0.0, 7.0, -200.0])
+def test_heat_in_is_heat_out(velocity):
+    spec = thermal_spec([[-1, 1]], 0.2, half_width=8, depth=4, length=1 / (velocity or 1e-30))
+    body = thermal_body(build_block(spec), MATERIAL)
+    slab = Conduction(body, velocity, Surroundings("held", "flow"))
+    load = flux_load(body, BAND, np.array([1.0, 3.0, 0.5]))
+    carried, taken = leaving(slab, slab.steady(load), load)
+    assert load.sum() == pytest.approx(3.75, rel=1e-13)
+    assert carried + taken == pytest.approx(load.sum(), rel=1e-10)
+    assert (carried > 0.3 * load.sum()) == (velocity != 0.0)
+
+
+def two_layers(x, velocity, coat, below, thickness):
+    """Surface temperature (m,) under a unit band |x| < 1 on a coated half-plane, by Fourier's
+    transform: k gamma is each layer's admittance, gamma^2 = xi^2 + i xi V / kappa."""
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    edges = np.linspace(0.0, np.sqrt(4000.0), 4001)  # xi = s^2: the root at 0 becomes smooth
+    half = 0.5 * np.diff(edges)[:, None]
+    s = (edges[:-1, None] + half * (1.0 + nodes)).ravel()
+    weight, xi = (half * weights).ravel() * 2.0 * s, s**2
+    first, second = (
+        each.conductivity * np.sqrt(xi**2 + 1j * xi * velocity / each.diffusivity)
+        for each in (coat, below)
+    )
+    echo = (first - second) / (first + second)
+    echo = echo * np.exp(-2.0 * thickness * first / coat.conductivity)
+    whole = 2.0 * np.sin(xi) / xi * (1.0 + echo) / (first * (1.0 - echo))
+    return np.array([(weight * whole * np.exp(1j * xi * place)).real.sum() / np.pi for place in x])
+
+
+@pytest.mark.parametrize("velocity", [0.5, -20.0])
+@pytest.mark.parametrize("conductivity", [0.1, 10.0])
+def test_a_coated_half_plane(velocity, conductivity):
+    coat, thickness = ThermalMaterial(conductivity, 2.0, 1.0), 0.3
+    spec = BlockSpec(20.0, 20.0, np.array([[-3.0, 3.0]]), 0.025, 0.2, interface=thickness)
+    body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
+    x = np.array([-2.0, -0.8, -0.3, 0.0, 0.45, 0.8, 2.5])
+    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    exact = two_layers(x, velocity, coat, UNIT, thickness)
+    places = np.column_stack([x, np.zeros_like(x)])
+    assert body.at(places, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+    bare = two_layers(x, velocity, UNIT, UNIT, thickness)
+    assert np.abs(bare / exact - 1.0).max() > 0.1
+
+
+def test_what_is_refused(structured_block):
+    body = thermal_body(structured_block(np.linspace(-1, 1, 5), np.linspace(0, 1, 3)), UNIT)
+    with pytest.raises(ValueError, match="base must be one of"):
+        Surroundings("cold", "held")
+    with pytest.raises(ValueError, match="at rest its mesh ends within its reach"):
+        Conduction(body, 0.0, OPEN)
+    assert np.isnan(body.at(np.array([[0.0, 2.0]]), np.zeros(len(body.nodes)))).all()

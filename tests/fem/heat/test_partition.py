@@ -1,0 +1,122 @@
+"""Partition of frictional heat: symmetry, one dimension, fast limits, Jaeger's kernels."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from analytic.heat.moving_source import band_surface
+from analytic.material import ThermalMaterial
+from fem.heat.body import thermal_body
+from fem.heat.conduction import Conduction, Surroundings
+from fem.heat.partition import FrictionalHeat
+from fem.heat.transient import doubling_times
+from meshes.build import build_block
+from meshes.thermal_layer import thermal_spec
+
+OPEN, HELD = Surroundings("open", "open"), Surroundings("held", "held")
+X = np.linspace(-1.0, 1.0, 41)
+EVEN = np.ones(41)
+
+
+@cache
+def half_plane(velocity, conductivity=1.0, capacity=1.0, surroundings=OPEN, size=0.1):
+    material = ThermalMaterial(conductivity, capacity, 1.0)
+    length = material.diffusivity / velocity if velocity else np.inf
+    spec = thermal_spec([[-1.0, 1.0]], size, half_width=10.0, depth=10.0, length=length)
+    return Conduction(thermal_body(build_block(spec), material), velocity, surroundings)
+
+
+@pytest.mark.parametrize("conductivity", [1.0, 3.0, 1000.0])
+def test_bodies_at_rest_of_one_shape(conductivity):
+    """q_1 = k_1 / (k_1 + k_2) Q everywhere, whatever Q."""
+    pair = half_plane(0.0, surroundings=HELD), half_plane(0.0, conductivity, surroundings=HELD)
+    heat = 1.0 + 0.5 * np.sin(3.0 * X)
+    found = FrictionalHeat(pair, X).steady(heat)
+    assert found.share == pytest.approx(1.0 / (1.0 + conductivity), rel=1e-9)
+    assert found.flux[0] == pytest.approx(heat / (1.0 + conductivity), rel=1e-7)
+    assert found.flux.sum(axis=0) == pytest.approx(heat, rel=1e-13)
+
+
+@pytest.mark.parametrize("velocity", [0.2, 20.0, 2000.0])
+def test_equal_bodies_that_move_alike_share_equally(velocity):
+    found = FrictionalHeat((half_plane(velocity), half_plane(velocity)), X).steady(EVEN)
+    assert found.share == pytest.approx(0.5, rel=1e-9)
+
+
+def test_equal_bodies_that_move_against_each_other_share_equally():
+    found = FrictionalHeat((half_plane(200.0), half_plane(-200.0)), X).steady(EVEN)
+    assert found.share == pytest.approx(0.5, rel=1e-3)
+    assert found.flux[0] == pytest.approx(found.flux[1, ::-1], abs=2e-2 * found.flux.max())
+
+
+@pytest.mark.parametrize(("conductivity", "capacity"), [(4.0, 1.0), (1.0, 4.0), (2.0, 2.0)])
+def test_fast_bodies_that_move_alike_share_by_effusivity(conductivity, capacity):
+    """Blok's fast limit: heat flows at right angles to the surface only."""
+    pair = half_plane(200.0), half_plane(200.0, conductivity, capacity)
+    found = FrictionalHeat(pair, X).steady(EVEN)
+    assert found.share == pytest.approx(1.0 / (1.0 + np.sqrt(conductivity * capacity)), rel=1e-3)
+
+
+def by_kernels(peclet, conductivity, count):
+    """Flux into body 1 on `count` strips of the band, temperatures equal in their middles."""
+    x = (np.arange(count) + 0.5) * 2.0 / count - 1.0
+    first, second = (
+        band_surface(np.sign(each) * (x[:, None] - x) * count, abs(each) / count) / (count * k)
+        for each, k in zip(peclet, (1.0, conductivity), strict=True)
+    )
+    return x, np.linalg.solve(first + second, second @ np.ones(count))
+
+
+@pytest.mark.parametrize(
+    ("peclet", "conductivity"), [((0.5, 50.0), 1.0), ((0.5, 5.0), 3.0), ((2.0, -2.0), 1.0)]
+)
+def test_unlike_bodies_by_jaeger_s_kernels(peclet, conductivity):
+    """A source that moves towards +x with Peclet number Pe has material that moves with -2 Pe."""
+    velocity = -2.0 * np.array(peclet) * (1.0, conductivity)
+    pair = half_plane(velocity[0]), half_plane(velocity[1], conductivity)
+    found = FrictionalHeat(pair, X).steady(EVEN)
+    x, flux = by_kernels(peclet, conductivity, 400)
+    assert found.share == pytest.approx(flux.mean(), abs=2e-3)
+    inside = np.abs(found.x) < 0.7
+    exact = np.interp(found.x, x, flux)
+    assert found.flux[0][inside] == pytest.approx(exact[inside], abs=1e-2)
+
+
+def test_temperatures_are_equal_in_contact_and_not_beside_it():
+    contact = (np.abs(X[:-1] + 0.6) < 0.31) | (np.abs(X[:-1] - 0.6) < 0.31)
+    pair = half_plane(1.0, size=0.05), half_plane(-20.0, 2.0)
+    system = FrictionalHeat(pair, X, contact)
+    heat = np.where(np.isin(X, system.x), 1.0, 0.0)
+    found = system.steady(heat, bulk=(10.0, 30.0))
+    places = np.column_stack([0.5 * (X[1:] + X[:-1]), np.zeros(40)])
+    first, second = (
+        bulk + each.body.at(places, rise)
+        for each, rise, bulk in zip(pair, found.temperature, (10.0, 30.0), strict=True)
+    )
+    apart = np.abs(first - second)
+    inner = np.all([np.roll(contact, k) for k in range(-3, 4)], axis=0)
+    assert apart[inner].max() < 0.005 * np.ptp(first)
+    assert apart[~contact].max() > 0.2 * np.ptp(first)
+
+
+def test_bodies_heated_in_time_share_by_effusivity(structured_block):
+    """One-dimensional: the surfaces touch all along, nothing has come to the base yet."""
+    z, x = np.concatenate([[0.0], np.geomspace(1e-3, 10.0, 50)]), np.linspace(-1.0, 1.0, 3)
+    materials = ThermalMaterial(1.0, 1.0, 1.0), ThermalMaterial(4.0, 9.0, 1.0)
+    bodies = [thermal_body(structured_block(x, z), each) for each in materials]
+    pair = tuple(Conduction(each, 0.0, Surroundings("held", "insulated")) for each in bodies)
+    times = doubling_times(1e-5, 0.1, 16)
+    *_, last = FrictionalHeat(pair, x).transient(lambda t: np.full(3, 7.0), times)
+    assert last.share == pytest.approx(1.0 / 7.0, rel=1e-4)
+    exact = 2.0 * np.sqrt(times[-1] / np.pi) * 1.0  # 1/7 of 7 into effusivity 1
+    for body, rise in zip(bodies, last.temperature, strict=True):
+        assert rise[body.surface.point] == pytest.approx(exact, rel=1e-4)
+
+
+def test_what_is_refused():
+    pair = half_plane(20.0), half_plane(20.0)
+    with pytest.raises(ValueError, match="no part of the surfaces"):
+        FrictionalHeat(pair, X, np.zeros(40, dtype=bool))
+    with pytest.raises(ValueError, match="finer than the nodes of both surfaces"):
+        FrictionalHeat(pair, np.linspace(-1.0, 1.0, 2001))
