@@ -5,7 +5,8 @@ place where the flux begins or ends. The edges of the surface's elements follow 
 
     e(x) = min(h + g d,  max(L, sqrt(L s)) / n  behind such a place,  L/n + g s  ahead of it)
 
-With n = 1 or more quadratic elements need no upwinding (`fem.heat.conduction`).
+With n = 1 or more quadratic elements need no upwinding (`fem.heat.conduction`). A finer level has
+h/2, 2 n and g/sqrt(2): temperatures converge with order 2, as fluxes jump at the ends of a band.
 
 Nomenclature (lengths in m)
     L    kappa/|V|, infinite at rest      h   edge under the source      n   elements to a layer

@@ -11,7 +11,8 @@ from meshes.block import BlockMesh
 
 @dataclass(frozen=True)
 class Coating:
-    """A layer of another `material`, elastic or thermal, on the body; `thickness` [m] as in the flat block's mesh."""
+    """A layer of another `material`, elastic or thermal, on the body; `thickness` [m] as in the
+    flat block's mesh."""
 
     material: Material | ThermalMaterial
     thickness: float

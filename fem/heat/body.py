@@ -8,7 +8,6 @@ Nomenclature
                disc of radius R about its centre (0, R); (1, 0) of a flat body
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -31,6 +30,7 @@ from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     import ufl
+    from dolfinx.fem import FunctionSpace
 
 
 @dataclass(eq=False)
@@ -107,9 +107,9 @@ def thermal_body(
     curvature = of_cells(1.0 / radius, 1.0 / radius)
     quadrature = 2 * degree + (2 if curved else 0)
 
-    def matrix(kind: Callable, points: int, *values) -> csr_matrix:
-        make = partial(kind, space, *values, points)
-        name = (kind.__name__, degree, curved, points)
+    def matrix(kind: str, points: int, *values) -> csr_matrix:
+        make = partial(_form, kind, space, points, *values)
+        name = (kind, degree, curved, points)
         form = compiled(lambda: compat.compile_bilinear(name, make, space, list(values)))
         assembled = compat.petsc_matrix(form, [])
         start, column, value = assembled.getValuesCSR()
@@ -123,31 +123,21 @@ def thermal_body(
         coating,
         radius,
         numbering,
-        capacity=matrix(_capacity, quadrature, heat),
-        conduction=matrix(_conduction, quadrature_degree(degree, curved), conductivity),
-        convection=matrix(_convection, quadrature, heat, curvature),
+        capacity=matrix("capacity", quadrature, heat),
+        conduction=matrix("conduction", quadrature_degree(degree, curved), conductivity),
+        convection=matrix("convection", quadrature, heat, curvature),
     )
 
 
-def _capacity(space, heat, points: int) -> "ufl.Form":
-    import ufl
-
-    t, s = ufl.TrialFunction(space), ufl.TestFunction(space)
-    return heat * t * s * ufl.dx(domain=space.mesh, metadata={"quadrature_degree": points})
-
-
-def _conduction(space, conductivity, points: int) -> "ufl.Form":
+def _form(kind: str, space: "FunctionSpace", points: int, factor, curvature=None) -> "ufl.Form":
+    """Of one of the body's matrices; `points` is the degree that the quadrature is exact for."""
     import ufl
 
     t, s = ufl.TrialFunction(space), ufl.TestFunction(space)
     measure = ufl.dx(domain=space.mesh, metadata={"quadrature_degree": points})
-    return conductivity * ufl.inner(ufl.grad(t), ufl.grad(s)) * measure
-
-
-def _convection(space, heat, curvature, points: int) -> "ufl.Form":
-    import ufl
-
-    t, s = ufl.TrialFunction(space), ufl.TestFunction(space)
+    if kind == "capacity":
+        return factor * t * s * measure
+    if kind == "conduction":
+        return factor * ufl.inner(ufl.grad(t), ufl.grad(s)) * measure
     x, z = ufl.SpatialCoordinate(space.mesh)
-    along = (1.0 - curvature * z) * t.dx(0) + curvature * x * t.dx(1)
-    return heat * along * s * ufl.dx(domain=space.mesh, metadata={"quadrature_degree": points})
+    return factor * ((1.0 - curvature * z) * t.dx(0) + curvature * x * t.dx(1)) * s * measure
