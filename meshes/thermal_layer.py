@@ -18,8 +18,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from meshes.block import BlockSpec
+from meshes.block import BlockSpec, MeshError
 from meshes.boundary import graded_line
+
+MOST_EDGES = 50_000  # of the surface
 
 
 def layer_size(
@@ -56,8 +58,14 @@ def thermal_spec(
     """What `meshes.build.build_block` meshes for heat through `patches` (k, 2) [m], ascending and
     disjoint, whose ends become vertices; lengths as above [m], `layers` is n.
 
-    `length` is kappa/V with the sign of the material's velocity, infinite at rest.
+    `length` is kappa/V with the sign of the material's velocity, infinite at rest. Raises MeshError
+    where its layers are too thin to mesh.
     """
+    if 2.0 * layers * np.sqrt(2.0 * half_width / abs(length)) > MOST_EDGES:
+        raise MeshError(
+            f"thermal layers of {abs(length):.3g} m (diffusivity over speed) are too thin to mesh "
+            f"on a surface of {2.0 * half_width:.3g} m"
+        )
     law = layer_size(patches, size, growth, length, layers)
     inside = np.asarray(patches, dtype=float).ravel()
     stops = np.unique([-half_width, *inside, half_width])

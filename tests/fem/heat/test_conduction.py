@@ -14,7 +14,7 @@ from fem.body.triangle import collapsed_gauss, jacobians, shapes
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.surface_heat import flux_load
-from meshes.block import BlockSpec, real_points
+from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
 from meshes.real_shape import bent
 from meshes.thermal_layer import thermal_spec
@@ -220,6 +220,8 @@ def test_a_coated_half_plane(velocity, conductivity):
 
 
 def test_what_is_refused(structured_block):
+    with pytest.raises(MeshError, match=r"thermal layers of 1e-09 m .* are too thin to mesh"):
+        thermal_spec([[-1.0, 1.0]], 0.1, half_width=10.0, depth=10.0, length=-1e-9)
     body = thermal_body(structured_block(np.linspace(-1, 1, 5), np.linspace(0, 1, 3)), UNIT)
     with pytest.raises(ValueError, match="base must be one of"):
         Surroundings("cold", "held")
