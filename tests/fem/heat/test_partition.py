@@ -5,7 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from analytic.heat.moving_source import band_surface
+from analytic.heat.moving_source import HeatedSurface, band_surface
+from analytic.heat.partition import divided
 from analytic.material import ThermalMaterial
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
@@ -14,6 +15,7 @@ from fem.heat.transient import doubling_times
 from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 
+UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 OPEN, HELD = Surroundings("open", "open"), Surroundings("held", "held")
 X = np.linspace(-1.0, 1.0, 41)
 EVEN = np.ones(41)
@@ -81,6 +83,48 @@ def test_unlike_bodies_by_jaeger_s_kernels(peclet, conductivity):
     inside = np.abs(found.x) < 0.7
     exact = np.interp(found.x, x, flux)
     assert found.flux[0][inside] == pytest.approx(exact[inside], abs=1e-2)
+
+
+@cache
+def rough(count):
+    """Nodes, a heat of nine patches, linear between 201 of them, and which cells touch."""
+    coarse = np.linspace(-1.0, 1.0, 201)
+    wave = np.cos(9.0 * np.pi * coarse) + 0.4 * np.cos(5.0 * coarse + 1.0) - 0.2
+    x = np.linspace(-1.0, 1.0, count)
+    heat = np.interp(x, coarse, np.maximum(0.0, wave))
+    return x, heat, heat[1:] + heat[:-1] > 0.0
+
+
+def under_patches(velocity):
+    x, _, contact = rough(201)
+    ends = np.flatnonzero(np.diff(np.pad(contact.astype(int), 1)))
+    law = {"length": UNIT.diffusivity / velocity, "layers": 1.0}
+    patches = np.column_stack([x[ends[::2]], x[ends[1::2]]])
+    spec = thermal_spec(patches, 0.01, half_width=10.0, depth=10.0, **law)
+    return Conduction(thermal_body(build_block(spec), UNIT), velocity, OPEN)
+
+
+@pytest.mark.parametrize("velocity", [1.0, -40.0, 400.0])
+def test_a_rough_flux_by_transforms(velocity):
+    """The surface's temperature at all nodes, by the half-plane's moving-source kernel."""
+    x, flux, _ = rough(201)
+    exact = HeatedSurface(UNIT, 201, 0.01, velocity).rise(flux)
+    found = under_patches(velocity).at_surface(x, flux)
+    assert found == pytest.approx(exact, abs=1.5e-3 * exact.max())
+
+
+def test_a_rough_partition_by_transforms():
+    """Fluxes at nodes alone end a node before the patches do: an error of order 1 in the pitch."""
+    x, heat, contact = rough(201)
+    found = FrictionalHeat((under_patches(1.0), under_patches(-40.0)), x, contact).steady(heat)
+    shares, flash = [], []
+    for count in (401, 801):
+        surfaces = (HeatedSurface(UNIT, count, 2.0 / (count - 1), v) for v in (1.0, -40.0))
+        by_nodes = divided(*surfaces, rough(count)[1])
+        shares.append(by_nodes.fraction)
+        flash.append(by_nodes.first.max())
+    assert found.share == pytest.approx(2.0 * shares[1] - shares[0], rel=1e-3)
+    assert found.temperature[0].max() == pytest.approx(flash[1], rel=1.5e-3)
 
 
 def test_temperatures_are_equal_in_contact_and_not_beside_it():
