@@ -14,14 +14,13 @@ from math import factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import ellipe, ellipk, roots_jacobi
+from scipy.special import ellipe, ellipk, roots_jacobi, xlogy
 
 from analytic.exact.flattened_cylinder import FlattenedCylinder
 from analytic.exact.sliding import SlidingContact
 from analytic.exact.westergaard import WestergaardContact
 from analytic.layers.layered import LayeredBody, added_stress
 from analytic.numerics import points_below
-from analytic.operators.elements import _EVEN, _Far, _joined, _scaled_difference
 from analytic.stress.elements import FrictionStress, hat_at, strip_between
 from analytic.stress_state import StressState
 
@@ -257,9 +256,10 @@ def hat_displacement(offset: ArrayLike) -> np.ndarray:
 
     int_{-1}^{1} (1-|s|) ln|x-s| ds, the displacement under a hat at one place.
     """
-    far = _Far(2.0 / ((_EVEN + 1.0) * (_EVEN + 2.0)), join=1.5)
-
-    def closed(x: np.ndarray) -> np.ndarray:
-        return _scaled_difference(x, (1.0, -2.0, 1.0)) - 1.5
-
-    return _joined(offset, closed, far)
+    x, order = np.abs(np.asarray(offset, dtype=float))[..., None], 2.0 * np.arange(1, 49)
+    apart, unit = np.maximum(x, 1.5), x + 1.0
+    moments = 2.0 / (order * (order + 1.0) * (order + 2.0))
+    far = np.log(apart[..., 0]) - np.sum((moments * apart**-order)[..., ::-1], axis=-1)
+    y = x + np.array([1.0, 0.0, -1.0])
+    closed = 0.5 * xlogy(y**2, np.abs(y) / unit) @ np.array([1.0, -2.0, 1.0])
+    return np.where(x[..., 0] < 1.5, closed + np.log(unit[..., 0]) - 1.5, far)

@@ -206,19 +206,12 @@ class EquilibriumProblem:
         self.approach = 0.0 if self.by_load else constraints.approach
         self._rounding = ROUNDING * np.abs(weighted_gap)
         self._own_compliance: float | None = None
-        self._applied: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
         self._last: tuple[np.ndarray, np.ndarray] | None = None  # pressures, Cp
         self._search: SearchDirections | None = None
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         self.spent["applications"] += 1
         return self.operator.apply(pressure)
-
-    def applied(self, pressure: np.ndarray) -> np.ndarray:
-        """Cp (n,) [m^2] by the operator itself; known for the pressures of a direct solution."""
-        if self._applied is not None and np.array_equal(pressure, self._applied[0]):
-            return self._applied[1]
-        return self.apply(pressure)
 
     def can_carry(self, active: ActiveSet) -> bool:
         """Whether some pressures of the free nodes within the box make up a prescribed load."""
@@ -310,8 +303,7 @@ class EquilibriumProblem:
         found = self._solve(nodes, pressure)
         if found is not None:
             pressure[nodes] = found
-            self._applied = pressure, self.apply(pressure)
-            return self.as_equilibrium(*self._applied, True)
+            return self.as_equilibrium(pressure, self.apply(pressure), True)
         pressure[nodes] = start[nodes]
         weighted_displacement, accurate = self._iterate(nodes, pressure, reduction)
         return self.as_equilibrium(pressure, weighted_displacement, accurate)

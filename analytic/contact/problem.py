@@ -147,7 +147,7 @@ def solve_contact(
     if start is None:
         start = coarse_start(problem, partial(exchange, settled=EDGES_OFF))
     pressure = np.clip(exchange(problem, start), 0.0, constraints.hardness)
-    moved, approach = problem.applied(pressure), problem.approach
+    moved, approach = problem.apply(pressure), problem.approach
     solution = assessed(moved, pressure, weighted_gap, weights, approach, constraints, spent)
     return replace(solution, approach=solution.approach + common)
 

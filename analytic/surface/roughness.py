@@ -18,6 +18,7 @@ from analytic.profile import Profile
 
 GAUSS_POINTS = 7  # exact up to degree 13; the fourth power of a cubic has degree 12
 MAX_RESAMPLED = 2**22  # 32 MB
+SLOPE_SHARE = 0.99  # of its variance, that waves resolved by pressure elements have
 FLAT = 64.0 * np.finfo(float).eps  # slopes below this part of max |height| / spacing are rounding
 
 
@@ -115,16 +116,14 @@ def stretch_of(curve: PPoly, start: float, stop: float) -> PPoly:
     return CubicHermiteSpline(x, curve(x), curve(x, 1))
 
 
-def shortest_wavelength(profile: Profile, fraction: float = 0.99) -> float:
-    """Wavelength [m] above which `fraction` of the variance of the profile's slope lies.
+def shortest_wavelength(profile: Profile) -> float:
+    """Wavelength [m] above which SLOPE_SHARE of the variance of the profile's slope lies.
 
     The spline's slope is sampled evenly (at half of a spacing that nine sample distances in ten
     exceed), its mean removed, a Hann window laid over it, and its power summed from long to
     short waves. The window spreads a wave: the answer errs by up to 1/L in wavenumber, to the short
     side for a single wave. Of a profile without slope it is inf.
     """
-    if not 0.0 < fraction < 1.0:
-        raise ValueError(f"fraction must lie between 0 and 1, not {fraction:g}")
     step = 0.5 * float(np.quantile(np.diff(profile.x), 0.1))
     count = next_fast_len(int(min(np.ceil(profile.length / step), MAX_RESAMPLED)), real=True)
     x = profile.x[0] + profile.length * (np.arange(count) + 0.5) / count
@@ -136,7 +135,7 @@ def shortest_wavelength(profile: Profile, fraction: float = 0.99) -> float:
     power = np.abs(rfft(slope * window)[1:]) ** 2
     share = np.cumsum(power) / np.sum(power)
     wavenumber = np.arange(1, len(share) + 1) / profile.length
-    return float(1.0 / np.interp(fraction, share, wavenumber))
+    return float(1.0 / np.interp(SLOPE_SHARE, share, wavenumber))
 
 
 def power_spectrum(profile: Profile) -> tuple[np.ndarray, np.ndarray]:

@@ -121,14 +121,12 @@ def test_shortest_wavelength_of_a_sinusoid_is_its_own(waves):
     assert wavelength / (1.0 + 1.0 / waves) <= found <= wavelength * (1.0 + 1e-9)
 
 
-def test_shortest_wavelength_follows_the_fraction():
+@pytest.mark.parametrize(("share", "waves"), [(0.02, 100.0), (0.005, 20.0)])
+def test_waves_count_from_a_hundredth_of_the_slopes_variance_on(share, waves):
     x = np.linspace(0.0, 1.0, 4001)
-    # Slope variances 1 : 0.25 at 20 and 100 waves: the short one holds a fifth.
-    height = np.sin(2 * pi * 20 * x) / 20 + 0.5 * np.sin(2 * pi * 100 * x) / 100
-    profile = Profile(x, height)
-    assert 1 / shortest_wavelength(profile, 0.75) == pytest.approx(20.0, abs=1.0)
-    assert 1 / shortest_wavelength(profile, 0.85) == pytest.approx(100.0, abs=1.0)
-    assert 1 / shortest_wavelength(profile, 0.99) == pytest.approx(100.0, abs=1.0)
+    short = np.sqrt(share / (1.0 - share)) * np.sin(2 * pi * 100 * x) / 100
+    profile = Profile(x, np.sin(2 * pi * 20 * x) / 20 + short)
+    assert 1 / shortest_wavelength(profile) == pytest.approx(waves, abs=1.5)
 
 
 @pytest.mark.parametrize("cut_off", [5e-6, 20e-6])
@@ -169,12 +167,6 @@ def test_tilt_has_no_wavelength():
     wave = 1e-7 * np.sin(2 * pi * 25 * x / 1e-3)
     tilted = shortest_wavelength(Profile(x, wave + 0.1 * x))
     assert tilted == pytest.approx(shortest_wavelength(Profile(x, wave)), rel=1e-6)
-
-
-@pytest.mark.parametrize("fraction", [0.0, 1.0, -0.5, np.nan])
-def test_fraction_must_be_one(fraction):
-    with pytest.raises(ValueError, match="between 0 and 1"):
-        shortest_wavelength(sinusoid(wavelength=1.0, amplitude=1.0, length=4.0), fraction)
 
 
 # Ra, Rq [um], skewness, rms slope, shortest wavelength [um] as PROVENANCE.md states them.
