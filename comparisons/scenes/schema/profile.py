@@ -1,13 +1,15 @@
 """The [profile] section: a measured profile or a made one, each variety with fields of its own."""
 
-from collections.abc import Iterator, Mapping
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import model_validator
 
 from analytic.profile import MAX_SAMPLES
-from analytic.surface.synthetic import MIN_SAMPLES, SAMPLES_PER_WAVELENGTH
+from analytic.surface.synthetic import MIN_SAMPLES
 from comparisons.common.units import DIMENSIONLESS, LENGTH, describe
 from comparisons.scenes.schema.fields import (
     FieldType,
@@ -170,49 +172,20 @@ class Variety:
     """Which fields one variety of profile has: needed ones, others, groups to choose one from."""
 
     title: str
-    needed: tuple[str, ...]
-    optional: tuple[str, ...] = ()
+    needed: Sequence[str]
+    optional: Sequence[str] = ()
     defaults: Mapping[str, object] = field(default_factory=dict)
-    one_of: tuple[tuple[str, ...], ...] = ()
-    at_most_one_of: tuple[tuple[str, ...], ...] = ()
+    one_of: Sequence[Sequence[str]] = ()
+    at_most_one_of: Sequence[Sequence[str]] = ()
 
     def fields(self) -> set[str]:
         groups = (*self.one_of, *self.at_most_one_of)
         return set().union(self.needed, self.optional, self.defaults, FILTER, *groups)
 
 
-SPECTRUM = ("shortest_wavelength", "roll_off_wavelength", "longest_wavelength")
 VARIETIES = {
-    "file": Variety(
-        "a measured profile",
-        needed=("file",),
-        # a file that is not text may bring its units and its size
-        optional=("z_unit", "columns", "channel"),
-        defaults={"form": "line", "dropouts": "refuse"},
-        at_most_one_of=(("x_unit", "spacing"), ("row", "column", "line")),
-    ),
-    "sinusoid": Variety(
-        'kind = "sinusoid"',
-        needed=("kind", "wavelength", "amplitude"),
-        optional=("length",),
-        defaults={"samples_per_wavelength": SAMPLES_PER_WAVELENGTH},
-    ),
-    "self-affine": Variety(
-        'kind = "self-affine"',
-        needed=("kind", "hurst", "samples", "length"),
-        optional=("shortest_wavelength", "longest_wavelength"),
-        defaults={"seed": 0},
-        one_of=(("rms_slope", "rms_height"),),
-    ),
-    "ground": Variety(
-        'kind = "ground"',
-        needed=("kind", "rms_height", "samples", "length", *SPECTRUM),
-        defaults={"seed": 0, "decay": 1.25, "one_sidedness": 0.3},
-    ),
-    "turned": Variety(
-        'kind = "turned"',
-        needed=("kind", "feed", "nose_radius", "length"),
-        optional=("ridge_radius", "samples_per_feed", "noise", "noise_wavelength"),
-        defaults={"phase": 0.0, "seed": 0},
-    ),
+    name: Variety(**given)
+    for name, given in tomllib.loads(
+        Path(__file__).with_name("varieties.toml").read_text(encoding="utf-8")
+    ).items()
 }
