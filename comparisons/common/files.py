@@ -13,7 +13,7 @@ import os
 import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 from comparisons.common.errors import InputError
@@ -107,14 +107,27 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
 
 
 @contextmanager
-def _alone_in(out: Path) -> Iterator[None]:
+def _locked(path: Path, how: int) -> Iterator[bool | None]:
+    """Lock a file or folder until the block, or this process, ends: whether it is locked, None on a
+    file system without locks."""
+    held, number = True, None
+    try:
+        number = os.open(path, os.O_RDONLY)
+        fcntl.flock(number, how)
+    except (BlockingIOError, FileNotFoundError):
+        held = False
+    except OSError:
+        held = None
+    try:
+        yield held
+    finally:
+        if number is not None:
+            os.close(number)
+
+
+def _alone_in(out: Path) -> AbstractContextManager[bool | None]:
     """Wait until no other run compares or replaces the folder's files."""
-    with contextlib.ExitStack() as stack:
-        with contextlib.suppress(OSError):  # removed meanwhile, or a file system without locks
-            number = os.open(out, os.O_RDONLY)
-            stack.callback(os.close, number)
-            fcntl.flock(number, fcntl.LOCK_EX)
-        yield
+    return _locked(out, fcntl.LOCK_EX)
 
 
 def _present(out: Path, own: tuple[str, ...]) -> list[str]:
@@ -181,34 +194,18 @@ def _naming(part: Path, path: Path) -> Iterator[None]:
 def _held(path: Path) -> Iterator[bool]:
     """Lock an unfinished file or folder until the block, or this process, ends. Whether it is held,
     and still there: another process may have taken it for abandoned just before."""
-    held, number = True, None
-    try:
-        number = os.open(path, os.O_RDONLY)
-        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (BlockingIOError, FileNotFoundError):
-        held = False
-    except OSError:  # a file system without locks, on which nothing is taken for abandoned
-        pass
-    try:
-        yield held and path.exists()
-    finally:
-        if number is not None:
-            os.close(number)
+    with _locked(path, fcntl.LOCK_EX | fcntl.LOCK_NB) as held:
+        yield held is not False and path.exists()
 
 
 def _remove_abandoned(parts: Iterable[Path]) -> None:
     """Remove unfinished files and folders whose process was killed: nobody holds them."""
     for part in parts:
-        with contextlib.suppress(OSError):
-            number = os.open(part, os.O_RDONLY)
-            try:
-                fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if part.is_dir():
-                    shutil.rmtree(part)
-                else:
-                    part.unlink()
-            finally:
-                os.close(number)
+        with contextlib.suppress(OSError), _locked(part, fcntl.LOCK_EX | fcntl.LOCK_NB) as held:
+            if held and part.is_dir():
+                shutil.rmtree(part)
+            elif held:
+                part.unlink()
 
 
 def write_whole(path: Path, text: str) -> None:

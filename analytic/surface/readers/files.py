@@ -6,8 +6,6 @@ SurfaceTopography knows (`instruments`), among it text that is no profile and wh
 map's size and unit. Any of them may be packed as gz.
 """
 
-import gzip
-import zlib
 from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite
@@ -26,14 +24,13 @@ from analytic.surface.readers.instruments import (
 )
 from analytic.surface.readers.prf import is_prf, read_prf
 from analytic.surface.readers.source import (
-    GZIP,
     MAX_BYTES,
     NOT_TEXT,
     NotRowsError,
     NotTextError,
     ProfileError,
+    beginning,
     regular_file,
-    unreadable,
 )
 from analytic.surface.readers.text import ColumnsError, ProfileTable, chosen_columns, read_table
 from analytic.surface.readers.topography import (
@@ -75,7 +72,8 @@ def open_measured(
     Raises ColumnsError where columns are to be chosen, ProfileError for a file that nothing reads.
     """
     path = Path(path)
-    head = _head(path)
+    regular_file(path)
+    head = beginning(path, HEAD)
     if is_arrays(path, head):
         return read_arrays(path, MAX_BYTES, columns, channel)
     if is_sdf(head) or is_prf(head):
@@ -157,21 +155,6 @@ def profile_of(
     because = f"is {opened.format}, from whose header no unit is taken"
     _check_given(opened.path, x_scale or spacing, height_scale, because)
     return read
-
-
-def _head(path: Path) -> bytes:
-    regular_file(path)
-    try:
-        with path.open("rb") as file:
-            head = file.read(HEAD)
-        if head.startswith(GZIP):
-            with gzip.open(path) as file:
-                return file.read(HEAD)
-        return head
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise ProfileError(path, f"is a damaged gz file ({error})") from error
-    except OSError as error:
-        raise unreadable(path, error) from error
 
 
 def _map_in_text(path: Path, refusal: ProfileError) -> Topography:

@@ -2,7 +2,6 @@
 
 import errno
 import gzip
-import io
 import re
 import zlib
 from pathlib import Path
@@ -55,21 +54,27 @@ def unreadable(path: Path, error: Exception) -> ProfileError:
     return ProfileError(path, f"cannot be read ({reason})")
 
 
+def beginning(path: Path, count: int) -> bytes:
+    """The first `count` bytes of the file, unpacked where it is gz."""
+    try:
+        with path.open("rb") as file:
+            if file.read(len(GZIP)) != GZIP:
+                file.seek(0)
+                return file.read(min(count, path.stat().st_size + 1))  # room is made for so many
+        with gzip.open(path) as file:
+            return file.read(count)
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ProfileError(path, f"is a damaged gz file ({error})") from error
+    except OSError as error:
+        raise unreadable(path, error) from error
+
+
 def contents(path: Path, max_bytes: int) -> bytes:
     """What is in the file, unpacked where it is gz, of `max_bytes` at most either way."""
     too_large = ProfileError(path, f"is too large; a profile may have {max_bytes / 1e6:.3g} MB")
     if regular_file(path) > max_bytes:
         raise too_large
-    try:
-        raw = path.read_bytes()
-        if raw.startswith(GZIP):
-            with gzip.open(io.BytesIO(raw)) as file:
-                raw = file.read(max_bytes + 1)
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise ProfileError(path, f"is a damaged gz file ({error})") from error
-    except OSError as error:
-        raise unreadable(path, error) from error
-    if len(raw) > max_bytes:
+    if len(raw := beginning(path, max_bytes + 1)) > max_bytes:
         raise too_large
     return raw
 

@@ -49,8 +49,8 @@ class InputScatter:
 
     def of(self, quantity: str, friction: float) -> ScatteredFigure | None:
         """The figure of a quantity at a friction coefficient, if it has one."""
-        named = ((f.quantity, f.friction) == (quantity, friction) for f in self.figures)
-        return next((f for f, wanted in zip(self.figures, named, strict=True) if wanted), None)
+        wanted = quantity, friction
+        return next((f for f in self.figures if (f.quantity, f.friction) == wanted), None)
 
     def counts(self) -> dict:
         """Of the samples, for JSON."""
