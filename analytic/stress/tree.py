@@ -14,7 +14,7 @@ are right to 1e-14 of the largest pressure, at places that are known to rounding
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -55,15 +55,9 @@ class BoxLevel:
 
 def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:
     """Expansions on each level of boxes, the finest first; `boxes` of the points on each."""
-    count = -(-len(load) // LEAF)
-    padded = np.zeros(count * LEAF)
-    padded[: len(load)] = load
-    outer = [nodes_to_outer(LEAF, element) @ padded.reshape(count, LEAF).T]
-    while outer[-1].shape[1] > 1 or len(outer) < len(boxes):
-        finer = outer[-1]
-        if finer.shape[1] % 2:
-            finer = np.column_stack([finer, np.zeros(ORDER)])
-        outer.append(outer_to_parent(-1) @ finer[:, ::2] + outer_to_parent(1) @ finer[:, 1::2])
+    outer = list(_outer_levels(np.asarray(load, dtype=float).tobytes(), element))
+    while len(outer) < len(boxes):
+        outer.append(_parents(outer[-1]))
     ids = []
     for index in range(len(outer)):
         own = np.unique(boxes[index]) if index < len(boxes) else np.empty(0, dtype=int)
@@ -83,6 +77,25 @@ def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> l
                 )
         levels.append(BoxLevel(0.5 * LEAF * 2.0**index, ids[index], sources, inner))
     return levels[::-1]
+
+
+@lru_cache(maxsize=4)
+def _outer_levels(load: bytes, element: Element) -> tuple[np.ndarray, ...]:
+    """Outer coefficients (ORDER, boxes) of a load's boxes on each level up to the one that holds
+    all of it; searches ask for the same load again and again."""
+    nodal = np.frombuffer(load)
+    padded = np.pad(nodal, (0, -len(nodal) % LEAF)).reshape(-1, LEAF)
+    levels = [nodes_to_outer(LEAF, element) @ padded.T]
+    while levels[-1].shape[1] > 1:
+        levels.append(_parents(levels[-1]))
+    return tuple(levels)
+
+
+def _parents(outer: np.ndarray) -> np.ndarray:
+    """Outer coefficients of the boxes that are made of two each."""
+    if outer.shape[1] % 2:
+        outer = np.column_stack([outer, np.zeros(ORDER)])
+    return outer_to_parent(-1) @ outer[:, ::2] + outer_to_parent(1) @ outer[:, 1::2]
 
 
 def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
