@@ -13,38 +13,26 @@ TOUCHING = 0.02  # of the largest pressure: what stresses of a mesh leave beside
 
 @dataclass(frozen=True)
 class OutsideStress:
-    """Stresses of an answer, as those of a model.
+    """Stresses of an answer, as those of a model."""
 
-    friction  coefficient that they are of
-    extremes  largest tau1, |txz| and von Mises stress at the nodes in the window [Pa], [m]
-    depth     [m] of the largest tau1 below the answer's own surface
-    spacing   [m] in depth, of the nodes next to that
-    field     (m, k) on the window, not a number outside the answer's mesh
-    """
-
-    friction: float
+    friction: float  # coefficient that they are of
+    # largest tau1, |txz| and von Mises stress at the nodes in the window [Pa], [m]
     extremes: dict[str, Extremum]
-    depth: float
-    spacing: float
-    field: StressState
+    depth: float  # [m] of the largest tau1 below the answer's own surface
+    spacing: float  # [m] in depth, of the nodes next to that
+    field: StressState  # (m, k) on the window, not a number outside the answer's mesh
 
 
 @dataclass(frozen=True)
 class Answer:
-    """One solution from outside, of one file.
+    """One solution from outside, of one file."""
 
-    file, sha256  that it was read from
-    x, pressure   (n,) [m], [Pa] along the surface, ascending, as given: also where it is negative
-    stress        None: pressures alone
-    of_mesh       the pressures are stresses on the surface of a mesh
-    """
-
-    file: str
+    file: str  # that it was read from
     sha256: str
-    x: np.ndarray
-    pressure: np.ndarray
-    stress: OutsideStress | None = None
-    of_mesh: bool = False
+    x: np.ndarray  # (n,) [m] along the surface, ascending
+    pressure: np.ndarray  # (n,) [Pa] as given: also where it is negative
+    stress: OutsideStress | None = None  # None: pressures alone
+    of_mesh: bool = False  # the pressures are stresses on the surface of a mesh
 
     @property
     def load(self) -> float:
@@ -95,24 +83,18 @@ class Answer:
 
 @dataclass(frozen=True)
 class AnswerRow:
-    """A quantity of an answer at one friction coefficient; figures in SI, the others relative.
-
-    answer, reference  None for a norm of the difference
-    difference         (answer - reference) / reference, or the norm
-    uncertainty        of the difference: the model's, and the answer's own as far as it is known
-    own_uncertainty    the answer's, None where it states none
-    tolerance, verdict None: not judged
-    """
+    """A quantity of an answer at one friction coefficient; figures in SI, the others relative."""
 
     quantity: str
     friction: float
-    answer: float | None
+    answer: float | None  # None for a norm of the difference, as the reference
     reference: float | None
-    difference: float
+    difference: float  # (answer - reference) / reference, or the norm
+    # of the difference: the model's, and the answer's own as far as it is known
     uncertainty: float | None
-    own_uncertainty: float | None
-    tolerance: float | None
-    verdict: Verdict | None
+    own_uncertainty: float | None  # the answer's, None where it states none
+    tolerance: float | None  # None: not judged
+    verdict: Verdict | None  # None: not judged
 
 
 @dataclass(frozen=True)
@@ -128,24 +110,18 @@ class Hint:
 
 @dataclass(frozen=True)
 class ComparedAnswer:
-    """An answer beside a model.
-
-    reference   name of the model
-    answers     one a resolution, coarse to fine
-    measured    its scatter is stated
-    balance     (load that its pressures carry - the scene's) / the scene's
-    conditions  by model, how far its pressures are from the contact conditions (`Residuals`)
-    validation  by quantity, rows as ASME V&V 20 has them; empty of what was not measured
-    """
+    """An answer beside a model."""
 
     name: str
-    reference: str
-    answers: tuple[Answer, ...]
-    measured: bool
+    reference: str  # name of the model
+    answers: tuple[Answer, ...]  # one a resolution, coarse to fine
+    measured: bool  # its scatter is stated
     rows: tuple[AnswerRow, ...]
-    balance: float
+    balance: float  # (load that its pressures carry - the scene's) / the scene's
+    # by model, how far its pressures are from the contact conditions (`Residuals`)
     conditions: dict[str, dict]
     hints: tuple[Hint, ...] = ()
+    # by quantity, rows as ASME V&V 20 has them; empty of what was not measured
     validation: dict[str, list] = field(default_factory=dict)
 
     @property

@@ -27,15 +27,13 @@ NEAR, DEEP = 0.1, 0.5  # bounds of the near and the deep field, in Hertz half-wi
 
 @dataclass(frozen=True)
 class PairHistory:
-    """The difference of both models at one friction coefficient.
-
-    differences    by quantity: (half-plane - finite elements) / finite elements, or the relative L2
-                   norm; one table a level, coarse to fine
-    uncertainties  of those of the last level, absolute: the differences are relative
-    """
+    """The difference of both models at one friction coefficient."""
 
     friction: float
+    # by quantity: (half-plane - finite elements) / finite elements, or the relative L2 norm; one
+    # table a level, coarse to fine
     differences: tuple[dict[str, float], ...]
+    # of those of the last level, absolute: the differences are relative
     uncertainties: dict[str, Uncertainty]
 
 

@@ -50,28 +50,19 @@ Behaviour = Literal[
 
 @dataclass(frozen=True)
 class Convergence:
-    """A figure's limit under refinement.
+    """A figure's limit under refinement."""
 
-    value          on the finest level, in the figure's unit
-    limit          extrapolated value f_0; `value` where nothing is extrapolated
-    uncertainty    of `value`, absolute; infinite on one level
-    formal_order   of the method
-    order          observed order, None where it has no meaning
-    behaviour      settled: equal but for round-off; monotone: the changes shrink by an observed
-                   order in range; irregular: they have one sign, but an order out of range;
-                   oscillating: the last two have opposite signs; diverging: they grow
-    safety_factor  F, None where nothing was fitted
-    deviation      s, standard deviation of the fit, in the figure's unit
-    """
-
-    value: float
-    limit: float
-    uncertainty: float
-    formal_order: float
-    order: float | None
+    value: float  # on the finest level, in the figure's unit
+    limit: float  # extrapolated value f_0; `value` where nothing is extrapolated
+    uncertainty: float  # of `value`, absolute; infinite on one level
+    formal_order: float  # of the method
+    order: float | None  # observed order, None where it has no meaning
+    # settled: equal but for round-off; monotone: the changes shrink by an observed order in range;
+    # irregular: they have one sign, but an order out of range; oscillating: the last two have
+    # opposite signs; diverging: they grow
     behaviour: Behaviour
-    safety_factor: float | None = None
-    deviation: float = 0.0
+    safety_factor: float | None = None  # F, None where nothing was fitted
+    deviation: float = 0.0  # s, standard deviation of the fit, in the figure's unit
 
 
 def grid_convergence(

@@ -25,33 +25,26 @@ BEYOND_THE_END = "moved by friction, the contact reaches the end of the body"
 
 @dataclass(frozen=True)
 class Change:
-    """A figure with coupling.
+    """A figure with coupling."""
 
-    value       [SI]; None for the norm of a difference
-    difference  relative to the figure without coupling, None where only that is zero; of a shift
-                over the Hertz half-width
-    """
-
-    value: float | None
+    value: float | None  # [SI]; None for the norm of a difference
+    # relative to the figure without coupling, None where only that is zero; of a shift over the
+    # Hertz half-width
     difference: float | None
 
 
 @dataclass(frozen=True)
 class Coupling:
-    """At one friction coefficient.
-
-    changes     by quantity; contact_shift is that of the pressure's centroid along x
-    converged   whether both solutions met their contact conditions
-    iterations, seconds  of the solution that the model's own is compared with
-    why         there are no changes, else None
-    """
+    """At one friction coefficient."""
 
     friction: float
+    # by quantity; contact_shift is that of the pressure's centroid along x
     changes: dict[str, Change]
-    converged: bool = True
+    converged: bool = True  # whether both solutions met their contact conditions
+    # iterations and seconds of the solution that the model's own is compared with
     iterations: dict[str, int] | None = None
     seconds: float = 0.0
-    why: str | None = None
+    why: str | None = None  # why there are no changes, None where there are
 
     def as_dict(self) -> dict | None:
         """For result.json; None without changes."""

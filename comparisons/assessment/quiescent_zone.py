@@ -46,25 +46,18 @@ SHORT = 0.02  # of what they must reach to, by which they may end before
 
 @dataclass(frozen=True)
 class ShearDip:
-    """Shear over depth between two maxima, on any scales of both.
+    """Shear over depth between two maxima, on any scales of both."""
 
-    level, ratio            as above
-    depth                   of the least shear
-    start, stop             of the zone; nan where there is none
-    asperity, asperity_depth, hertz, hertz_depth   the maxima
-    status                  quiescent | bridged | no asperity zone
-    """
-
-    level: float
+    level: float  # as above
     ratio: float
-    depth: float
-    start: float
+    depth: float  # of the least shear
+    start: float  # of the zone; nan where there is none, as the stop
     stop: float
-    asperity: float
+    asperity: float  # the maxima of both zones
     asperity_depth: float
     hertz: float
     hertz_depth: float
-    status: str
+    status: str  # quiescent | bridged | no asperity zone
 
 
 FIGURES = tuple(each.name for each in fields(ShearDip) if each.type is float)

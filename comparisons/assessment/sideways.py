@@ -25,18 +25,12 @@ SETTLED = 1e-4  # pitches
 
 @dataclass(frozen=True)
 class SidewaysShift:
-    """The movement of a pressure that brings it nearest to the reference.
+    """The movement of a pressure that brings it nearest to the reference."""
 
-    shift    [m] at x = 0, positive towards +x
-    stretch  further shift by x [1]
-    mean     [m] size of the movement, by the reference's pressures
-    left     relative L2 norm of the difference after it
-    """
-
-    shift: float
-    stretch: float
-    mean: float
-    left: float
+    shift: float  # [m] at x = 0, positive towards +x
+    stretch: float  # further shift by x [1]
+    mean: float  # [m] size of the movement, by the reference's pressures
+    left: float  # relative L2 norm of the difference after it
 
 
 def sideways_shift(grid: HatGrid, pressure: np.ndarray, reference: np.ndarray) -> SidewaysShift:

@@ -21,24 +21,18 @@ SMALL = 1.0 / 3.0  # of what is not modelled: a numerical uncertainty that hardl
 
 @dataclass(frozen=True)
 class Comparison:
-    """One quantity at one friction coefficient; figures in SI, the last three relative.
-
-    half_plane, finite_element   the models' values; None for a norm of the difference
-    difference                   (half-plane - finite element) / finite element, or the norm; where
-                                 the finite elements' value vanishes, over the Hertz contact's
-    uncertainty                  of the difference, numerical: both models' together
-    tolerance                    None: not judged
-    verdict                      None: not judged
-    """
+    """One quantity at one friction coefficient; figures in SI, the last three relative."""
 
     quantity: str
     friction: float
-    half_plane: float | None
-    finite_element: float | None
+    half_plane: float | None  # None for a norm of the difference
+    finite_element: float | None  # None as well
+    # (half-plane - finite element) / finite element, or the norm; where the finite elements' value
+    # vanishes, over the Hertz contact's
     difference: float
-    uncertainty: float | None
-    tolerance: float | None
-    verdict: Verdict | None
+    uncertainty: float | None  # of the difference, numerical: both models' together
+    tolerance: float | None  # None: not judged
+    verdict: Verdict | None  # None: not judged
 
 
 def is_within(value: float, uncertainty: float, low: float, high: float) -> bool | None:
@@ -61,17 +55,13 @@ def judge(difference: float, uncertainty: float, tolerance: float) -> Verdict:
 
 @dataclass(frozen=True)
 class ToleranceCheck:
-    """The model error of the half-plane in a judged quantity against its tolerance; all relative.
-
-    value         half-plane against finite elements with every effect that matters
-    uncertainty   numerical, of `value`
-    not_modelled  by name, estimates of the effects that no model has; independent of each other
-    """
+    """The half-plane's model error in a judged quantity against its tolerance; all relative."""
 
     quantity: str
     friction: float
-    value: float
-    uncertainty: float
+    value: float  # half-plane against finite elements with every effect that matters
+    uncertainty: float  # numerical, of `value`
+    # by name, estimates of the effects that no model has; independent of each other
     not_modelled: dict[str, float]
     tolerance: float
 

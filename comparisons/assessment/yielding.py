@@ -33,23 +33,17 @@ STIFF = 1e9
 
 @dataclass(frozen=True)
 class FlowCheck:
-    """What one friction coefficient asks of the body; stresses in Pa.
-
-    tau1         largest, of an elastic half-plane (with the cap of the scene's hardness, if any)
-    von_mises    largest equivalent stress; None where no field was computed
-    uncertainty  of tau1, relative; `from_field`: computed, else from the peak pressure
-    peak         pressure
-    at_hardness  share of the contact at or above the hardness, or 3 Y; None where neither is known
-    shakedown    largest peak pressure over k under which an elastic line contact shakes down
-    """
+    """What one friction coefficient asks of the body; stresses in Pa."""
 
     friction: float
-    tau1: float
-    von_mises: float | None
-    uncertainty: float
-    from_field: bool
-    peak: float
+    tau1: float  # largest, of an elastic half-plane (with the cap of the scene's hardness, if any)
+    von_mises: float | None  # largest equivalent stress; None where no field was computed
+    uncertainty: float  # of tau1, relative
+    from_field: bool  # tau1 was computed on a field, else from the peak pressure
+    peak: float  # pressure
+    # share of the contact at or above the hardness, or 3 Y; None where neither is known
     at_hardness: float | None
+    # largest peak pressure over k under which an elastic line contact shakes down
     shakedown: float | None
 
     def over_first_flow(self, yield_stress: float) -> tuple[float, float | None]:
@@ -60,27 +54,22 @@ class FlowCheck:
 
 @dataclass(frozen=True)
 class FlowAssessment:
-    """All friction coefficients of a scene.
+    """All friction coefficients of a scene."""
 
-    flow              elastic | cap (on the pressure) | plastic (the finite elements flow)
-    yield_stress      Y [Pa]: the scene's, or a third of its hardness; None where neither is given
-    hardness          H [Pa]: the scene's, or three times its yield stress
-    ideal_strength    G/(2 pi) [Pa], above which no crystal is elastic; infinite for a soft body
-    summit_index      (E*/H) sqrt(s/R): s standard deviation of the trace's summits, 1/R their mean
-                      curvature (Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319)
-    slope_index       (E*/H) times the rms slope (Mikic 1974, Int. J. Heat Mass Transfer 17,
-                      205-214); None without trace or H, and the first where all summits
-                      are as high
-    checks            one a friction coefficient
-    """
-
+    # elastic | cap (on the pressure) | plastic (the finite elements flow)
     flow: Literal["elastic", "cap", "plastic"]
+    # Y [Pa]: the scene's, or a third of its hardness; None where neither is given
     yield_stress: float | None
-    hardness: float | None
+    hardness: float | None  # H [Pa]: the scene's, or three times its yield stress
+    # G/(2 pi) [Pa], above which no crystal is elastic; infinite for a soft body
     ideal_strength: float
+    # (E*/H) sqrt(s/R): s standard deviation of the trace's summits, 1/R their mean curvature
+    # (Greenwood and Williamson 1966, Proc. R. Soc. A 295, 300-319)
     summit_index: float | None
+    # (E*/H) times the rms slope (Mikic 1974, Int. J. Heat Mass Transfer 17, 205-214); None without
+    # trace or H, and the first where all summits are as high
     slope_index: float | None
-    checks: tuple[FlowCheck, ...]
+    checks: tuple[FlowCheck, ...]  # one a friction coefficient
 
     @property
     def worst(self) -> FlowCheck:

@@ -28,18 +28,12 @@ DAMAGED = (
 
 @dataclass(frozen=True)
 class Cache:
-    """Results of one key in a folder, each under a name.
+    """Results of one key in a folder, each under a name."""
 
-    folder  None caches nothing
-    key     hash of everything that shapes the results (`comparisons.common.provenance`)
-    kinds   the dataclasses that results are made of, by name (`kinds_of`)
-    by_all  every process that mpirun started loads: the first reads for all of them
-    """
-
-    folder: Path | None
-    key: str
-    kinds: dict[str, type]
-    by_all: bool = False
+    folder: Path | None  # None caches nothing
+    key: str  # hash of everything that shapes the results (`comparisons.common.provenance`)
+    kinds: dict[str, type]  # the dataclasses that results are made of, by name (`kinds_of`)
+    by_all: bool = False  # every process that mpirun started loads: the first reads for all of them
 
     def load(self, name: str) -> object | None:
         """The result saved under a name; None where there is none, or not a whole one, or one of

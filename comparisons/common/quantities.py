@@ -22,24 +22,18 @@ LABELS = {"half_plane": "half-plane", "finite_element": "finite elements", WHOLE
 
 @dataclass(frozen=True)
 class Quantity:
-    """A compared figure.
+    """A compared figure."""
 
-    label         in words, for tables
-    unit          of the figure in SI; "" for ratios
-    scale         of the smooth contact: what a figure that vanishes is measured by
-    formal_order  of convergence under refinement: 2 for the quadratic elements' smooth figures,
-                  1 where the square-root edge of a contact governs, or how well it is found, and of
-                  the place of a maximum: there the slope of the stress, of order 1, is zero
-    of_pair       a norm of a difference, no figure of one model
-    needs_stress  only with a [stress] table
-    """
-
-    label: str
-    unit: str
+    label: str  # in words, for tables
+    unit: str  # of the figure in SI; "" for ratios
+    # of the smooth contact: what a figure that vanishes is measured by
     scale: Callable[["HertzContact"], float]
+    # of convergence under refinement: 2 for the quadratic elements' smooth figures, 1 where the
+    # square-root edge of a contact governs, or how well it is found, and of the place of a maximum:
+    # there the slope of the stress, of order 1, is zero
     formal_order: float
-    of_pair: bool = False
-    needs_stress: bool = False
+    of_pair: bool = False  # a norm of a difference, no figure of one model
+    needs_stress: bool = False  # only with a [stress] table
 
 
 _pressure, _half_width = attrgetter("peak_pressure"), attrgetter("half_width")

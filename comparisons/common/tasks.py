@@ -69,21 +69,18 @@ class _Task:
 
 @dataclass
 class Tasks:
-    """What a run has to compute, by key; `result` gives it.
+    """What a run has to compute, by key; `result` gives it."""
 
-    callback   gets the stages of all tasks, with the share of the expected seconds that is done
-    processes  that may work beside this one, which then only hands out; none: all is done here
-    memory     [bytes] that tasks side by side may expect together
-    here       preparations for what follows the tasks, while this process waits
-    there      preparations of forked processes for their tasks, which are worth them then
-    machine    [bytes] that the machine had to give at the start
-    """
-
+    # gets the stages of all tasks, with the share of the expected seconds that is done
     callback: ProgressCallback = no_progress
+    # that may work beside this one, which then only hands out; none: all is done here
     processes: int = 0
-    memory: float = float("inf")
+    memory: float = float("inf")  # [bytes] that tasks side by side may expect together
+    # preparations for what follows the tasks, while this process waits
     here: Sequence[Preparation] = ()
+    # preparations of forked processes for their tasks, which are worth them then
     there: Sequence[Preparation] = ()
+    # [bytes] that the machine had to give at the start
     machine: float = field(default_factory=lambda: from_first(machine_memory))
     _waiting: dict[str, _Task] = field(default_factory=dict)
     _running: dict[Connection, str] = field(default_factory=dict)

@@ -47,22 +47,16 @@ class Stated:
 
 @dataclass(frozen=True)
 class Moved:
-    """A figure that moved.
+    """A figure that moved."""
 
-    path               in result.json
-    recorded, repeated None where there is none
-    change, stated     relative; None where they have no meaning: verdicts, and what came or went
-    by                 whose uncertainty is stated, "" without one
-    beyond             whether it moved by more than is stated
-    """
-
-    path: str
-    recorded: Value | list
+    path: str  # in result.json
+    recorded: Value | list  # None where there is none, as repeated
     repeated: Value | list
+    # relative; None where they have no meaning: verdicts, and what came or went
     change: float | None
     stated: float | None
-    by: str
-    beyond: bool
+    by: str  # whose uncertainty is stated, "" without one
+    beyond: bool  # whether it moved by more than is stated
 
 
 @dataclass(frozen=True)

@@ -40,23 +40,15 @@ CELL_TYPES = {"quad": (9, 4), "triangle6": (22, 6)}
 
 @dataclass(frozen=True)
 class FieldFile:
-    """Arrays at points that cells connect.
+    """Arrays at points that cells connect."""
 
-    points  (n, 3) [m] x, z, 0: the plane of mesh.msh
-    kind    of cell, as meshio calls it
-    cells   (m, k) indices of points
-    arrays  (n,) by name, or vectors (n, 3), in `units`
-    units   of the arrays by name, and of "points"
-    title, scene  of the run; the scene as JSON
-    """
-
-    points: np.ndarray
-    kind: str
-    cells: np.ndarray
-    arrays: dict[str, np.ndarray]
-    units: dict[str, str]
-    title: str
-    scene: str
+    points: np.ndarray  # (n, 3) [m] x, z, 0: the plane of mesh.msh
+    kind: str  # of cell, as meshio calls it
+    cells: np.ndarray  # (m, k) indices of points
+    arrays: dict[str, np.ndarray]  # (n,) by name, or vectors (n, 3), in `units`
+    units: dict[str, str]  # of the arrays by name, and of "points"
+    title: str  # of the run
+    scene: str  # of the run, as JSON
 
     @property
     def notes(self) -> dict[str, str]:

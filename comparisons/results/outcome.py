@@ -22,35 +22,25 @@ from comparisons.models.window import Window
 
 @dataclass(frozen=True)
 class Outcome:
-    """A finished run.
-
-    runs         by model name, half_plane and/or finite_element
-    window       points of the common field, None without [stress]
-    comparisons  in the order of friction coefficients, then of quantities; empty for one model
-    result       the content of result.json
-    record       the content of record.json
-    directory    where the files are, None for a run without files
-    couplings    what friction changes on the half-plane by moving the surfaces, one a friction
-                 coefficient; empty where it moves nothing
-    budget       of the difference, None for one model
-    pairs        the norms of the difference on all levels, one a friction coefficient; empty for
-                 one model
-    scatter      what uncertain inputs do, None without [scatter]
-    answers      from outside, beside a model; empty where the scene has none
-    """
+    """A finished run."""
 
     problem: Problem
     plan: Plan
-    window: Window | None
-    runs: dict[str, ModelRun]
+    window: Window | None  # points of the common field, None without [stress]
+    runs: dict[str, ModelRun]  # by model name, half_plane and/or finite_element
+    # in the order of friction coefficients, then of quantities; empty for one model
     comparisons: tuple[Comparison, ...]
-    result: dict
-    record: dict
-    directory: Path | None
+    result: dict  # the content of result.json
+    record: dict  # the content of record.json
+    directory: Path | None  # where the files are, None for a run without files
+    # what friction changes on the half-plane by moving the surfaces, one a friction coefficient;
+    # empty where it moves nothing
     couplings: tuple[Coupling, ...] = ()
-    budget: ErrorBudget | None = None
+    budget: ErrorBudget | None = None  # of the difference, None for one model
+    # the norms of the difference on all levels, one a friction coefficient; empty for one model
     pairs: tuple[PairHistory, ...] = ()
-    scatter: InputScatter | None = None
+    scatter: InputScatter | None = None  # what uncertain inputs do, None without [scatter]
+    # from outside, beside a model; empty where the scene has none
     answers: tuple[ComparedAnswer, ...] = ()
 
     @cached_property

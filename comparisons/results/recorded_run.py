@@ -29,19 +29,13 @@ _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"
 
 @dataclass(frozen=True)
 class Record:
-    """A recorded run.
+    """A recorded run."""
 
-    scene    as resolved, with as many levels as the run and its error budget had and no end to
-             its time
-    models   of half_plane, finite_element
-    levels   of each model
-    figures  the content of result.json
-    """
-
+    # as resolved, with as many levels as the run and its error budget had and no end to its time
     scene: ResolvedScene
-    models: tuple[str, ...]
-    levels: int
-    figures: dict
+    models: tuple[str, ...]  # of half_plane, finite_element
+    levels: int  # of each model
+    figures: dict  # the content of result.json
     versions: dict
     machine: dict
     hashes: dict

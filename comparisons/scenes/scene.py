@@ -22,12 +22,9 @@ CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not samp
 
 @dataclass(frozen=True)
 class Load:
-    """What presses the roller on.
+    """What presses the roller on."""
 
-    kind   load_per_length [N/m] | hertz_peak_pressure [Pa] of the smooth pair | approach [m]
-    """
-
-    kind: str
+    kind: str  # load_per_length [N/m] | hertz_peak_pressure [Pa] of the smooth pair | approach [m]
     value: float
 
 
@@ -49,56 +46,38 @@ class Coated:
 
 @dataclass(frozen=True)
 class RunningIn:
-    """How the surface is run in before it is pressed.
+    """How the surface is run in before it is pressed."""
 
-    hardness   [Pa] at which asperities flow
-    load       [N/m], None for the scene's own
-    positions  [m] of the roller's centre on the trace as it was given, in order
-    sweeps     over all of them, at most
-    """
-
-    hardness: float
-    load: float | None
-    positions: tuple[float, ...]
-    sweeps: int
+    hardness: float  # [Pa] at which asperities flow
+    load: float | None  # [N/m], None for the scene's own
+    positions: tuple[float, ...]  # [m] of the roller's centre on the trace as given, in order
+    sweeps: int  # over all of them, at most
 
 
 @dataclass(frozen=True)
 class ProfileInfo:
-    """Where the profile comes from, and its figures after the form was removed.
+    """Where the profile comes from, and its figures after the form was removed."""
 
-    source     the file as the scene names it, or the kind of a made profile
-    samples, length [m], spacing [m] (median)   of the whole trace
-    form       what was taken away
-    roughness  figures of what is left and is pressed
-    cutoff, short_cutoff  [m] of the filter, None where there is none
-    standard   parameters after ISO 21920-2 of the whole trace, whatever is pressed
-    standard_why  why there are none
-    trace      as read or made: with its form, unfiltered, at its own positions
-    path, sha256, format   of the file that was read, None for a made profile
-    place      the line of a map that it is, in words
-    bridged, trimmed  lost samples: interpolated between their neighbours; dropped at the ends
-    stretch    [m] from where to where the longest bridge goes, None without any
-    """
-
-    source: str
-    samples: int
-    length: float
-    spacing: float
-    form: RemovedForm
-    roughness: Roughness
-    path: Path | None = field(default=None, compare=False)
+    source: str  # the file as the scene names it, or the kind of a made profile
+    samples: int  # of the whole trace
+    length: float  # [m]
+    spacing: float  # [m], median
+    form: RemovedForm  # what was taken away
+    roughness: Roughness  # figures of what is left and is pressed
+    path: Path | None = field(default=None, compare=False)  # of the file, None for a made profile
+    # as read or made: with its form, unfiltered, at its own positions
     trace: Profile | None = field(default=None, compare=False, repr=False)
-    sha256: str | None = None
-    bridged: int = 0
-    trimmed: int = 0
-    stretch: tuple[float, float] | None = None
-    format: str | None = None
-    place: str | None = None
-    cutoff: float | None = None
-    short_cutoff: float | None = None
+    sha256: str | None = None  # of the file
+    bridged: int = 0  # lost samples that were interpolated between their neighbours
+    trimmed: int = 0  # lost samples that were dropped at the ends
+    stretch: tuple[float, float] | None = None  # [m] of the longest bridge, from where to where
+    format: str | None = None  # of the file
+    place: str | None = None  # the line of a map that it is, in words
+    cutoff: float | None = None  # [m] of the filter, None where there is none
+    short_cutoff: float | None = None  # [m]
+    # parameters after ISO 21920-2 of the whole trace, whatever is pressed
     standard: StandardRoughness | None = None
-    standard_why: str | None = None
+    standard_why: str | None = None  # why there are none
 
     def as_dict(self) -> dict:
         """The same for JSON, without `path`, which another machine does not have, and `trace`."""
@@ -137,63 +116,41 @@ class StressWindow:
 
 @dataclass(frozen=True)
 class AnswerSource:
-    """Where an answer from outside is, and how to read it.
-
-    files           one for each resolution
-    length, stress  the file's units [m], [Pa]
-    columns         of a table: those of x and pressure, by name or number
-    up              axis of the file out of the rough body, with its sign; None: found out
-    x_origin, z_origin  [m] where the scene's origin lies in the file: along x and along `up`
-    pressure        array of a mesh that holds the contact pressure; None: the stress on its top
-    step            of several in time, from 0; None: the last
-    friction        coefficient that it is of; None: the only one
-    scatter         relative, of measured data; None: not stated
-    """
+    """Where an answer from outside is, and how to read it."""
 
     name: str
-    files: tuple[str, ...]
-    length: float
-    stress: float
-    columns: tuple[str | int, ...]
-    up: str | None
-    x_origin: float
-    z_origin: float
-    pressure: str | None
-    step: int | None
-    friction: float | None
-    scatter: float | None
+    files: tuple[str, ...]  # one for each resolution
+    length: float  # the file's unit [m]
+    stress: float  # the file's unit [Pa]
+    columns: tuple[str | int, ...]  # of a table: those of x and pressure, by name or number
+    up: str | None  # axis of the file out of the rough body, with its sign; None: found out
+    x_origin: float  # [m] where the scene's origin lies in the file, along its x
+    z_origin: float  # [m], along `up`
+    pressure: str | None  # array of a mesh that holds it; None: minus the stress on its top
+    step: int | None  # of several in time, from 0; None: the last
+    friction: float | None  # coefficient that it is of; None: the only one
+    scatter: float | None  # relative, of measured data; None: not stated
 
 
 @dataclass(frozen=True)
 class FiniteElementSettings:
-    """Which of the half-plane's assumptions the finite-element model keeps.
+    """Which of the half-plane's assumptions the finite-element model keeps."""
 
-    geometry      flat: the roughness is in the gap | rough: it is the boundary
-    gap           reference: at the place before loading, pressure along the mean normal |
-                  displaced: on the deformed surface, pressure along the roller's normal
-    roller_shape  parabola | circle
-    roller_body   half-plane | disc: an elastic roller is a block, or a sector of its own circle
-    coupled       the sliding traction moves the surfaces
-    deformation   linear | finite: current shape and normals, hyperelastic
-    plastic       the body yields where its yield stress is reached
-    element       P1 | P2 | P3: degree of the displacements
-    far_field     held: an unbounded body ends at a fixed boundary | half-plane: at one that moves
-                  as a half-plane does there
-    block         width and depth, in Hertz half-widths, of the stand-in for an unbounded body
-    growth        element size gained per distance from the contact
-    """
-
-    geometry: str
+    geometry: str  # flat: the roughness is in the gap | rough: it is the boundary
+    # reference: at the place before loading, pressure along the mean normal | displaced: on the
+    # deformed surface, pressure along the roller's normal
     gap: str
-    roller_shape: str
-    roller_body: str
-    coupled: bool
-    deformation: str
-    plastic: bool
-    element: str
+    roller_shape: str  # parabola | circle
+    roller_body: str  # of an elastic roller: half-plane, a block | disc, a sector of its circle
+    coupled: bool  # the sliding traction moves the surfaces
+    deformation: str  # linear | finite: current shape and normals, hyperelastic
+    plastic: bool  # the body yields where its yield stress is reached
+    element: str  # P1 | P2 | P3: degree of the displacements
+    # held: an unbounded body ends at a fixed boundary | half-plane: at one that moves as a
+    # half-plane does there
     far_field: str
-    block: float
-    growth: float
+    block: float  # width and depth, in Hertz half-widths, of the stand-in for an unbounded body
+    growth: float  # element size gained per distance from the contact
 
     @property
     def degree(self) -> int:
@@ -245,73 +202,50 @@ class Spread:
 
 @dataclass(frozen=True)
 class Scatter:
-    """Uncertain inputs of a scene, by name.
+    """Uncertain inputs of a scene, by name."""
 
-    samples             of each of two independent designs
-    correlation_length  [m] of the noise, 0: white
-    """
-
-    samples: int
+    samples: int  # of each of two independent designs
     seed: int
     inputs: dict[str, Spread]
-    correlation_length: float
+    correlation_length: float  # [m] of the noise, 0: white
 
 
 @dataclass(frozen=True)
 class ResolvedScene:
-    """Everything one run needs.
+    """Everything one run needs."""
 
-    name             the scene's file without its ending
-    source           what messages call the scene: its path
-    roller           None is a rigid roller
-    hardness         [Pa] cap on the contact pressure, or None
-    yielding         of the body in the finite elements; None: elastic
-    coating          of the body in the finite elements; None: one material
-    thickness, width [m] of the body, None where it is unbounded
-    base             bonded | frictionless, None without thickness
-    profile          None is a smooth body
-    running_in       None: the surface is pressed as it is
-    friction         coefficients, one result for each
-    coupled          the half-plane's surfaces are moved by the sliding traction
-    position         [m] where x = 0 lies on the trace as it was given
-    stress           None: no field is asked for
-    tolerance        relative, by the name of the compared quantity; others are not judged
-    tables           the scene file with SI numbers and every default written out: resolving
-                     them again, in a folder that holds the profile's file, gives this scene
-    scatter          None: inputs are taken as exact
-    run_in           what running-in did to the surface, None until it was done; then the
-                     profile and its figures are those after it
-    answers          from outside, beside those of the models
-    """
-
-    name: str
-    source: str = field(compare=False)
+    name: str  # the scene's file without its ending
+    source: str = field(compare=False)  # what messages call the scene: its path
     title: str
     roller_radius: float
-    roller: Material | None
+    roller: Material | None  # None: rigid
     body: Material
-    hardness: float | None
-    yielding: Yielding | None
-    coating: Coated | None
-    thickness: float | None
-    width: float | None
-    base: str | None
-    profile: Profile | None = field(compare=False)
+    hardness: float | None  # [Pa] cap on the contact pressure, or None
+    yielding: Yielding | None  # of the body in the finite elements; None: elastic
+    coating: Coated | None  # of the body in the finite elements; None: one material
+    thickness: float | None  # [m] of the body, None where it is unbounded
+    width: float | None  # [m], as the thickness
+    base: str | None  # bonded | frictionless, None without thickness
+    profile: Profile | None = field(compare=False)  # None: smooth
     profile_info: ProfileInfo | None
     load: Load
-    running_in: RunningIn | None
-    friction: tuple[float, ...]
-    coupled: bool
-    position: float
-    stress: StressWindow | None
-    tolerance: dict[str, float]
+    running_in: RunningIn | None  # None: the surface is pressed as it is
+    friction: tuple[float, ...]  # coefficients, one result for each
+    coupled: bool  # the half-plane's surfaces are moved by the sliding traction
+    position: float  # [m] where x = 0 lies on the trace as it was given
+    stress: StressWindow | None  # None: no field is asked for
+    tolerance: dict[str, float]  # relative, by compared quantity; others are not judged
     finite_element: FiniteElementSettings
     resolution: Resolution
     budget: Budget
+    # the scene file with SI numbers and every default written out: resolving them again, in a
+    # folder that holds the profile's file, gives this scene
     tables: dict = field(repr=False)
-    scatter: Scatter | None = None
+    scatter: Scatter | None = None  # None: inputs are taken as exact
+    # what running-in did to the surface, None until it was done; then the profile and its figures
+    # are those after it
     run_in: RunIn | None = field(default=None, compare=False, repr=False)
-    answers: tuple[AnswerSource, ...] = ()
+    answers: tuple[AnswerSource, ...] = ()  # from outside, beside those of the models
 
     @property
     def as_measured(self) -> Profile | None:

@@ -45,19 +45,13 @@ OWN = ("sx", "sz", "txz")  # as this project's files have them, z into the body
 
 @dataclass(frozen=True)
 class PlaneMesh:
-    """The rough body in the project's axes.
+    """The rough body in the project's axes."""
 
-    x, z       (n,) [m]
-    triangles  (m, 3)
-    stress     (n,) [Pa]
-    pressure   (n,) [Pa] of the array that the source names, None where it names none
-    """
-
-    x: np.ndarray
-    z: np.ndarray
-    triangles: np.ndarray
-    stress: StressState
-    pressure: np.ndarray | None
+    x: np.ndarray  # (n,) [m]
+    z: np.ndarray  # (n,) [m]
+    triangles: np.ndarray  # (m, 3)
+    stress: StressState  # (n,) [Pa]
+    pressure: np.ndarray | None  # (n,) [Pa] of the array that the source names, if it names one
 
 
 def read_fields(

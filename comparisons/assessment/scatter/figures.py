@@ -7,20 +7,17 @@ import numpy as np
 
 @dataclass(frozen=True)
 class ScatteredFigure:
-    """A figure of the half-plane over all samples, in SI.
-
-    nominal   with every input as the scene has it, on the finest pressure elements. The samples,
-              solved on the coarsest, are scaled to it: that error is in all of them alike
-    interval  from the 2.5th to the 97.5th percentile
-    shares    of its variance, by input; None where it does not vary
-    """
+    """A figure of the half-plane over all samples, in SI."""
 
     quantity: str
     friction: float
+    # with every input as the scene has it, on the finest pressure elements. The samples, solved on
+    # the coarsest, are scaled to it: that error is in all of them alike
     nominal: float
     mean: float
     standard_deviation: float
-    interval: tuple[float, float]
+    interval: tuple[float, float]  # from the 2.5th to the 97.5th percentile
+    # of its variance, by input; None where it does not vary
     shares: dict[str, dict[str, float]] | None
 
     @property
@@ -31,21 +28,16 @@ class ScatteredFigure:
 
 @dataclass(frozen=True)
 class InputScatter:
-    """All figures, and the samples that they are of.
-
-    solutions  of the half-plane; `failed` of them have no answer, the first of them `why`
-    pitch      [m] of the pressure elements
-    x, band    (k,) [m] and (2, k) [Pa]: the pressure's 2.5th and 97.5th percentile at each place
-    """
+    """All figures, and the samples that they are of."""
 
     figures: tuple[ScatteredFigure, ...]
     samples: int
-    solutions: int
-    failed: int
-    why: str | None
-    pitch: float
-    x: np.ndarray = field(repr=False)
-    band: np.ndarray = field(repr=False)
+    solutions: int  # of the half-plane
+    failed: int  # of these, without an answer
+    why: str | None  # the first of those failed
+    pitch: float  # [m] of the pressure elements
+    x: np.ndarray = field(repr=False)  # (k,) [m]
+    band: np.ndarray = field(repr=False)  # (2, k) [Pa], 2.5th and 97.5th percentile at each x
 
     def of(self, quantity: str, friction: float) -> ScatteredFigure | None:
         """The figure of a quantity at a friction coefficient, if it has one."""

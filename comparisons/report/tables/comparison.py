@@ -27,28 +27,20 @@ AT_HARDNESS = 1e-9  # relative: a pressure so close to the hardness is held ther
 
 @dataclass(frozen=True)
 class ComparisonRow:
-    """A quantity at one friction coefficient, or at several that give the same figures.
-
-    half_plane, finite_element   with unit; empty for the norm of a difference
-    in_hertz                     the same two in units of the Hertz contact's
-    difference                   in the digits that the uncertainty supports
-    verdict                      "" where nothing was judged
-    reference                    what problem the finite elements' figure is one of
-    note                         what to know before the figures are taken for evidence
-    """
+    """A quantity at one friction coefficient, or at several that give the same figures."""
 
     quantity: str
     label: str
     friction: str
-    half_plane: str
+    half_plane: str  # with unit; empty for the norm of a difference
     finite_element: str
-    in_hertz: tuple[str, str]
-    difference: str
+    in_hertz: tuple[str, str]  # the same two in units of the Hertz contact's
+    difference: str  # in the digits that the uncertainty supports
     uncertainty: str
     tolerance: str
-    verdict: str
-    reference: str
-    note: str
+    verdict: str  # "" where nothing was judged
+    reference: str  # what problem the finite elements' figure is one of
+    note: str  # what to know before the figures are taken for evidence
 
 
 def comparison_rows(outcome: Outcome) -> list[ComparisonRow]:

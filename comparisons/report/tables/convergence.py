@@ -19,23 +19,15 @@ WORDS = tuple((term, text.format(**_BOUNDS)) for term, text in wording()["conver
 
 @dataclass(frozen=True)
 class JudgedSequence:
-    """A judged figure over the levels, coarse to fine.
-
-    figure       quantity, with its friction coefficient where it depends on one
-    source       model's name, or DIFFERENCE
-    pitches      of the pressure elements [m]
-    values       SI
-    scale        what errors are relative to, SI
-    uncertainty  of the last value, relative
-    """
+    """A judged figure over the levels, coarse to fine."""
 
     quantity: str
-    figure: str
-    source: str
-    pitches: tuple[float, ...]
-    values: tuple[float, ...]
-    scale: float
-    uncertainty: Uncertainty
+    figure: str  # quantity, with its friction coefficient where it depends on one
+    source: str  # model's name, or DIFFERENCE
+    pitches: tuple[float, ...]  # of the pressure elements [m]
+    values: tuple[float, ...]  # SI
+    scale: float  # what errors are relative to, SI
+    uncertainty: Uncertainty  # of the last value, relative
 
     @property
     def errors(self) -> list[float]:

@@ -15,13 +15,7 @@ SHOWN = 5e-4  # effects below this, and below a tenth of the error, are not list
 
 @dataclass(frozen=True)
 class ModelErrorRow:
-    """The half-plane's model error in a quantity, at one or more friction coefficients.
-
-    contributions  what makes it up, the largest first, each with its sign; of pressures before
-                   these what is left with peaks moved
-    note           what to know before the figure is taken for evidence
-    moved          where the whole has its largest value, if not at the half-plane's asperity
-    """
+    """The half-plane's model error in a quantity, at one or more friction coefficients."""
 
     quantity: str
     label: str
@@ -29,9 +23,11 @@ class ModelErrorRow:
     error: str
     uncertainty: str
     tolerance: str
+    # what makes it up, the largest first, each with its sign; of pressures before these what is
+    # left with peaks moved
     contributions: tuple[str, ...]
-    note: str
-    moved: str
+    note: str  # what to know before the figure is taken for evidence
+    moved: str  # where the whole has its largest value, if not at the half-plane's asperity
 
 
 def model_error_rows(outcome: Outcome, judged: bool = False) -> list[ModelErrorRow]:
