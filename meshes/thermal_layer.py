@@ -22,6 +22,10 @@ from meshes.block import BlockSpec, MeshError
 from meshes.boundary import graded_line
 
 MOST_EDGES = 50_000  # of the surface
+SLACK = 1e-9
+# Part of the source's width beside which a coating is no longer filled: what is left of its wake
+# changes temperatures under the source by less than 1e-3.
+WAKE = 0.5
 
 
 def layer_size(
@@ -58,8 +62,8 @@ def thermal_spec(
     """What `meshes.build.build_block` meshes for heat through `patches` (k, 2) [m], ascending and
     disjoint, whose ends become vertices; lengths as above [m], `layers` is n.
 
-    `length` is kappa/V with the sign of the material's velocity, infinite at rest. Raises MeshError
-    where its layers are too thin to mesh.
+    `length` is kappa/V with the sign of the material's velocity, infinite at rest, by the smaller
+    kappa of body and coating. Raises MeshError where its layers are too thin to mesh.
     """
     if 2.0 * layers * np.sqrt(2.0 * half_width / abs(length)) > MOST_EDGES:
         raise MeshError(
@@ -71,11 +75,18 @@ def thermal_spec(
     stops = np.unique([-half_width, *inside, half_width])
     pieces = [graded_line(a, b, law)[:-1] for a, b in pairwise(stops)]
     vertices = np.concatenate([*pieces, stops[-1:]])
-    whole = np.array([[-half_width, half_width]])
+    # beyond the last place that the layers refine the block's own law goes on alike
+    alone = layer_size(patches, size, growth, np.inf, layers)(vertices)
+    beside = np.maximum(inside[0] - vertices, vertices - inside[-1])
+    refined = law(vertices) < alone * (1.0 - SLACK)
+    if interface is not None:
+        refined &= beside < WAKE * np.ptp(inside)
+    first, *_, last = np.flatnonzero(refined | (beside <= 0.0))
+    vertices = vertices[first : last + 1]
     return BlockSpec(
         half_width,
         depth,
-        whole,
+        vertices[None, [0, -1]],
         float(np.diff(vertices).min()),
         growth,
         interface=interface,

@@ -219,6 +219,21 @@ def test_a_coated_half_plane(velocity, conductivity):
     assert np.abs(bare / exact - 1.0).max() > 0.1
 
 
+@pytest.mark.parametrize("velocity", [-2.0, 60.0])
+def test_a_thin_coating_is_meshed_where_heat_passes(velocity):
+    """A hundredth of the band's half-width thick; beside it the coating has stretched elements."""
+    coat, thickness = ThermalMaterial(0.1, 2.0, 1.0), 0.01
+    law = {"length": 1.0 / velocity, "interface": thickness}
+    spec = thermal_spec([[-1.0, 1.0]], 0.05, half_width=15.0, depth=15.0, **law)
+    body = thermal_body(build_block(spec), UNIT, coating=Coating(coat, thickness))
+    assert len(body.nodes) < 75_000
+    x = np.array([-0.8, -0.3, 0.0, 0.45, 0.8])
+    found = Conduction(body, velocity, OPEN).steady(flux_load(body, BAND, np.ones(3)))
+    exact = two_layers(x, velocity, coat, UNIT, thickness)
+    places = np.column_stack([x, np.zeros_like(x)])
+    assert body.at(places, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+
+
 def test_what_is_refused(structured_block):
     with pytest.raises(MeshError, match=r"thermal layers of 1e-09 m .* are too thin to mesh"):
         thermal_spec([[-1.0, 1.0]], 0.1, half_width=10.0, depth=10.0, length=-1e-9)
