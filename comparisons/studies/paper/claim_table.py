@@ -13,6 +13,7 @@ from comparisons.studies.paper.claims.judgement import (
     CONFIRMED,
     DENIED,
     INCONCLUSIVE,
+    THEORY,
     Claim,
     FigureModelError,
     JudgedClaim,
@@ -111,10 +112,11 @@ def paper_table(paper: "Paper") -> "RenderableType":
     from rich.console import Group
     from rich.text import Text
 
-    table = plain_table("claim", "figure", numbers=[LABELS[m] for m in MODELS])
+    models = (*MODELS, THEORY)
+    table = plain_table("claim", "figure", numbers=[LABELS.get(m, m) for m in models])
     table.add_column("outcome")
     for row in map(claim_row, paper.judged):
-        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in MODELS))
+        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in models))
         plain = [cell.replace("±", "+-").translate(PLAIN) for cell in cells]
         table.add_row(*plain, Text(row.outcome, style=STYLES[row.kind]))
     return Group(
@@ -130,4 +132,4 @@ def _lines(texts: dict[str, str]) -> tuple[str, ...]:
     """A line a model, or one for both where they say the same."""
     if len(set(texts.values())) == 1 and len(texts) > 1:
         return (f"{next(iter(texts.values()))} (both models)",)
-    return tuple(f"{LABELS[model]} {text}" for model, text in texts.items())
+    return tuple(f"{LABELS.get(model, model)} {text}" for model, text in texts.items())

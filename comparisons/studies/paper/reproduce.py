@@ -23,6 +23,7 @@ from comparisons.results.result_json import result_of
 from comparisons.runs.run import solved
 from comparisons.scenes.resolve import load_scene
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.paper.claims.book import judged_book
 from comparisons.studies.paper.claims.claim_list import SCENES, SURFACES, claims
 from comparisons.studies.paper.claims.judgement import OUTCOMES, JudgedClaim, judge
 from comparisons.studies.paper.claims.readings import SLIDING
@@ -56,7 +57,7 @@ class Paper:
     """The paper computed anew.
 
     outcomes   of every surface, by its scene's name
-    judged     claims in the order of the figures
+    judged     claims in the order of the figures, and Seireg's after them
     seconds    that it took, without drawing
     directory  where the files are
     """
@@ -113,7 +114,7 @@ def paper(
     start = perf_counter()
     outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
-    judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims())
+    judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims()) + judged_book()
     found = Paper(outcomes, judged, perf_counter() - start, out)
     page = paper_page(found, sections_of(outcomes, judged, callback))
     callback("writing files")

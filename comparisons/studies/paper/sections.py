@@ -20,6 +20,7 @@ from comparisons.studies.paper.claims.claim_list import (
 from comparisons.studies.paper.claims.judgement import JudgedClaim
 from comparisons.studies.paper.pictures.depth import axis_pictures
 from comparisons.studies.paper.pictures.pressure import pressure_picture, trace_picture
+from comparisons.studies.paper.pictures.rough_spheres import real_pressure_picture, spheres_picture
 from comparisons.studies.paper.pictures.scales import scales_of
 from comparisons.studies.paper.pictures.shear import contour_picture
 
@@ -91,6 +92,13 @@ def sections_of(
             ("below the edge of the contact", _depths(outcomes, 1, SMOOTH, UNRUN)),
         )
         found.append(Section("11", "Figure 11: principal shear over depth", blocks))
+        callback("drawing Seireg's figures")
+        blocks = (
+            Block("Figure 4.5: mean real pressure", (real_pressure_picture(),), claims("4.5")),
+            Block("Figure 4.6: rough and smooth spheres", (spheres_picture(),), claims("4.6")),
+            Block("Section 4.8: relative penetration", (), claims("4.9")),
+        )
+        found.append(Section("seireg", "Seireg, chapter 4: rough contact", blocks))
     return tuple(found)
 
 

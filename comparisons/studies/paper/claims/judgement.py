@@ -19,6 +19,7 @@ from comparisons.studies.paper.claims.readings import SLIDING, LevelView, Readin
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
 OUTCOMES = (CONFIRMED, DENIED, INCONCLUSIVE)
+THEORY = "theory"  # what judges a claim that neither model solves
 ORDER = 1.0  # formal, of what is read: with it a regular sequence gets the widest margin
 
 PLAIN = ("key", "figure", "title", "text", "measure", "scene")  # fields of a claim in paper.json

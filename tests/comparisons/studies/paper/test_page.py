@@ -13,6 +13,7 @@ from comparisons import cli
 from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.studies.paper import reproduce
+from comparisons.studies.paper.claims.book import judged_book
 from comparisons.studies.paper.claims.claim_list import FIGURES, SCENES, claims
 from comparisons.studies.paper.claims.judgement import OUTCOMES
 from comparisons.studies.paper.claims.readings import SLIDING
@@ -22,7 +23,7 @@ from comparisons.studies.paper.pictures import shear as shear_pictures
 from comparisons.studies.paper.reproduce import FRICTIONS, Fineness
 
 COARSE = Fineness(pitch=80e-6, points=(40, 20))
-PICTURES = 1 + 2 + 3 * len(SCENES) + 4
+PICTURES = 1 + 2 + 3 * len(SCENES) + 4 + 2
 DRAWING = (pressure_pictures, shear_pictures, depth_pictures)
 
 
@@ -73,13 +74,13 @@ def page(made):
 
 
 def test_the_page_holds_every_figure(page):
-    assert len(page.images) == PICTURES == 19
+    assert len(page.images) == PICTURES == 21
     for image in page.images:
         assert image["src"].startswith("data:image/svg+xml;base64,")
         assert len(image["alt"]) > 40
     assert len({image["alt"] for image in page.images}) == PICTURES
     sections = [place for place in page.places if place.startswith("figure-")]
-    assert sections == [f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11")]
+    assert sections == [f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11", "seireg")]
 
 
 def test_the_page_holds_every_claim_with_its_outcome(made, page):
@@ -89,7 +90,7 @@ def test_the_page_holds_every_claim_with_its_outcome(made, page):
         assert f"#claim-{each.claim.key}" in page.links
         for said in (each.claim.text, each.claim.measure, each.claim.criterion, each.why or ""):
             assert " ".join(said.split()) in text
-    assert len(made.paper.judged) == len(claims())
+    assert len(made.paper.judged) == len(claims()) + len(judged_book())
     assert len(page.places) == len(set(page.places))
 
 
@@ -108,7 +109,8 @@ def test_the_page_needs_no_network(page):
 
 def test_numbers_hold_what_the_page_says(made):
     content = json.loads((made.out / "paper.json").read_text(encoding="utf-8"))
-    assert [claim["key"] for claim in content["claims"]] == [c.key for c in claims()]
+    listed = [*claims(), *(each.claim for each in judged_book())]
+    assert [claim["key"] for claim in content["claims"]] == [c.key for c in listed]
     assert sum(content["outcomes"].values()) == len(content["claims"])
     assert set(content["outcomes"]) == set(OUTCOMES) and set(content["surfaces"]) == set(SCENES)
     for claim, judged in zip(content["claims"], made.paper.judged, strict=True):
