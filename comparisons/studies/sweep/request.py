@@ -21,7 +21,8 @@ SHORT = {"position": POSITION, "friction": "load.friction"}  # beside "load", wh
 LOADS = ("per_length", "hertz_peak_pressure", "approach")
 MOST = 10_000  # points
 MARGIN = 1.1  # of the contact's reach, that a placement keeps from the ends of the trace
-CODE = (*LEVEL_CODE, "comparisons/common/quantities.py", "comparisons/results", __file__)
+ZONE = "comparisons/assessment/quiescent_zone.py"
+CODE = (*LEVEL_CODE, "comparisons/common/quantities.py", "comparisons/results", ZONE, __file__)
 _RANGE = re.compile(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([^:\d]*?)\s*")
 
 Value = float | str

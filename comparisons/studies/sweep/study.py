@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from rich.console import Group
 
 SWEEP, TABLE, PICTURE = "sweep.json", "sweep.csv", "sweep.svg"
+ZONE, ZONE_MAP = "quiescent_zone", "quiescent_zone.svg"
 FOLDER = "sweep_points"
 SCHEMA = 1
 GOES_ON = "finished points are kept, the same command goes on from there"
@@ -45,7 +46,7 @@ def make_sweep(
     workers  processes; None: one a core
     Raises InputError for what cannot be written, and where no point has an answer.
     """
-    check_writable(out, (TABLE, PICTURE, SWEEP))
+    check_writable(out, (TABLE, PICTURE, ZONE_MAP, SWEEP))
     cache = Cache(out / FOLDER, "", {})
     cache.remove_leftovers()
     try:
@@ -58,8 +59,11 @@ def make_sweep(
     if all(point["status"] == FAILED for point in content["points"]):
         raise InputError(content["points"][0]["why"])
     from comparisons.studies.sweep.picture import sweep_picture
+    from comparisons.studies.sweep.zone_map import zone_map
 
-    with published(out, (TABLE, PICTURE, SWEEP)) as folder:
+    with published(out, (TABLE, PICTURE, ZONE_MAP, SWEEP)) as folder:
+        if any(ZONE in point for point in content["points"]):
+            (folder / ZONE_MAP).write_text(zone_map(content), encoding="utf-8")
         (folder / TABLE).write_text(sweep_csv(content), encoding="utf-8")
         (folder / PICTURE).write_text(sweep_picture(content), encoding="utf-8")
         (folder / SWEEP).write_text(as_json(content), encoding="utf-8")
@@ -79,9 +83,16 @@ def solved(point: SweepPoint, name: str) -> dict:
         outcome = run(scene, None, point.models)
         rows = tuple(rows_of(outcome.result, name))
         found = {"status": SOLVED, "rows": rows}
+        if (zones := outcome.result["quiescent_zone"]) and "why" not in zones:
+            found[ZONE] = {model: _counted(entries) for model, entries in zones.items()}
     except (InputError, SolverError, ArithmeticError) as error:
         found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
+
+
+def _counted(entries: list[dict]) -> list[dict]:
+    """Of the quiescent zone by friction, with the number of its asperities in place of them."""
+    return [entry | {"asperities": len(entry["asperities"])} for entry in entries]
 
 
 def sweep_content(request: SweepRequest, cache: Cache) -> dict:
@@ -170,10 +181,12 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
         table.add_row(*(cell.translate(PLAIN) for cell in cells))
     points = content["points"]
     whys = [point["why"] for point in points if point["status"] == FAILED]
+    maps = [ZONE_MAP] if any(ZONE in point for point in points) else []
+    files = TABLE, PICTURE, *maps, SWEEP
     over = " x ".join(f"{len(each['values'])} of {each['field']}" for each in content["over"])
     return Group(
         table,
         Text(f"{len(points)} scenes ({over}), {len(whys)} failed"),
         *(Text(f"failed, {whys.count(why)}: {why}") for why in dict.fromkeys(whys)),
-        *([] if out is None else [Text(f"sweep: {out / TABLE}, {out / PICTURE}, {out / SWEEP}")]),
+        *([] if out is None else [Text(f"sweep: {', '.join(str(out / name) for name in files)}")]),
     )

@@ -91,6 +91,17 @@ def test_mean_shear_of_the_sliding_smooth_contact(columns):
     assert q.mean_shear(smooth, window, cut) == pytest.approx(0.2e9, rel=0.1 / columns)
 
 
+@pytest.mark.parametrize(
+    ("friction", "status"), [(0.0, q.SMOOTH), (0.23, q.SMOOTH), (0.25, q.BRIDGED), (0.4, q.BRIDGED)]
+)
+def test_friction_alone_bridges_a_smooth_body(friction, status):
+    hertz = HertzContact(1.0, 1.0, 0.5 * np.pi, 1.0, 1.0)
+    window = SimpleNamespace(x=np.linspace(-1.2, 1.2, 961))
+    tau1 = hertz_stress(hertz, window.x, Z[:, None], friction).tau1
+    shear = q.mean_shear(SimpleNamespace(hertz=hertz), window, tau1)
+    assert q.shear_dip(Z, shear, 0.5).status == status
+
+
 @pytest.fixture(scope="module")
 def wavy():
     return run(resolved(WAVY), None, HALF_PLANE)

@@ -11,8 +11,10 @@ from comparisons import api
 from comparisons.cli import main
 from comparisons.common.errors import InputError
 from comparisons.models.problem import problem_of
+from comparisons.report.figures import style
 from comparisons.studies.sweep.request import MARGIN, sweep_request
 from comparisons.studies.sweep.study import scatter
+from comparisons.studies.sweep.zone_map import zone_map_figure
 
 WAVES = {
     "roller": {"radius": 8e-3, "rigid": True},
@@ -109,6 +111,35 @@ def test_a_second_call_solves_nothing(made, monkeypatch, capsys):
     assert "6 scenes (3 of profile.amplitude x 2 of roller.radius), 2 failed" in (
         capsys.readouterr().out
     )
+
+
+def test_rough_fields_are_mapped_by_their_quiescent_zone(tmp_path, capsys):
+    """Long waves bridge it, short ones do not, and friction does."""
+    (tmp_path / "waves.toml").write_text(
+        '[roller]\nradius = 5.76923e-3\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n'
+        '[body]\nyoungs_modulus = "210 GPa"\npoissons_ratio = 0.3\n[profile]\n'
+        'kind = "sinusoid"\nwavelength = "40 um"\namplitude = "200 nm"\n[load]\n'
+        'hertz_peak_pressure = "1 GPa"\nfriction = [0, 0.3]\n[stress]\npoints = [120, 40]\n'
+        "[resolution]\nlevels = 2\n"
+    )
+    out = tmp_path / "out"
+    asked = ["sweep", str(tmp_path / "waves.toml"), "--workers", "1", "--out", str(out)]
+    assert main([*asked, "--over", "profile.wavelength=20 um,45 um"]) == 0
+    assert "quiescent_zone.svg" in capsys.readouterr().out
+    points = json.loads((out / "sweep.json").read_text())["points"]
+    found = [p["quiescent_zone"]["half_plane"] for p in points]
+    statuses = [[entry["status"] for entry in entries] for entries in found]
+    assert statuses == [["quiescent", "bridged"], ["bridged", "bridged"]]
+    assert all(0 <= entry["bridged"] <= entry["asperities"] for e in found for entry in e)
+    content = json.loads((out / "sweep.json").read_text())
+    with style.drawing():
+        axes = zone_map_figure(content).axes
+    shown = [[text.get_text() for text in each.texts] for each in axes]
+    assert shown == [[f"{e[k]['level']['value']:.2f}" for e in found] for k in (0, 1)]
+    assert [each.get_title(loc="left") for each in axes] == [
+        "friction 0, half-plane",
+        "friction 0.3, half-plane",
+    ]
 
 
 @pytest.mark.parametrize(
