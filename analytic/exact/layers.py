@@ -67,7 +67,7 @@ def thick_layer(
 ) -> LayerLimit:
     """Hertz's contact of half-width a [m] with the first effect of the base, R and t [m].
 
-    Raises ValueError for lengths that are not positive.
+    Raises ValueError for lengths that are not positive and for an unknown base.
     """
     check_positive(half_width=half_width, radius=radius, thickness=thickness)
     deficit = partial(base_deficit, base=base, poissons_ratio=layer.poissons_ratio)
@@ -82,7 +82,7 @@ def thin_compressible_layer(
 ) -> LayerLimit:
     """Winkler's bed of springs M/t under a contact of half-width a [m]; R and t [m].
 
-    Raises ValueError for lengths that are not positive.
+    Raises ValueError for lengths that are not positive and for an unknown base.
     """
     check_positive(half_width=half_width, radius=radius, thickness=thickness)
     peak = thin_modulus(layer, base) * half_width**2 / (2.0 * radius * thickness)
@@ -105,6 +105,7 @@ def thin_incompressible_layer(
 
 def thin_modulus(layer: Material, base: Base) -> float:
     """M [Pa]: pressure over thickness strain of a layer that is wide and pressed evenly."""
+    _check_base(base)
     nu = layer.poissons_ratio
     if base == "frictionless":
         return layer.plane_strain_modulus
@@ -116,12 +117,18 @@ def base_deficit(w: ArrayLike, base: Base, poissons_ratio: float) -> np.ndarray:
 
     Sums of positive terms over positive ones, multiplied by e^-2w: right to rounding.
     """
+    _check_base(base)
     w = np.asarray(w, dtype=float)
     decay, n = np.exp(-2.0 * w), 3.0 - 4.0 * poissons_ratio
     if base == "frictionless":
         return 2.0 * decay * (2.0 * w - np.expm1(-2.0 * w)) / (4.0 * w * decay - np.expm1(-4.0 * w))
     rest = 4.0 * w**2 + 1.0 + n**2
     return decay * (2.0 * n * decay + rest + 4.0 * w) / (n * (1.0 + decay**2) + rest * decay)
+
+
+def _check_base(base: str) -> None:
+    if base not in ("bonded", "frictionless"):
+        raise ValueError(f'base must be "bonded" or "frictionless", not {base!r}')
 
 
 @dataclass(frozen=True)
