@@ -3,7 +3,7 @@
 import tomllib
 from pathlib import Path
 
-from comparisons.studies.paper.claims import readings
+from comparisons.studies.paper.claims import readings, waves
 from comparisons.studies.paper.claims.judgement import Claim
 from comparisons.studies.paper.claims.readings import Reading
 
@@ -42,5 +42,5 @@ def _claim(table: dict, words: dict[str, str]) -> Claim:
 
 
 def _reading(name: str, *given: float | str | bool) -> Reading:
-    function = getattr(readings, name)
+    function = getattr(readings, name, None) or getattr(waves, name)
     return function(*given) if given else function

@@ -5,15 +5,19 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scenes import QUICK, problem
 
 from analytic.contact.problem import ContactSolution, Residuals
 from analytic.exact.hertz import HertzContact, hertz_stress
 from analytic.grid import HatGrid
 from analytic.stress.points import stress_at
 from analytic.stress_state import Extremum, StressState
+from comparisons.common.progress import Stages
+from comparisons.models.half_plane import half_plane_level
 from comparisons.models.level import Level, StressResult
-from comparisons.models.window import Window
+from comparisons.models.window import Window, window_of
 from comparisons.studies.paper.claims import readings as r
+from comparisons.studies.paper.claims import waves
 from comparisons.studies.paper.claims.zones import (
     agreement_depth,
     joining_level,
@@ -179,6 +183,17 @@ class TestReadings:
         view = view_of({0.0: np.maximum(smooth_tau1(), layer), 0.1: smooth_tau1() + 0.5})
         assert r.zone_ratio(0.0)(view) < 0.4 and r.zone_ratio(0.1)(view) > 0.9
         assert 0.0 < r.zone_end("start")(view) < 0.04 < r.zone_end("stop")(view) < 0.6
+
+    def test_long_waves_bridge_the_zone_and_friction_shorter_ones(self):
+        """As the map of the quiescent zone in docs/figures.md shows of rough scenes."""
+        posed = problem(QUICK)
+        window = window_of(posed)
+        level = half_plane_level(posed, posed.pitches[0], window, Stages())
+        view = r.LevelView("half_plane", posed, level, window)
+        found = [waves.bridging_wavelength(mu)(view) for mu in (0.0, 0.1, 0.3)]
+        assert found[0] == pytest.approx(0.362, abs=0.01)
+        assert found[1] == pytest.approx(0.342, abs=0.01)
+        assert found[2] == waves.WAVES[0]  # every wave
 
     def test_edge_ratio_follows_the_shear_there(self):
         view = view_of({0.0: smooth_tau1(), 0.1: 1.25 * smooth_tau1()})
