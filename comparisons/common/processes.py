@@ -216,39 +216,6 @@ def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
     return [work() for work in works]
 
 
-@contextmanager
-def meanwhile(works: Works) -> Iterator[None]:
-    """Carry out works, as in `side_by_side`, in one copy of this process while the block runs."""
-    copy = None
-    if copies() > 1:
-        copy = multiprocessing.get_context("fork").Process(target=_all_of, args=(works,))
-        with suppress(OSError), interrupts_later(), warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)
-            copy.start()
-    try:
-        yield
-        if copy is not None and copy.pid is not None:
-            copy.join()
-    finally:
-        if copy is not None and copy.pid is not None:
-            copy.kill()
-            copy.join()
-    if copy is None or copy.exitcode != 0:
-        for work in works:
-            work()
-
-
-def _all_of(works: Works) -> None:
-    end_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    gc.disable()
-    with suppress(BaseException):
-        for work in works:
-            work()
-        os._exit(0)
-    os._exit(1)  # silently: the works are tried once more, and say what is wrong, in the parent
-
-
 def copies() -> int:
     """How many copies of this process may work at once; 1: none beside it. Threads of OpenMP, which
     are in no copy though it waits for them, may have begun where more than one is asked for."""

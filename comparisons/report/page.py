@@ -1,6 +1,6 @@
 """The report: one page that opens without a network and prints without loss."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
 
@@ -60,8 +60,9 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
 }
 
 
-def render(outcome: Outcome) -> str:
-    """The page of a finished run; equal outcomes give equal text."""
+def render(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> str:
+    """The page of a finished run; equal outcomes give equal text. Works `beside` are carried out
+    side by side with the drawing."""
     script, policy = inline("field_values.js")
     errors = [] if outcome.budget is None else model_error_rows(outcome)
     return rendered(
@@ -101,16 +102,16 @@ def render(outcome: Outcome) -> str:
         planned=outcome.forecast.text,
         record=record_rows(outcome),
         commands=commands(outcome),
-        pictures=draw(outcome),
+        pictures=draw(outcome, beside),
     )
 
 
-def draw(outcome: Outcome) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side."""
+def draw(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> dict[str, object]:
+    """What each of PICTURES gives, drawn side by side, and with works `beside`."""
     for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
         import_module(name)  # once for all copies
     works = [partial(_drawn, name, outcome) for name in PICTURES]
-    return dict(zip(PICTURES, side_by_side(works), strict=True))
+    return dict(zip(PICTURES, side_by_side([*beside, *works])[len(beside) :], strict=True))
 
 
 def _drawn(name: str, outcome: Outcome) -> object:

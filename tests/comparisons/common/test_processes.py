@@ -12,7 +12,6 @@ import pytest
 from comparisons.common.processes import (
     ProcessEnded,
     fresh_process,
-    meanwhile,
     return_freed_memory,
     side_by_side,
 )
@@ -97,31 +96,6 @@ class TestSideBySide:
             side_by_side([lambda: time.sleep(300.0)] * 2)
         assert time.monotonic() - begin < 100.0
         assert signal.pthread_sigmask(signal.SIG_BLOCK, ()) == before
-
-
-@pytest.mark.usefixtures("two_cores")
-class TestMeanwhile:
-    def test_a_copy_works_while_this_process_does(self, tmp_path):
-        with meanwhile([lambda: (tmp_path / "one").write_text(str(os.getpid()))]):
-            while not (tmp_path / "one").exists():
-                time.sleep(0.01)
-        assert (tmp_path / "one").read_text() != str(os.getpid())
-
-    def test_what_fails_there_is_tried_and_raised_here(self, tmp_path, capfd):
-        path, own = tmp_path / "none" / "file", os.getpid()
-        with pytest.raises(FileNotFoundError), meanwhile([lambda: path.write_text("")]):
-            pass
-        done = []
-        with meanwhile([lambda: done.append(1) if os.getpid() == own else os._exit(9)]):
-            assert not done
-        assert done == [1]
-        assert capfd.readouterr() == ("", "")
-
-    def test_what_ends_the_block_ends_it(self, tmp_path):
-        begin = time.monotonic()
-        with pytest.raises(KeyboardInterrupt), meanwhile([lambda: time.sleep(300.0)]):
-            raise KeyboardInterrupt
-        assert time.monotonic() - begin < 100.0
 
 
 def freed_memory(ask: bool) -> int:
