@@ -145,10 +145,8 @@ def run(
 
 
 def read(folder: str | os.PathLike) -> Run:
-    """A run from the folder that it has left; nothing is solved.
-
-    Raises InputError where there is none.
-    """
+    """A run from the folder that it has left; nothing is solved. Raises InputError where there is
+    none."""
     from comparisons.report.saved import read_outcome
 
     return Run(read_outcome(_place(folder, "folder")))
@@ -177,10 +175,8 @@ def cost(
     out: str | os.PathLike | None = None,
     progress: ProgressCallback = no_progress,
 ) -> CostStudy:
-    """Error against run time of every method that applies: what `crosscheck cost` does.
-
-    It takes minutes. `out` keeps what was measured, and goes on from there.
-    """
+    """Error against run time of every method that applies: what `crosscheck cost` does. It takes
+    minutes. `out` keeps what was measured, and goes on from there."""
     from comparisons.studies.cost.cost import cost as measured
 
     if not isinstance(repeats, int):
@@ -263,10 +259,8 @@ def sweep(
 
 
 def report(found: Run, path: str | os.PathLike) -> Path:
-    """Write the report of a run, one page that needs no network; returns its path.
-
-    Raises InputError where there is no folder for it.
-    """
+    """Write the report of a run, one page that needs no network; returns its path. Raises
+    InputError where there is no folder for it."""
     from comparisons.common.files import write_whole
     from comparisons.report.page import render
 

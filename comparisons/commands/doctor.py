@@ -96,12 +96,11 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
 
 
 def findings_table(findings: Sequence[Finding]) -> "Table":
-    from rich import box
-    from rich.table import Table
     from rich.text import Text
 
-    table = Table("item", "works", box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False)
-    table.add_column("version, or what is wrong", overflow="fold")
+    from comparisons.report.terminal import plain_table
+
+    table = plain_table("item", "works", "version, or what is wrong")
     for found in findings:
         works = Text("yes", style="green") if found.ok else Text("no", style="bold red")
         table.add_row(found.name, works, Text(found.detail))

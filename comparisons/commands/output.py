@@ -52,9 +52,7 @@ def progress() -> Iterator[ProgressCallback]:
 
 def _lines() -> ProgressCallback:
     """A callback that tells a stage where the last line was SILENCE seconds ago, or the beginning.
-
-    No thread tells the time: a process with threads is not copied.
-    """
+    No thread tells the time: a process with threads is not copied."""
     began = last = monotonic()
 
     def callback(stage: str) -> None:

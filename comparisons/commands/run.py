@@ -1,7 +1,7 @@
 """`crosscheck run`: one scene by both models, compared and judged."""
 
 import sys
-from contextlib import contextmanager
+from contextlib import nullcontext
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -23,9 +23,6 @@ from comparisons.common.mpi import from_first, is_first
 from comparisons.common.quantities import HYPHENATED, models_named
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from concurrent.futures import Executor
-
     from comparisons.scenes.scene import ResolvedScene
 
 BOTH = ",".join(HYPHENATED.values())
@@ -66,6 +63,7 @@ def run(
         from comparisons.results.plausibility import warnings_about, warnings_about_result
         from comparisons.runs.run import run as run_scene
         from comparisons.scenes.resolve import load_scene, with_tolerance
+        from comparisons.studies.points import cluster
 
     began = perf_counter()
     chosen = models_named(models, "--models")
@@ -79,8 +77,9 @@ def run(
     if sys.stderr.isatty():  # before the user waits for the solution
         _say_warnings(warnings)
         _say_first_answer(resolved)
-    with progress() as callback, _cluster(workers) as executor:
+    with progress() as callback, cluster(workers) if workers else nullcontext() as pool:
         try:
+            executor = pool and pool.executor
             outcome = run_scene(resolved, directory, chosen, callback, fields, executor)
         except SceneError as error:
             raise SceneError("; ".join([str(error), *warnings])) from error
@@ -93,18 +92,6 @@ def run(
     show_either(as_json, outcome.result, lambda: summary(outcome))
     _say_warnings([*warnings, *warnings_about_result(outcome)])
     return outcome.exit_status
-
-
-@contextmanager
-def _cluster(address: str | None) -> "Iterator[Executor | None]":
-    """The executor of a Dask scheduler, None without one."""
-    if address is None:
-        yield None
-        return
-    from comparisons.studies.points import cluster
-
-    with cluster(address) as pool:
-        yield pool.executor
 
 
 def _say_warnings(warnings: list[str]) -> None:

@@ -68,20 +68,13 @@ def init(
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
-    from comparisons.studies.init.first_scene import (
-        columns_of,
-        given_fields,
-        given_sections,
-        write_first_scene,
-    )
+    from comparisons.studies.init.first_scene import given_sections, write_first_scene
 
     options = {"x_unit": x_unit, "z_unit": z_unit, "spacing": spacing, "row": row, "column": column}
-    options |= {"channel": channel, "columns": columns and columns_of(columns)}
-    bodies = {"radius": radius, "load": load, "peak_pressure": peak_pressure, "friction": friction}
-    bodies |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
-    sections = given_sections(bodies | {"hardness": hardness})
-    fields = given_fields(options)
-    made = write_first_scene(profile, out, fields, force, sections, draw=picture)
+    options |= {"channel": channel, "columns": columns, "radius": radius, "friction": friction}
+    options |= {"load": load, "peak_pressure": peak_pressure, "hardness": hardness}
+    options |= {"youngs_modulus": youngs_modulus, "poissons_ratio": poissons_ratio}
+    made = write_first_scene(profile, out, given_sections(options), force, picture)
     if as_json:
         show_json(made.as_dict())
         return ExitStatus.DONE

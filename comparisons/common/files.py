@@ -12,7 +12,7 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
@@ -243,6 +243,15 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
             for folder in (*_present(out, (FURTHER,)), *OWN_FOLDERS):
                 with contextlib.suppress(OSError):  # absent, or holds something
                     (out / folder).rmdir()
+
+
+def publish(out: Path, files: Mapping[str, str | bytes], own: tuple[str, ...] = ()) -> None:
+    """Leave files by name in `out`, each whole and all of them or none; `own` as for `published`,
+    by default these files."""
+    with published(out, own or tuple(files)) as folder:
+        for name, content in files.items():
+            data = content.encode() if isinstance(content, str) else content
+            (folder / name).write_bytes(data)
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Pages from templates: filters for their text, and the one script that a page may run."""
+"""Pages and other files from templates: filters for text, the one script that a page may run."""
 
 import base64
 import hashlib
@@ -21,7 +21,7 @@ STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 
 def rendered(template: str | Path, **values: object) -> str:
-    """A template with values in it; text among them is escaped.
+    """A template with values in it; in HTML text among them is escaped.
 
     template  one of this folder, or the path of another one, which may use this folder's macros
     """
@@ -31,15 +31,16 @@ def rendered(template: str | Path, **values: object) -> str:
 
 @cache
 def _environment(folder: Path) -> "Environment":
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined, select_autoescape
     from markupsafe import Markup
 
     made = Environment(
         loader=FileSystemLoader([folder, FOLDER]),
-        autoescape=True,
+        autoescape=select_autoescape(("html.j2",)),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        keep_trailing_newline=True,
     )
     made.filters |= {
         "tight": tight,

@@ -13,7 +13,7 @@ from time import process_time
 from typing import TYPE_CHECKING
 
 from comparisons.common.errors import ExitStatus, one_line
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_first
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
@@ -34,19 +34,14 @@ COLUMNS = ("model", "case", "holds", "figure", "value", "bound", "cond.", "cost 
 
 @dataclass(frozen=True)
 class BoundedFigure:
-    """A dimensionless number that must lie between `low` and `high`, both included.
+    """A dimensionless number that must lie between `low` and `high`, both included."""
 
-    name       what was measured
-    reference  what it is compared with
-    note       more about it, for JUnit
-    """
-
-    name: str
+    name: str  # what was measured
     value: float
     high: float
-    reference: str
+    reference: str  # what it is compared with
     low: float = 0.0
-    note: str = ""
+    note: str = ""  # more about it, for JUnit
 
     @property
     def holds(self) -> bool:
@@ -89,15 +84,12 @@ def relative_error(
 
 @dataclass(frozen=True)
 class Findings:
-    """What a case found.
+    """What a case found."""
 
-    figures    decide; the first is what the case is about
-    condition  estimated condition number of its matrix, None where it has none
-    cost       iterations by name; `times_the_ordinary` is their ratio to the ordinary case's
-    """
-
-    figures: tuple[BoundedFigure, ...]
+    figures: tuple[BoundedFigure, ...]  # decide; the first is what the case is about
+    # estimated condition number of its matrix, None where it has none
     condition: float | None = None
+    # iterations by name; `times_the_ordinary` is their ratio to the ordinary case's
     cost: dict[str, float] = field(default_factory=dict)
 
 
@@ -109,17 +101,6 @@ class CheckedCase:
     name: str
     model: str
     solve: Callable[[], Findings]
-
-
-Groups = dict[str, dict[str, Callable[[], Findings]]]
-
-
-def named_cases(model: str, groups: Groups) -> list[CheckedCase]:
-    return [
-        CheckedCase(group, name, model, solve)
-        for group, named in groups.items()
-        for name, solve in named.items()
-    ]
 
 
 @dataclass(frozen=True)
@@ -248,21 +229,19 @@ def write_study(
     """Leave <command>.json, and .html where there is a page, in `out`; JUnit XML in `junit`."""
     if not is_first():
         return
-    files = {f"{study.command}.json": as_json(_without_nan(study.as_dict()))}
+    files = {f"{study.command}.json": as_json(finite(study.as_dict()))}
     if page is not None:
         files[f"{study.command}.html"] = page
-    with published(out, tuple(files)) as folder:
-        for name, text in files.items():
-            (folder / name).write_text(text, encoding="utf-8")
+    publish(out, files)
     write_junit(junit, study_junit(study))
 
 
-def _without_nan(value: object) -> object:
+def finite(value: object) -> object:
     """JSON has neither NaN nor infinity: None stands for both."""
     if isinstance(value, dict):
-        return {key: _without_nan(item) for key, item in value.items()}
+        return {key: finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_without_nan(item) for item in value]
+        return [finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

@@ -121,10 +121,8 @@ class Workers:
 
 @contextmanager
 def ranks() -> Iterator[Workers | None]:
-    """The processes that mpirun started; each of them calls this.
-
-    The first one gets the others as workers. The others work until it is done, and get None.
-    """
+    """The processes that mpirun started; each of them calls this. The first one gets the others as
+    workers. The others work until it is done, and get None."""
     load_dolfinx()  # before the pool is made: within a job it would wait for the others for ever
     from mpi4py import MPI
     from mpi4py.futures import MPICommExecutor
@@ -135,11 +133,9 @@ def ranks() -> Iterator[Workers | None]:
 
 @contextmanager
 def cluster(scheduler: str) -> Iterator[Workers]:
-    """The workers of a Dask scheduler at an address such as tcp://host:8786.
-
-    How many points each works on at once, and OMP_NUM_THREADS, are set there: 1 is best for both.
-    Raises InputError where there is no scheduler, or Dask is not installed.
-    """
+    """The workers of a Dask scheduler at an address such as tcp://host:8786. How many points each
+    works on at once, and OMP_NUM_THREADS, are set there: 1 is best for both. Raises InputError
+    where there is no scheduler, or Dask is not installed."""
     try:
         from distributed import Client
     except ImportError as error:

@@ -5,7 +5,7 @@ from pathlib import Path
 from analytic.contact.problem import ContactError
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import ProcessEnded, fresh_process
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -30,12 +30,10 @@ def cost(
     callback: ProgressCallback = no_progress,
     methods: tuple[SolutionMethod, ...] = METHODS,
 ) -> Cost:
-    """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all.
-
-    What was measured stays beside them (`comparisons.studies.cost.study`): the same study goes on
-    from there. Raises InputError for a scene that cannot be solved or a folder that cannot be
-    written, KeyboardInterrupt with how to go on.
-    """
+    """Measure, assess, and write cost.json and cost.html in `out`, whole or not at all. What was
+    measured stays beside them (`comparisons.studies.cost.study`): the same study goes on from
+    there. Raises InputError for a scene that cannot be solved or a folder that cannot be written,
+    KeyboardInterrupt with how to go on."""
     if is_several():
         raise InputError("cost: is measured by one process on one thread; allowed without mpirun")
     if repeats < 1:
@@ -47,9 +45,7 @@ def cost(
         problem = _problem(scene, cache, callback)
         found = assess(problem, measured_study(problem, repeats, cache, callback, methods))
         callback("drawing the diagrams")
-        with published(out, FILES) as folder:
-            (folder / "cost.json").write_text(as_json(content_of(found)), encoding="utf-8")
-            (folder / "cost.html").write_text(cost_page(found), encoding="utf-8")
+        publish(out, dict(zip(FILES, (as_json(content_of(found)), cost_page(found)), strict=True)))
     except KeyboardInterrupt:
         raise KeyboardInterrupt(GOES_ON) from None
     return found

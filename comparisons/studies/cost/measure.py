@@ -25,19 +25,15 @@ _begun: set[str] = set()
 
 @dataclass(frozen=True)
 class CostTask:
-    """What to measure: as many `repeats` as `limit` seconds allow, at least one.
-
-    load        [N/m] of a prescribed approach, else None
-    half_block  whether an unbounded body is held at half the distance
-    """
+    """What to measure: as many `repeats` as `limit` seconds allow, at least one."""
 
     scene: ResolvedScene
-    load: float | None
+    load: float | None  # [N/m] of a prescribed approach, else None
     method: str
     setting: float
     repeats: int = 1
     limit: float = 0.0
-    half_block: bool = False
+    half_block: bool = False  # whether an unbounded body is held at half the distance
 
     @property
     def name(self) -> str:

@@ -14,16 +14,11 @@ FINITE_ELEMENT_PITCHES = (2.0, 1.0, 0.5, 0.25)
 
 @dataclass(frozen=True)
 class SolutionMethod:
-    """One way to solve a contact.
+    """One way to solve a contact."""
 
-    name     in table and diagram
-    model    half_plane | finite_element
-    element  hat | strip of pressure; or P1 | P2 | P3
-    """
-
-    name: str
-    model: str
-    element: str
+    name: str  # in table and diagram
+    model: str  # half_plane | finite_element
+    element: str  # hat | strip of pressure; or P1 | P2 | P3
 
     def settings(self, problem: Problem) -> tuple[float, ...]:
         factors = HALF_PLANE_PITCHES if self.model == "half_plane" else FINITE_ELEMENT_PITCHES

@@ -29,23 +29,16 @@ FLOOR = 1e-12  # of exact values: rounding
 
 @dataclass(frozen=True)
 class Reference:
-    """The best known value of one quantity.
+    """The best known value of one quantity."""
 
-    source       in words
-    floor        its relative uncertainty, the largest of any friction coefficient
-    values       one a friction coefficient, SI; empty for a norm
-    x, pressure  (n,) [m], [Pa] nodes of the pressure
-    tau1         (m, k) [Pa] on the window, one a friction coefficient
-    row          that it is, None where it is exact
-    """
-
-    source: str
-    floor: float
-    values: tuple[float, ...]
+    source: str  # in words
+    floor: float  # its relative uncertainty, the largest of any friction coefficient
+    values: tuple[float, ...]  # one a friction coefficient, SI; empty for a norm
+    # x, pressure: (n,) [m], [Pa] nodes of the pressure
     x: np.ndarray
     pressure: np.ndarray
-    tau1: tuple[np.ndarray, ...]
-    row: CostRow | None
+    tau1: tuple[np.ndarray, ...]  # (m, k) [Pa] on the window, one a friction coefficient
+    row: CostRow | None  # that it is, None where it is exact
 
 
 def references(problem: Problem, study: Study, window: Window | None) -> dict[str, Reference]:

@@ -22,29 +22,22 @@ SCHEMA = 2
 
 @dataclass(frozen=True)
 class Cost:
-    """A finished study.
-
-    references       by quantity
-    assessed         every row with its errors
-    fronts           the rows on the Pareto front by quantity, the cheapest first
-    recommendations  one a tolerance, the last one for all of them
-    """
+    """A finished study."""
 
     problem: Problem
     study: Study
-    references: dict[str, Reference]
-    assessed: list[AssessedRow]
+    references: dict[str, Reference]  # by quantity
+    assessed: list[AssessedRow]  # every row with its errors
+    # the rows on the Pareto front by quantity, the cheapest first
     fronts: dict[str, list[AssessedRow]]
-    recommendations: list[Recommendation]
+    recommendations: list[Recommendation]  # one a tolerance, the last one for all of them
     versions: dict
     machine: dict
 
 
 def assess(problem: Problem, study: Study) -> Cost:
-    """Errors, Pareto fronts and recommendations of what was measured.
-
-    Raises SceneError where there is no reference.
-    """
+    """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError where there
+    is no reference."""
     scene = problem.scene
     window = window_of(problem) if scene.stress is not None else None
     known = references(problem, study, window)

@@ -23,23 +23,19 @@ from comparisons.studies.cost.methods import SolutionMethod
 
 @dataclass(frozen=True)
 class SolvedContact:
-    """The compared quantities of a solution.
+    """The compared quantities of a solution."""
 
-    figures      one table a friction coefficient: peak_pressure, contact_length, …, SI
-    x, pressure  (n,) [m], [Pa] nodes of the pressure, linear between them, zero at both ends
-    stresses     one a friction coefficient on the scene's window, empty without
-    elements     of pressure
-    level        the solution as a level of a run, without its mesh; None of strips
-    """
-
+    # one table a friction coefficient: peak_pressure, contact_length, …, SI
     figures: tuple[dict[str, float], ...]
+    # x, pressure: (n,) [m], [Pa] nodes of the pressure, linear between them, zero at both ends
     x: np.ndarray
     pressure: np.ndarray
+    # one a friction coefficient on the scene's window, empty without
     stresses: tuple[StressResult, ...]
-    elements: int
+    elements: int  # of pressure
     unknowns: int
     converged: bool
-    level: Level | None
+    level: Level | None  # the solution as a level of a run, without its mesh; None of strips
 
 
 def solved(

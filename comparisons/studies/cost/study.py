@@ -45,17 +45,12 @@ Measure = Callable[[CostTask], MeasuredRun | RefusedRun | None]
 
 @dataclass(frozen=True)
 class CostRow:
-    """A method at a setting.
-
-    setting   pitch [m] or tolerance; None: the method does not apply
-    status    ok | failed | skipped
-    because   why it is not ok
-    """
+    """A method at a setting."""
 
     method: SolutionMethod
-    setting: float | None
-    status: str
-    because: str | None = None
+    setting: float | None  # pitch [m] or tolerance; None: the method does not apply
+    status: str  # ok | failed | skipped
+    because: str | None = None  # why it is not ok
     measured: MeasuredRun | None = None
 
     def seconds(self, stresses: bool) -> float:
@@ -72,14 +67,11 @@ class CostRow:
 
 @dataclass(frozen=True)
 class Study:
-    """What was measured.
+    """What was measured."""
 
-    rows                by method, from coarse to fine
-    far_boundary_check  the coarsest setting with the far boundary at half its distance, by method's
-                        name, where that is needed
-    """
-
-    rows: tuple[CostRow, ...]
+    rows: tuple[CostRow, ...]  # by method, from coarse to fine
+    # the coarsest setting with the far boundary at half its distance, by method's name, where
+    # that is needed
     far_boundary_check: dict[str, MeasuredRun]
 
     def of(self, name: str) -> tuple[CostRow, ...]:
@@ -105,10 +97,8 @@ def measured_study(
     callback: ProgressCallback,
     methods: tuple[SolutionMethod, ...] = METHODS,
 ) -> Study:
-    """Measure what the cache does not have, and save it there.
-
-    Each method has a process of its own, so that memory is its own, on one thread.
-    """
+    """Measure what the cache does not have, and save it there. Each method has a process of its
+    own, so that memory is its own, on one thread."""
     spent, rows, check = 0.0, [], {}
     shares = SHARES[-len(methods) :]
     for number, (share, method) in enumerate(zip(shares, methods, strict=True)):

@@ -5,8 +5,9 @@ import io
 import numpy as np
 
 from comparisons.common.errors import SceneError
+from comparisons.report.html import rendered
+from comparisons.studies.decks import TEMPLATES
 from comparisons.studies.decks.problem import MM, MPA, DeckBody, DeckProblem
-from comparisons.studies.decks.templates import filled
 
 GAP_POINTS = 8  # an edge, of the sampled gap
 SAME = 1e-6  # of an edge: places that are one
@@ -51,7 +52,8 @@ def fenicsx_files(deck: DeckProblem) -> dict[str, str | bytes]:
         f"{name.lower()}_half_width": float(abs(body.points[:, 0]).max())
         for name, body in deck.bodies.items()
     }
-    script = filled("solve.py.j2", deck=deck, scene=scene, materials=constants, **widths)
+    values = widths | {"deck": deck, "scene": scene, "materials": constants}
+    script = rendered(TEMPLATES / "solve.py.j2", **values)
     return {"solve.py": script, "mesh.npz": file.getvalue()}
 
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from analytic.material import Material
 from comparisons.common.errors import SceneError
+from comparisons.report.html import rendered
+from comparisons.studies.decks import TEMPLATES
 from comparisons.studies.decks.problem import MPA, DeckProblem
-from comparisons.studies.decks.templates import filled
 
 # CalculiX: pressure over penetration, in E over an edge, so that finer meshes penetrate less. Of
 # Hertz's peak pressure it takes 1e-4 at twenty edges to a half-width.
@@ -32,8 +33,8 @@ def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
     scene = deck.problem.scene
     modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
     stiffness = STIFFNESS * modulus / deck.edge
-    job = filled(
-        "job.inp.j2",
+    job = rendered(
+        TEMPLATES / "job.inp.j2",
         code=code,
         deck=deck,
         scene=scene,

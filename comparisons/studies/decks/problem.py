@@ -46,22 +46,15 @@ LEVEL = 1.5  # of the extent: half-width of a rigid roller
 
 @dataclass(frozen=True)
 class DeckBody:
-    """A body of six-node triangles.
+    """A body of six-node triangles."""
 
-    points     (n, 2) x and y [mm]
-    triangles  (m, 6) anticlockwise: corners, then midpoints of the edges (0, 1), (1, 2), (2, 0)
-    coated     (m,) whether a triangle is in the coating
-    materials  of the body and of its coating, moduli [Pa] as in the deck
-    held       (n, 2) components of displacement that the far boundary holds
-    faces      (k, 2) triangle and local edge of each face that may touch
-    """
-
-    points: np.ndarray
+    points: np.ndarray  # (n, 2) x and y [mm]
+    # (m, 6) anticlockwise: corners, then midpoints of the edges (0, 1), (1, 2), (2, 0)
     triangles: np.ndarray
-    coated: np.ndarray
-    materials: tuple[Material, ...]
-    held: np.ndarray
-    faces: np.ndarray
+    coated: np.ndarray  # (m,) whether a triangle is in the coating
+    materials: tuple[Material, ...]  # of the body and of its coating, moduli [Pa] as in the deck
+    held: np.ndarray  # (n, 2) components of displacement that the far boundary holds
+    faces: np.ndarray  # (k, 2) triangle and local edge of each face that may touch
 
     @property
     def surface(self) -> np.ndarray:
@@ -74,27 +67,19 @@ class DeckBody:
 
 @dataclass(frozen=True)
 class DeckProblem:
-    """What a deck describes.
+    """What a deck describes."""
 
-    problem        the scene's
-    rough, roller  bodies; the held nodes of the roller move as one
-    finite         finite deformation
-    flatter        what heights are divided by and moduli multiplied with
-    load           [N/mm]
-    edge           of the elements on the contact [mm]
-    ranges         (k, 2) stretches of the surface with such elements [mm]
-    overlap        how deep the roller would have to stand in the undeformed body to cut off as much
-                   of its surface as is predicted to touch [mm]
-    """
-
-    problem: Problem
+    problem: Problem  # the scene's
+    # rough, roller: bodies; the held nodes of the roller move as one
     rough: DeckBody
     roller: DeckBody
-    finite: bool
-    flatter: float
-    load: float
-    edge: float
-    ranges: np.ndarray
+    finite: bool  # finite deformation
+    flatter: float  # what heights are divided by and moduli multiplied with
+    load: float  # [N/mm]
+    edge: float  # of the elements on the contact [mm]
+    ranges: np.ndarray  # (k, 2) stretches of the surface with such elements [mm]
+    # how deep the roller would have to stand in the undeformed body to cut off as much of its
+    # surface as is predicted to touch [mm]
     overlap: float
 
     @property

@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from comparisons.common.errors import InputError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.models.problem import Problem, problem_of
+from comparisons.report.html import rendered
 from comparisons.scenes.scene import ResolvedScene
+from comparisons.studies.decks import TEMPLATES
 from comparisons.studies.decks.problem import MM, DeckProblem, deck_problem
-from comparisons.studies.decks.templates import filled
 
 FILES = ("README.md", "answer.toml", "job.inp", "mesh.inp", "solve.py", "mesh.npz")
 CODES = {"calculix": "CalculiX", "abaqus": "Abaqus", "fenicsx": "FEniCSx"}
@@ -49,14 +50,9 @@ def write_deck(scene: ResolvedScene, code: str, out: Path, level: int = 1) -> Wr
     check_writable(out, FILES)
     problem = _problem(scene)
     deck = deck_problem(problem, problem.pitches[0] / 2.0 ** (level - 1))
-    given = {"code": code, "name": CODES[code], "deck": deck, "scene": scene}
-    files = _files(deck, code) | {
-        name: filled(f"{name}.j2", **given, folder=out) for name in ("README.md", "answer.toml")
-    }
-    with published(out, FILES) as folder:
-        for name, content in files.items():
-            data = content.encode() if isinstance(content, str) else content
-            (folder / name).write_bytes(data)
+    given = {"code": code, "name": CODES[code], "deck": deck, "scene": scene, "folder": out}
+    words = {n: rendered(TEMPLATES / f"{n}.j2", **given) for n in ("README.md", "answer.toml")}
+    publish(out, _files(deck, code) | words, FILES)
     return WrittenDeck(out, code, deck)
 
 

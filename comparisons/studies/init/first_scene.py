@@ -9,52 +9,18 @@ from pathlib import Path
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.files import write_whole
-from comparisons.common.units import LENGTH
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.scenes.scene import ResolvedScene
-from comparisons.scenes.schema.fields import Number, Text, Unit, Whole, field_type
-from comparisons.scenes.schema.profile import Columns
+from comparisons.scenes.schema.fields import field_type
 from comparisons.scenes.schema.scene import SECTIONS
 from comparisons.studies.init.guess import ProfileFields, fields_of_profile
 from comparisons.studies.init.picture import picture
 from comparisons.studies.init.scene_text import scene_text, toml, value_of
 
-# Options of `crosscheck init` that are fields of [profile].
-TYPES = {
-    "x_unit": Unit(LENGTH),
-    "z_unit": Unit(LENGTH),
-    "spacing": Number(LENGTH, above=0.0),
-    "columns": Columns(),
-    "channel": Text("the name of a channel, or of a sheet"),
-    "row": Whole(0, 2**31),
-    "column": Whole(0, 2**31),
-}
-EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"))
-
-
-def columns_of(text: str) -> list[str | int]:
-    return [int(word) if word.isdecimal() else word for word in map(str.strip, text.split(","))]
-
-
-def given_fields(options: Mapping[str, str | int | list | None]) -> dict[str, str]:
-    """Fields of [profile] as TOML from the options; raises InputError for a wrong one."""
-    given = {name: value for name, value in options.items() if value is not None}
-    for name, value in given.items():
-        try:
-            TYPES[name].read(value)
-        except ValueError as error:
-            raise InputError(f"--{name.replace('_', '-')}: {error}") from error
-    for first, second in EXCLUSIVE:
-        if first in given and second in given:
-            raise InputError(
-                f"--{second}: is given beside --{first.replace('_', '-')}; allowed is one of them"
-            )
-    return {name: toml(value) for name, value in given.items()}
-
-
-# Options that are fields of other sections; moduli are those of both bodies.
-BODIES = {
+# Options of `crosscheck init` by the fields that they are, both bodies' for moduli; others are
+# fields of [profile] by the same name.
+FIELDS = {
     "radius": (("roller", "radius"),),
     "load": (("load", "per_length"),),
     "peak_pressure": (("load", "hertz_peak_pressure"),),
@@ -63,23 +29,34 @@ BODIES = {
     "poissons_ratio": (("roller", "poissons_ratio"), ("body", "poissons_ratio")),
     "hardness": (("body", "hardness"),),
 }
+EXCLUSIVE = (("x_unit", "spacing"), ("row", "column"), ("load", "peak_pressure"))
 Sections = dict[str, dict[str, str]]
 
 
-def given_sections(options: Mapping[str, str | None]) -> Sections:
-    """Fields as TOML by section, from the options of BODIES; raises InputError for a wrong one."""
+def given_sections(options: Mapping[str, str | int | None]) -> Sections:
+    """Fields as TOML by section; raises InputError for an option that is wrong."""
     found: Sections = {}
-    for name, text in options.items():
-        for section, field in BODIES[name] if text is not None else ():
-            value = _number(text)
+    given = {name: value for name, value in options.items() if value is not None}
+    for name, value in given.items():
+        if name in FIELDS:
+            value = _number(value)
+        elif name == "columns":
+            value = [int(w) if w.isdecimal() else w for w in map(str.strip, value.split(","))]
+        for section, field in FIELDS.get(name, (("profile", name),)):
             try:
                 field_type(SECTIONS[section], field).read(value)
             except ValueError as error:
-                raise InputError(f"--{name.replace('_', '-')}: {error}") from error
+                raise InputError(f"{_option(name)}: {error}") from error
             found.setdefault(section, {})[field] = toml(value)
-    if len(found.get("load", {}).keys() & {"per_length", "hertz_peak_pressure"}) > 1:
-        raise InputError("--peak-pressure: is given beside --load; allowed is one of them")
+    for first, second in EXCLUSIVE:
+        if first in given and second in given:
+            message = f"is given beside {_option(first)}; allowed is one of them"
+            raise InputError(f"{_option(second)}: {message}")
     return found
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
 
 
 def _number(text: str) -> float | str:
@@ -127,17 +104,15 @@ class FirstScene:
 def write_first_scene(
     profile: Path,
     out: Path | None = None,
-    given: Mapping[str, str] | None = None,
-    force: bool = False,
     sections: Sections | None = None,
+    force: bool = False,
     draw: bool = False,
 ) -> FirstScene:
     """Write a commented scene for the profile in a file.
 
     out     the scene's file; by default beside the profile, with the suffix .toml
-    given   fields of [profile] as TOML that are not to be guessed
+    sections  fields as TOML, of [profile] not to be guessed, of others in place of the examples
     force   replace the scene's file, and the picture's
-    sections  fields of other sections as TOML, in place of the examples
     draw    a picture of the trace beside the scene, as SVG
     Raises InputError, one line, and writes nothing, where the profile or the place for the scene
     cannot be used.
@@ -147,8 +122,9 @@ def write_first_scene(
     _check_place(profile, out, force)
     if drawn is not None:
         _check_place(profile, drawn, force)
-    found = fields_of_profile(profile, given or {})
-    text, scene = _fitting(profile, out, found, sections or {})
+    others = dict(sections or {})
+    found = fields_of_profile(profile, others.pop("profile", {}))
+    text, scene = _fitting(profile, out, found, others)
     write_whole(out, text)
     if drawn is not None:
         write_whole(drawn, picture(scene))

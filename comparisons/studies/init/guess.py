@@ -75,11 +75,8 @@ class Guess:
 
 
 def units_in(line: str) -> list[str]:
-    """Units of columns that a line of text names, in its order.
-
-    Those in brackets need not be known: they come out as they stand, unless they are in round ones
-    and no unit at all.
-    """
+    """Units of columns that a line of text names, in its order. Those in brackets need not be
+    known: they come out as they stand, unless they are in round ones and no unit at all."""
     found = {match.start(): unit for pattern, unit in UNITS for match in pattern.finditer(line)}
     for match in BRACKETED.finditer(line):
         group = 1 if match[1] else 2
@@ -101,9 +98,7 @@ def _measures(word: str) -> bool:
 
 def units_of_head(head: list[str], columns: int) -> dict[str, Guess]:
     """x_unit and z_unit by the lines above a table of one or two columns; {} where they name none.
-
-    The line that is nearest to the numbers counts; one that names a single unit means both.
-    """
+    The line that is nearest to the numbers counts; one that names a single unit means both."""
     for line in reversed(head):
         named = units_in(line)
         if not named:
@@ -161,14 +156,10 @@ ARC = 0.5  # an arc is the form where less than this share of the rms beside a l
 
 @dataclass(frozen=True)
 class ProfileFields:
-    """The fields of [profile] that read a file.
+    """The fields of [profile] that read a file."""
 
-    fields   as TOML, without `file`
-    reasons  of those that were guessed, by field
-    """
-
-    fields: dict[str, str]
-    reasons: dict[str, str]
+    fields: dict[str, str]  # as TOML, without `file`
+    reasons: dict[str, str]  # of those that were guessed, by field
 
 
 def fields_of_profile(path: Path, given: Mapping[str, str]) -> ProfileFields:

@@ -54,10 +54,8 @@ def read_map(path: Path) -> dict:
 
 
 def showing(content: dict, quantity: str) -> dict:
-    """The same map of another quantity that its points have; refined for the first one.
-
-    Raises InputError where they do not have it.
-    """
+    """The same map of another quantity that its points have; refined for the first one. Raises
+    InputError where they do not have it."""
     solved = [point for point in content["points"] if point["status"] == SOLVED]
     held = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
     if quantity not in held:
@@ -107,11 +105,8 @@ def _axis(axis: Axis) -> dict:
 
 
 def significance(found: dict, quantity: str) -> dict:
-    """How the model error at a solved point compares with its numerical uncertainty.
-
-    significant: it is larger; below tolerance: it is not, and both together are within the first
-    tolerance; inconclusive: neither.
-    """
+    """How the model error at a solved point compares with its numerical uncertainty: significant,
+    it is larger; below tolerance, both together are within the first one; else inconclusive."""
     if found["status"] != SOLVED:
         return {}
     error = found["quantities"].get(quantity)

@@ -51,25 +51,18 @@ ValueOf = Callable[[Problem], float]
 
 @dataclass(frozen=True)
 class Group:
-    """A dimensionless group, one of groups.toml.
+    """A dimensionless group, one of groups.toml."""
 
-    set_to          gives the SI tables of a scene (changed in place) a value of the group
-    value_of        the group's value of a scene, where it says how large an effect is
-    symbol, label   for axes: short, and in words
-    span            its range unless another one is asked for
-    finite_element  fields of [finite_element] that drop the assumption that the group is about
-    early           the group changes a
-    vanishes        the effect goes to zero with the group
-    """
-
-    set_to: SetTo
-    value_of: ValueOf | None
+    set_to: SetTo  # gives the SI tables of a scene (changed in place) a value of the group
+    value_of: ValueOf | None  # the group's value of a scene, where it says how large an effect is
+    # symbol, label: for axes, short and in words
     symbol: str
     label: str
-    span: tuple[float, float]
+    span: tuple[float, float]  # its range unless another one is asked for
+    # fields of [finite_element] that drop the assumption that the group is about
     finite_element: Mapping[str, object] = field(default_factory=dict)
-    early: bool = False
-    vanishes: bool = True
+    early: bool = False  # the group changes a
+    vanishes: bool = True  # the effect goes to zero with the group
 
 
 def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
@@ -89,10 +82,8 @@ def smooth_problem(tables: Mapping, origin: Origin) -> Problem:
 
 
 def tables_with(tables: Mapping, values: Mapping[str, float], origin: Origin) -> dict:
-    """SI tables of a scene in which every named group has its value.
-
-    Raises SceneError where the scene does not have what a group is about.
-    """
+    """SI tables of a scene in which every named group has its value. Raises SceneError where the
+    scene does not have what a group is about."""
     changed = copy.deepcopy(dict(tables))
     for name in sorted(values, key=lambda name: not GROUPS[name].early):
         GROUPS[name].set_to(changed, values[name], origin)
@@ -283,10 +274,8 @@ class Axis:
 
 
 def axis_of(given: str, count: int, option: str) -> Axis:
-    """The axis that "GROUP" or "GROUP=FROM:TO" means.
-
-    Raises InputError, which names the `option`, for anything else.
-    """
+    """The axis that "GROUP" or "GROUP=FROM:TO" means. Raises InputError, which names the `option`,
+    for anything else."""
     found = _AXIS.fullmatch(given)
     if not found:
         raise InputError(f"{option}: is {given!r}; allowed is GROUP or GROUP=FROM:TO")

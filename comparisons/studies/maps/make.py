@@ -5,7 +5,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_several
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -47,33 +47,25 @@ def make_map(
         raise KeyboardInterrupt(GOES_ON) from None
     content = map_content(request, cache)
     callback("map: picture")
-    picture = _picture(content, marked)
-    with published(out, (PICTURE, TIMES, MAP)) as folder:
-        (folder / PICTURE).write_text(picture, encoding="utf-8")
-        seconds = {"seconds": [cache.load(point.key)["seconds"] for point in points]}
-        (folder / TIMES).write_text(as_json(seconds), encoding="utf-8")
-        (folder / MAP).write_text(as_json(content), encoding="utf-8")
+    seconds = {"seconds": [cache.load(point.key)["seconds"] for point in points]}
+    publish(out, _files(content, marked) | {TIMES: as_json(seconds)})
     return content
 
 
 def show_finished(name: str, quantity: str, marked: Problem | None, out: Path) -> dict:
     """Write a map that comes with the project to `out`, and return its content; nothing is solved.
-
-    Raises InputError for a quantity that it does not have, and what cannot be written.
-    """
+    Raises InputError for a quantity that it does not have, and what cannot be written."""
     content = showing(finished_map(name), quantity)
     check_writable(out, (PICTURE, MAP))
-    picture = _picture(content, marked)
-    with published(out, (PICTURE, MAP)) as folder:
-        (folder / PICTURE).write_text(picture, encoding="utf-8")
-        (folder / MAP).write_text(as_json(content), encoding="utf-8")
+    publish(out, _files(content, marked))
     return content
 
 
-def _picture(content: dict, marked: Problem | None) -> str:
+def _files(content: dict, marked: Problem | None) -> dict[str, str]:
     from comparisons.studies.maps.picture import map_picture
 
-    return map_picture(content, None if marked is None else mark_of(content, marked))
+    mark = None if marked is None else mark_of(content, marked)
+    return {PICTURE: map_picture(content, mark), MAP: as_json(content)}
 
 
 def make_map_by(

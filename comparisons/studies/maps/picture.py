@@ -131,9 +131,7 @@ def _share(error: float) -> float:
 
 def _lines(axes: "Axes", content: dict, x: np.ndarray, y: np.ndarray) -> dict[float, object]:
     """Where the error is at each tolerance, either sign, straight between points on its scale.
-
-    Returns the style of the line of every tolerance that the map reaches.
-    """
+    Returns the style of the line of every tolerance that the map reaches."""
     from matplotlib.patheffects import Normal, Stroke
 
     error = differences(content, content["quantity"])

@@ -28,17 +28,13 @@ LAW = "law_of_elasticity"  # an unknown of the body, no error of the half-plane
 
 @dataclass(frozen=True)
 class Place:
-    """Where a scene lies on a map.
+    """Where a scene lies on a map."""
 
-    name    of the finished map
-    groups  (x, y) the scene's values of its groups
-    shown   (x, y) the same, but the map's first value where an effect is smaller than on the map
-    errors  by quantity: relative model error, straight between the map's points on its scale
-    """
-
-    name: str
-    groups: tuple[float, float]
+    name: str  # of the finished map
+    groups: tuple[float, float]  # (x, y) the scene's values of its groups
+    # (x, y) the same, but the map's first value where an effect is smaller than on the map
     shown: tuple[float, float]
+    # by quantity: relative model error, straight between the map's points on its scale
     errors: dict[str, float]
 
     @property
@@ -114,10 +110,8 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
 
 
 def mark_of(content: dict, problem: Problem) -> Mark:
-    """A scene's name and its values of a map's groups, for the map's picture.
-
-    Raises InputError where a group has no value for a scene.
-    """
+    """A scene's name and its values of a map's groups, for the map's picture. Raises InputError
+    where a group has no value for a scene."""
     values = []
     for axis in (content["x"], content["y"]):
         value_of = GROUPS[axis["group"]].value_of

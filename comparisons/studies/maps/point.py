@@ -40,17 +40,13 @@ FIGURES = 10  # significant, of the models' own values
 
 @dataclass(frozen=True)
 class PointError:
-    """The model error of the half-plane in one quantity at a point of a map.
+    """The model error of the half-plane in one quantity at a point of a map."""
 
-    half_plane, finite_element  values on the finest level [SI]; None of a norm of both
-    difference                  of these over the finite elements' value; or the norm
-    uncertainty                 numerical, of the difference; None: unknown
-    """
-
+    # half_plane, finite_element: values on the finest level [SI]; None of a norm of both
     half_plane: float | None
     finite_element: float | None
-    difference: float
-    uncertainty: float | None
+    difference: float  # of these over the finite elements' value; or the norm
+    uncertainty: float | None  # numerical, of the difference; None: unknown
 
     @property
     def is_open(self) -> bool:
@@ -70,11 +66,9 @@ class PointError:
 
 
 def solve_point(point: PointRequest) -> dict:
-    """What was `found` at a point, or why nothing was; and the `seconds` that it took.
-
-    What is refused, and what solvers and numbers run into, is an answer; what is wrong with the
-    program or the machine is raised.
-    """
+    """What was `found` at a point, or why nothing was; and the `seconds` that it took. What is
+    refused, and what solvers and numbers run into, is an answer; what is wrong with the program or
+    the machine is raised."""
     began = perf_counter()
     if point.why is not None:
         found = failed(point.why)

@@ -39,41 +39,30 @@ SIZE = "8x8"
 
 @dataclass(frozen=True)
 class PointRequest:
-    """A point of a map.
+    """A point of a map."""
 
-    x, y      values of the groups
-    quantity  that the levels are refined for
-    tables    the scene, SI; None where there is none with these values
-    why       there is none
-    key       hash of everything that shapes the answer
-    """
-
+    # x, y: values of the groups
     x: float
     y: float
-    quantity: str
-    tables: dict | None
+    quantity: str  # that the levels are refined for
+    tables: dict | None  # the scene, SI; None where there is none with these values
     folder: Path
     source: str
-    why: str | None
-    key: str
+    why: str | None  # why there is none
+    key: str  # hash of everything that shapes the answer
 
 
 @dataclass(frozen=True)
 class MapRequest:
-    """A map.
+    """A map."""
 
-    scene     its name or path
-    tables    of the scene, SI, without the fields that follow from others
-    quantity  of `comparisons.common.quantities`, that the map shows
-    """
-
-    scene: str
+    scene: str  # its name or path
     name: str
-    tables: dict
+    tables: dict  # of the scene, SI, without the fields that follow from others
     origin: Origin
     x: Axis
     y: Axis
-    quantity: str
+    quantity: str  # of `comparisons.common.quantities`, that the map shows
 
     @property
     def command(self) -> str:
@@ -89,10 +78,8 @@ class MapRequest:
 
     @cached_property
     def points(self) -> tuple[PointRequest, ...]:
-        """Row by row: y outside, x inside.
-
-        Raises SceneError where no point can be asked for, with what is wrong at the first.
-        """
+        """Row by row: y outside, x inside. Raises SceneError where no point can be asked for, with
+        what is wrong at the first."""
         program = [versions(), program_code(*CODE)]
         points = tuple(self._point(x, y, program) for y in self.y.values for x in self.x.values)
         if all(point.tables is None for point in points):

@@ -24,26 +24,19 @@ FEWEST_ENDS = 3  # inside the map that an exponent is fitted through
 
 @dataclass(frozen=True)
 class Rule:
-    """`group` is `side` (below or above) `coefficient` times `other_group` to the `exponent`.
-
-    coefficient    None: everywhere, or nowhere
-    other_range    values of `other_group` between which it holds
-    points_inside  points of the map that the rule includes
-    points_within  points of the map that meet the tolerance
-    largest_error  of a point inside, None without points
-    law, text      in words: the bound alone, and with what it keeps and where
-    """
+    """`group` is `side` (below or above) `coefficient` times `other_group` to the `exponent`."""
 
     tolerance: float
     group: str
     other_group: str
     side: str
-    coefficient: float | None
+    coefficient: float | None  # None: everywhere, or nowhere
     exponent: float
-    other_range: Range
-    points_inside: int
-    points_within: int
-    largest_error: float | None
+    other_range: Range  # values of `other_group` between which it holds
+    points_inside: int  # points of the map that the rule includes
+    points_within: int  # points of the map that meet the tolerance
+    largest_error: float | None  # of a point inside, None without points
+    # law, text: in words, the bound alone, and with what it keeps and where
     law: str
     text: str
 

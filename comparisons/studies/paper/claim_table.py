@@ -1,6 +1,5 @@
 """Claims and their numbers in words, for the page and as a table for the terminal."""
 
-from dataclasses import dataclass
 from math import hypot, isfinite
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,6 @@ from comparisons.studies.paper.claims.judgement import (
     DENIED,
     INCONCLUSIVE,
     THEORY,
-    Claim,
     FigureModelError,
     JudgedClaim,
     MeasuredNumber,
@@ -29,47 +27,26 @@ KINDS = {CONFIRMED: "agree", DENIED: "differ", INCONCLUSIVE: "inconclusive"}
 DIGITS = 4  # of a number with an uncertainty
 
 
-@dataclass(frozen=True)
-class ClaimRow:
-    """A judged claim in words.
-
-    confirmed  what confirms it
-    by_model   number with uncertainty by model, of those that can measure it
-    numbers    the same as lines that name their model
-    besides    further numbers, a line each
-    kind       names its colours
-    model_error  of the half-plane in the claim's figure, a sentence; None without
-    """
-
-    claim: Claim
-    confirmed: str
-    by_model: dict[str, str]
-    numbers: tuple[str, ...]
-    besides: tuple[str, ...]
-    outcome: str
-    kind: str
-    why: str | None
-    model_error: str | None
-
-
-def claim_row(judged: JudgedClaim) -> ClaimRow:
+def claim_row(judged: JudgedClaim) -> dict:
+    """A judged claim in words: number with uncertainty by model, the same as lines that name their
+    model, further numbers as lines, and the kind that names its colours."""
     claim = judged.claim
     by_model = {model: number_text(n, claim.unit) for model, n in judged.numbers.items()}
-    return ClaimRow(
-        claim=claim,
-        confirmed=claim.criterion.removeprefix("Confirmed ").split(", ")[0],
-        by_model=by_model,
-        numbers=_lines(by_model),
-        besides=tuple(
-            f"{words[0].upper()}{words[1:]}: "
-            + "; ".join(_lines({m: significant(v, 3) for m, v in values.items()}))
-            for words, values in judged.besides.items()
-        ),
-        outcome=judged.outcome,
-        kind=KINDS[judged.outcome],
-        why=judged.why,
-        model_error=judged.model_error and model_error_text(judged.model_error),
-    )
+    besides = {
+        f"{words[0].upper()}{words[1:]}": _lines({m: significant(v, 3) for m, v in values.items()})
+        for words, values in judged.besides.items()
+    }
+    return {
+        "claim": claim,
+        "confirmed": claim.criterion.removeprefix("Confirmed ").split(", ")[0],
+        "by_model": by_model,
+        "numbers": _lines(by_model),
+        "besides": [f"{words}: {'; '.join(lines)}" for words, lines in besides.items()],
+        "outcome": judged.outcome,
+        "kind": KINDS[judged.outcome],
+        "why": judged.why,
+        "model_error": judged.model_error and model_error_text(judged.model_error),
+    }
 
 
 def model_error_text(error: FigureModelError) -> str:
@@ -116,9 +93,10 @@ def paper_table(paper: "Paper") -> "RenderableType":
     table = plain_table("claim", "figure", numbers=[LABELS.get(m, m) for m in models])
     table.add_column("outcome")
     for row in map(claim_row, paper.judged):
-        cells = (row.claim.title, row.claim.figure, *(row.by_model.get(m, "") for m in models))
+        claim, numbers = row["claim"], (row["by_model"].get(m, "") for m in models)
+        cells = (claim.title, claim.figure, *numbers)
         plain = [cell.replace("±", "+-").translate(PLAIN) for cell in cells]
-        table.add_row(*plain, Text(row.outcome, style=STYLES[row.kind]))
+        table.add_row(*plain, Text(row["outcome"], style=STYLES[row["kind"]]))
     return Group(
         table, "", summary(paper.judged), f"figures and claims {paper.directory / 'paper.html'}"
     )

@@ -25,39 +25,22 @@ SHOWN = {
 
 
 def paper_page(paper: "Paper", sections: tuple[Section, ...]) -> str:
+    problem = next(iter(paper.outcomes.values())).problem
     return rendered(
         Path(__file__).parent / "paper.html.j2",
         policy=STYLES,
         summary=summary(paper.judged),
-        about=_about(paper),
         claims=[claim_row(each) for each in paper.judged],
         sections=sections,
         models=_models(paper),
         surfaces=_surfaces(paper),
-        conditions=_conditions(paper),
+        paper=paper,
+        scene=problem.scene,
+        hertz=problem.hertz,
+        load=load_text(problem),
+        with_unit=with_unit,
+        given=given,
     )
-
-
-def _about(paper: "Paper") -> list[str]:
-    problem = next(iter(paper.outcomes.values())).problem
-    hertz = problem.hertz
-    return [
-        "Bailey and Sayles computed pressures and subsurface stresses of a smooth roller on ground "
-        "steel, before and after running and polished. Here the same scenes are solved by the "
-        "half-plane method that they used and by finite elements, their figures are drawn again, "
-        "and each claim that a number can judge is judged beside the picture that shows it.",
-        f"All surfaces are pressed by {load_text(problem)}: Hertz's "
-        f"p₀ = {with_unit(hertz.peak_pressure, 'Pa')} and a = {with_unit(hertz.half_width, 'm')}. "
-        "Stresses are over p₀, lengths over a, and every kind of picture has one scale for all "
-        "surfaces.",
-        "The paper's traces were never published as numbers, nor its modulus and radius. The three "
-        "rough profiles are computed stand-ins. Where a stand-in was made to show a figure of the "
-        "paper, that it shows it proves nothing, and the claim is inconclusive. A confirmed claim "
-        "holds on these stand-ins, a denied one fails on them: neither says anything of the "
-        "paper's own surfaces.",
-        "At the end stand claims of Seireg's book (1998) on the statistics of rough contact and on "
-        "penetration, with numbers of the theory that it states, solved again.",
-    ]
 
 
 def _models(paper: "Paper") -> TextTable:
@@ -98,16 +81,3 @@ def _surfaces(paper: "Paper") -> TextTable:
     head = ("surface", "Ra", "Rq", "rms slope", "sampling interval", "pressure element, finest")
     head += ("unknowns, half-plane", "unknowns, finite elements")
     return TextTable("Surfaces, and how finely they were solved", head, tuple(rows))
-
-
-def _conditions(paper: "Paper") -> list[tuple[str, str]]:
-    problem = next(iter(paper.outcomes.values())).problem
-    scene = problem.scene
-    return [
-        ("load", load_text(problem)),
-        ("radius of relative curvature (assumed)", given(scene.roller_radius, "m")),
-        ("Young's modulus of both bodies (assumed)", given(scene.body.youngs_modulus, "Pa")),
-        ("Poisson's ratio of both bodies (assumed)", f"{scene.body.poissons_ratio:g}"),
-        ("friction coefficients", ", ".join(f"{mu:g}" for mu in scene.friction)),
-        ("time taken", with_unit(paper.seconds, "s", 2)),
-    ]

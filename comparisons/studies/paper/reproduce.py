@@ -2,27 +2,20 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from analytic.contact.problem import ContactError
 from comparisons.common.errors import ExitStatus, InputError, SolverError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Step, no_progress, within
 from comparisons.common.provenance import as_json, versions
 from comparisons.common.quantities import MODELS
-from comparisons.common.tasks import tasks_of_a_run
-from comparisons.models.level_cache import level_cache
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
-from comparisons.models.window import window_of
 from comparisons.results.outcome import Outcome
-from comparisons.results.record import record_of
-from comparisons.results.result_json import result_of
-from comparisons.runs.run import solved
+from comparisons.runs.run import solve
 from comparisons.scenes.resolve import load_scene
-from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.paper.claims.book import judged_book
 from comparisons.studies.paper.claims.claim_list import SCENES, SURFACES, claims
 from comparisons.studies.paper.claims.judgement import OUTCOMES, JudgedClaim, judge
@@ -42,30 +35,20 @@ LEVELS = 3  # as many as an uncertainty needs; finer ones would take the command
 
 @dataclass(frozen=True)
 class Fineness:
-    """How finely the surfaces are solved.
+    """How finely the surfaces are solved."""
 
-    pitch   [m] of the coarsest pressure elements, None for each scene's own
-    points  columns and rows of the fields
-    """
-
-    pitch: float | None = None
-    points: tuple[int, int] = (600, 120)
+    pitch: float | None = None  # [m] of the coarsest pressure elements, None for each scene's own
+    points: tuple[int, int] = (600, 120)  # columns and rows of the fields
 
 
 @dataclass(frozen=True)
 class Paper:
-    """The paper computed anew.
+    """The paper computed anew."""
 
-    outcomes   of every surface, by its scene's name
-    judged     claims in the order of the figures, and Seireg's after them
-    seconds    that it took, without drawing
-    directory  where the files are
-    """
-
-    outcomes: dict[str, Outcome]
-    judged: tuple[JudgedClaim, ...]
-    seconds: float
-    directory: Path
+    outcomes: dict[str, Outcome]  # of every surface, by its scene's name
+    judged: tuple[JudgedClaim, ...]  # in the order of the figures, and Seireg's after
+    seconds: float  # that it took, without drawing
+    directory: Path  # where the files are
 
     @property
     def exit_status(self) -> ExitStatus:
@@ -112,20 +95,17 @@ def paper(
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out, (PAGE, NUMBERS))
     start = perf_counter()
-    outcomes = solve_surfaces(out, fineness, within(callback, 0.0, SOLVING), effects)
+    outcomes = solve_surfaces(fineness, within(callback, 0.0, SOLVING), effects)
     callback(Step("measuring the claims", SOLVING))
     judged = tuple(judge(claim, outcomes[claim.scene]) for claim in claims()) + judged_book()
     found = Paper(outcomes, judged, perf_counter() - start, out)
     page = paper_page(found, sections_of(outcomes, judged, callback))
     callback("writing files")
-    with published(out, (PAGE, NUMBERS)) as folder:
-        (folder / PAGE).write_text(page, encoding="utf-8")
-        (folder / NUMBERS).write_text(as_json(found.as_dict()), encoding="utf-8")
+    publish(out, {PAGE: page, NUMBERS: as_json(found.as_dict())})
     return found
 
 
 def solve_surfaces(
-    out: Path,
     fineness: Fineness,
     callback: ProgressCallback = no_progress,
     effects: bool = False,
@@ -143,7 +123,9 @@ def solve_surfaces(
         part = within(callback, (number - 1) / len(SCENES), number / len(SCENES))
         try:
             part = _prefixed(part, f"{number} of {len(SCENES)}, {name}")
-            found[name] = _solved(scene, out, part, effects)
+            problem = problem_of(scene)
+            plan = replace(make_plan(problem, MODELS), effects=effects)
+            found[name] = solve(problem, plan, None, part)
         except (ContactError, FemError, MeshError) as error:
             raise SolverError(f"{name}: no solution was found: {error}") from error
     return found
@@ -155,16 +137,3 @@ def _prefixed(callback: ProgressCallback, prefix: str) -> ProgressCallback:
         callback(Step(words, stage.done) if isinstance(stage, Step) else words)
 
     return prefixed
-
-
-def _solved(scene: ResolvedScene, out: Path, callback: ProgressCallback, effects: bool) -> Outcome:
-    problem = problem_of(scene)
-    plan = replace(make_plan(problem, MODELS), effects=effects)
-    window = window_of(problem)
-    with TemporaryDirectory(prefix="crosscheck-") as folder:
-        cache = level_cache(Path(folder) / "run", scene, plan)
-        with tasks_of_a_run(callback, scene.budget.memory) as tasks:
-            runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
-    result = result_of(problem, plan, runs, rows, stop, moved, budget)
-    record = record_of(scene, runs, {})
-    return Outcome(problem, plan, window, runs, rows, result, record, out, moved, budget)

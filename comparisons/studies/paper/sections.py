@@ -8,7 +8,7 @@ from comparisons.report.figures.fields import COMPONENTS
 from comparisons.report.figures.sections import section_pictures
 from comparisons.report.figures.style import Picture, drawing
 from comparisons.results.outcome import Outcome
-from comparisons.studies.paper.claim_table import ClaimRow, claim_row
+from comparisons.studies.paper.claim_table import claim_row
 from comparisons.studies.paper.claims.claim_list import (
     FIGURES,
     POLISHED,
@@ -33,7 +33,7 @@ class Block:
 
     heading: str
     pictures: tuple[Picture, ...]
-    claims: tuple[ClaimRow, ...]
+    claims: tuple[dict, ...]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ def sections_of(
 ) -> tuple[Section, ...]:
     """Draw every figure."""
 
-    def claims(number: str, letters: str = "") -> tuple[ClaimRow, ...]:
+    def claims(number: str, letters: str = "") -> tuple[dict, ...]:
         """Of a figure's letters; of the whole figure without any."""
         names = {f"{number}({letter})" for letter in letters} or {number}
         return tuple(claim_row(each) for each in judged if each.claim.figure in names)

@@ -43,9 +43,7 @@ def direct_findings(operator: str, count: int, nodes: Sequence[int] | None = Non
 
 def product_findings(operator: str, count: int, single: bool = False) -> Findings:
     """A product by FFT against one in longer numbers, row by row; `single` with 32-bit pressures.
-
-    The ratio grows like log n at most, which THRESHOLD leaves room for.
-    """
+    The ratio grows like log n at most, which THRESHOLD leaves room for."""
     made = OPERATORS[operator](count)
     kind = np.float32 if single else float
     pressure = np.random.default_rng(2).uniform(0.0, 1.0, count).astype(kind)

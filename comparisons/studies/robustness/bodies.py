@@ -114,10 +114,8 @@ def factor_findings(mesh: str = "plain", **given: object) -> Findings:
 
 
 def even_findings(mesh: str = "plain", **given: object) -> Findings:
-    """Even compression, which elements of any shape represent, below a rough boundary, too.
-
-    uz = depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu).
-    """
+    """Even compression, which elements of any shape represent, below a rough boundary, too. uz =
+    depth - z needs no force inside, and on the top the resultant of M = 2G(1-nu)/(1-2nu)."""
     body = body_on(mesh, support="even", **given)
     material, matrix = body.material, csr_matrix(body.stiffness())
     moved = np.zeros(body.nodes.shape)

@@ -29,15 +29,11 @@ HATS_PER_HALF_WIDTH = 77.3  # as on the third level of a scene; no edge falls on
 
 @dataclass(frozen=True)
 class LoadedContact:
-    """A grid contact and its solution.
+    """A grid contact and its solution."""
 
-    x             (n,) [m] nodes
-    weighted_gap  (n,) [m^2] initial gap
-    operator, constraints  as solved with
-    """
-
-    x: np.ndarray
-    weighted_gap: np.ndarray
+    x: np.ndarray  # (n,) [m] nodes
+    weighted_gap: np.ndarray  # (n,) [m^2] initial gap
+    # operator, constraints: as solved with
     operator: ModelOperator
     constraints: Constraints
     solution: ContactSolution
@@ -135,9 +131,7 @@ def dense_matrix(count: int, pitch: float, modulus: float, coupling: float = 0.0
 
 def dense_violation(contact: LoadedContact, modulus: float, coupling: float = 0.0) -> BoundedFigure:
     """Largest violation of the contact conditions by a matrix that the solver never formed.
-
-    Relative to the range of the displacements, or to 1 % of the largest where they hardly vary.
-    """
+    Relative to the range of the displacements, or to 1 % of the largest where they hardly vary."""
     pitch, pressure, gap = contact.pitch, contact.pressure, contact.weighted_gap
     displacement = dense_matrix(len(pressure), pitch, modulus, coupling) @ pressure / pitch
     opening = gap / pitch - np.min(gap / pitch) + displacement

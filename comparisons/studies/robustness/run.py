@@ -38,10 +38,8 @@ def run_robustness(
     callback: ProgressCallback = no_progress,
     cases: Callable[[], Iterable[CheckedCase]] = all_cases,
 ) -> CheckedStudy:
-    """Run all cases; leave stability.json in `out`, JUnit XML in the file `junit`.
-
-    Raises InputError where those cannot be written.
-    """
+    """Run all cases; leave stability.json in `out`, JUnit XML in the file `junit`. Raises
+    InputError where those cannot be written."""
     check_places("stability", out, junit)
     start = perf_counter()
     rows = run_cases(cases(), callback)

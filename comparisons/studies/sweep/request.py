@@ -43,21 +43,16 @@ class SweptField:
 
 @dataclass(frozen=True)
 class SweepPoint:
-    """One scene of a sweep.
+    """One scene of a sweep."""
 
-    values  of the swept fields, in their order
-    tables  of the scene, as TOML has them; None where there is none with these values
-    why     there is none
-    key     hash of everything that shapes the answer
-    """
-
-    values: tuple[Value, ...]
+    values: tuple[Value, ...]  # of the swept fields, in their order
+    # of the scene, as TOML has them; None where there is none with these values
     tables: Tables | None
     folder: Path
     source: str
     models: tuple[str, ...]
-    why: str | None
-    key: str
+    why: str | None  # why there is none
+    key: str  # hash of everything that shapes the answer
 
 
 @dataclass(frozen=True)

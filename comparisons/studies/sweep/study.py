@@ -13,7 +13,7 @@ import numpy as np
 
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SolverError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import check_writable, publish
 from comparisons.common.numbers import percent, with_unit
 from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
@@ -61,12 +61,10 @@ def make_sweep(
     from comparisons.studies.sweep.picture import sweep_picture
     from comparisons.studies.sweep.zone_map import zone_map
 
-    with published(out, (TABLE, PICTURE, ZONE_MAP, SWEEP)) as folder:
-        if any(ZONE in point for point in content["points"]):
-            (folder / ZONE_MAP).write_text(zone_map(content), encoding="utf-8")
-        (folder / TABLE).write_text(sweep_csv(content), encoding="utf-8")
-        (folder / PICTURE).write_text(sweep_picture(content), encoding="utf-8")
-        (folder / SWEEP).write_text(as_json(content), encoding="utf-8")
+    files = {TABLE: sweep_csv(content), PICTURE: sweep_picture(content), SWEEP: as_json(content)}
+    if any(ZONE in point for point in content["points"]):
+        files[ZONE_MAP] = zone_map(content)
+    publish(out, files, (TABLE, PICTURE, ZONE_MAP, SWEEP))
     return content
 
 

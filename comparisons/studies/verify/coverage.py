@@ -10,7 +10,6 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from comparisons.assessment.convergence import Convergence
 from comparisons.assessment.uncertainty import COVERAGE, Uncertainty
 from comparisons.studies.checks import (
     BoundedFigure,
@@ -39,6 +38,7 @@ CEILINGS = {
 }
 # Times these: rough contacts have fewer elements to a patch; a model error is made of two figures.
 ROUGH_FACTOR, MODEL_ERROR_FACTOR = 4.0, 2.0
+PARTS = ("iteration", "discretisation", "domain", "total")  # of an uncertainty
 FIGURE, MODEL_ERROR = "figure", "model error"  # what a run's two tables are made of
 # Expected order and how far the observed one may lie from it, both ways. Hertz's contact: the
 # figures of smooth fields have order 2, of the edge's place 1, of the pressure in L2 1, by the
@@ -64,33 +64,22 @@ FEWEST_CONTACTS = 16  # for an observed order
 
 @dataclass(frozen=True)
 class Pair:
-    """One figure of one model against its exact value, or one model error of the half-plane.
-
-    kind         of the case: Hertz | surface | sliding | hardness | layer | wave | punch | rough
-    table        FIGURE or MODEL_ERROR, whose values are relative to the whole model's figure
-    levels       figures on all levels, coarse to fine [SI]
-    exact        [SI]
-    scale        [SI] what errors are relative to: the figure, or the smooth contact's where the
-                 figure vanishes
-    uncertainty  as stated, relative to `scale`
-    converged    all levels met their contact conditions
-    """
+    """One figure of one model against its exact value, or one model error of the half-plane."""
 
     case: str
     source: str
-    kind: str
+    kind: str  # of the case: Hertz | surface | sliding | hardness | layer | wave | punch | rough
     model: str
     quantity: str
-    levels: tuple[float, ...]
-    exact: float
+    levels: tuple[float, ...]  # figures on all levels, coarse to fine [SI]
+    exact: float  # [SI]
+    # [SI] what errors are relative to: the figure, or the smooth contact's where the figure
+    # vanishes
     scale: float
-    uncertainty: Uncertainty
-    converged: bool
+    uncertainty: Uncertainty  # as stated, relative to `scale`
+    converged: bool  # all levels met their contact conditions
+    # FIGURE or MODEL_ERROR, whose values are relative to the whole model's figure
     table: str = FIGURE
-
-    @property
-    def stated(self) -> float:
-        return self.uncertainty.total
 
     @property
     def errors(self) -> list[float]:
@@ -99,7 +88,7 @@ class Pair:
 
     @property
     def error(self) -> float:
-        """True error of the finest level, relative, with its sign."""
+        """The same of the finest level."""
         return self.errors[-1]
 
     @property
@@ -109,12 +98,12 @@ class Pair:
 
     @property
     def covered(self) -> bool:
-        return bool(abs(self.error) <= max(self.stated, ROUND_OFF))
+        return bool(abs(self.error) <= max(self.uncertainty.total, ROUND_OFF))
 
     @property
     def overestimation(self) -> float | None:
         """Stated uncertainty over true error; None where the error is rounding."""
-        return self.stated / abs(self.error) if self.informative else None
+        return self.uncertainty.total / abs(self.error) if self.informative else None
 
     @property
     def figure(self) -> BoundedFigure:
@@ -127,7 +116,7 @@ class Pair:
         ratio = "rounding" if self.overestimation is None else f"{self.overestimation:.3g}"
         note = (
             f"value {self.levels[-1]:.12g}, exact {self.exact:.12g}, relative error "
-            f"{self.error:.3e}, stated uncertainty {self.stated:.3e}, "
+            f"{self.error:.3e}, stated uncertainty {self.uncertainty.total:.3e}, "
             f"{'covered' if self.covered else 'NOT covered'}, overestimation ratio {ratio}, "
             + (self.uncertainty.convergence.behaviour if self.converged else "not converged")
         )
@@ -139,10 +128,7 @@ class Pair:
         stated = self.uncertainty
         return asdict(self) | {
             "error": self.error,
-            "uncertainty": {
-                part: getattr(stated, part)
-                for part in ("iteration", "discretisation", "domain", "total")
-            },
+            "uncertainty": {name: getattr(stated, name) for name in PARTS},
             "covered": self.covered,
             "overestimation_ratio": self.overestimation,
             "behaviour": stated.convergence.behaviour,
@@ -151,46 +137,31 @@ class Pair:
         }
 
 
-def whole_uncertainty(value: float, stated: float) -> Uncertainty:
-    """Of a model error that is given with one number for all causes."""
-    known = Convergence(value, value, stated, 1.0, None, "too few levels")
-    return Uncertainty(0.0, stated, 0.0, known)
-
-
 @dataclass(frozen=True)
 class ExactFindings(Findings):
-    """Findings of a case with an exact answer.
-
-    pressure_errors  relative L2 errors of the pressures on all levels, where these are known
-    """
+    """Findings of a case with an exact answer."""
 
     pairs: tuple[Pair, ...] = ()
+    # relative L2 errors of the pressures on all levels, where these are known
     pressure_errors: tuple[float, ...] | None = None
 
-
-def exact_findings(
-    pairs: Iterable[Pair], pressure_errors: tuple[float, ...] | None = None
-) -> ExactFindings:
-    pairs = tuple(pairs)
-    figures = tuple(pair.figure for pair in pairs)
-    return ExactFindings(figures, pairs=pairs, pressure_errors=pressure_errors)
+    @classmethod
+    def of(
+        cls, pairs: Sequence[Pair], pressure_errors: tuple[float, ...] | None = None
+    ) -> "ExactFindings":
+        figures = tuple(pair.figure for pair in pairs)
+        return cls(figures, pairs=tuple(pairs), pressure_errors=pressure_errors)
 
 
 @dataclass(frozen=True)
 class Coverage:
-    """Coverage of the true errors of some pairs by their stated uncertainties.
-
-    informative              pairs whose error is more than rounding; the rest counts only these
-    covered                  share of them; NaN, as are the next two, if there are none
-    median_overestimation    of their overestimation ratios
-    overestimation_quantile  90 % quantile
-    """
+    """Coverage of the true errors of some pairs by their stated uncertainties."""
 
     count: int
-    informative: int
-    covered: float
-    median_overestimation: float
-    overestimation_quantile: float
+    informative: int  # pairs whose error is more than rounding; the rest counts only these
+    covered: float  # share of them; NaN, as are the next two, if there are none
+    median_overestimation: float  # of their overestimation ratios
+    overestimation_quantile: float  # 90 % quantile
 
 
 def coverage(pairs: Iterable[Pair]) -> Coverage:

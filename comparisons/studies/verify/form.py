@@ -22,9 +22,9 @@ import numpy as np
 from analytic.exact.cases import ExactContact, exact_contacts
 from comparisons.assessment.verdict import Verdict, judge
 from comparisons.common.errors import ExitStatus, InputError
-from comparisons.common.files import check_writable, published
+from comparisons.common.files import publish
 from comparisons.common.quantities import QUANTITIES
-from comparisons.studies.decks.templates import filled
+from comparisons.report.html import rendered
 from comparisons.studies.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
 from comparisons.studies.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 
@@ -42,18 +42,14 @@ FILE_SIZE = 2**20  # bytes of the largest form
 
 @dataclass(frozen=True)
 class FormCase:
-    """A case of the form.
-
-    files  by name, text: a scene with its trace, or the gap of a wave or a punch
-    exact  figures [SI] by quantity
-    about  what no scene says, in words
-    """
+    """A case of the form."""
 
     name: str
     title: str
+    # by name, text: a scene with its trace, or the gap of a wave or a punch
     files: Mapping[str, str]
-    exact: Mapping[str, float]
-    about: str = ""
+    exact: Mapping[str, float]  # figures [SI] by quantity
+    about: str = ""  # what no scene says, in words
 
 
 @dataclass(frozen=True)
@@ -113,11 +109,10 @@ def export_form(out: Path) -> int:
     cases = form_cases()
     files = {name: text for case in cases for name, text in case.files.items()}
     files["form.csv"] = _form(cases)
-    files["README.md"] = filled("verify.md.j2", cases=cases, tolerance=TOLERANCE)
-    check_writable(out, tuple(files))
-    with published(out, tuple(files)) as folder:
-        for name, text in files.items():
-            (folder / name).write_text(text, encoding="utf-8")
+    files["README.md"] = rendered(
+        Path(__file__).parent / "verify.md.j2", cases=cases, tolerance=TOLERANCE
+    )
+    publish(out, files)
     return len(cases)
 
 

@@ -4,6 +4,7 @@ It shares mesh, stiffness and hats with a level of `run`, but neither its compli
 its contact solver, so that a mistake of either shows.
 """
 
+import tomllib
 from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
@@ -14,31 +15,15 @@ from comparisons.common.progress import Stages
 from comparisons.models.plan import make_plan
 from comparisons.models.problem import problem_of
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, named_cases
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings
 
 AGREE = 1e-6  # relative, in pressure and in load
-STEEL = {"youngs_modulus": 207e9, "poissons_ratio": 0.3}
-WAVES = {"kind": "sinusoid", "wavelength": "100 um", "amplitude": "0.3 um"}
-ROLLER, LOAD = {"radius": 8.2e-3}, {"hertz_peak_pressure": 1e9}
-SCENES = {
-    "smooth": {"roller": ROLLER | {"rigid": True}, "body": STEEL, "load": LOAD},
-    "wavy, with a hardness": {
-        "roller": ROLLER | {"rigid": True},
-        "body": STEEL | {"hardness": 1.6e9},
-        "profile": WAVES,
-        "load": LOAD,
-    },
-    "elastic roller of another material": {
-        "roller": ROLLER | {"youngs_modulus": 70e9, "poissons_ratio": 0.33},
-        "body": STEEL,
-        "load": LOAD,
-    },
-}
+SCENES = tomllib.loads(Path(__file__).with_name("independent_scenes.toml").read_text("utf-8"))
 
 
 def independent_cases(names: Iterable[str] = SCENES) -> list[CheckedCase]:
-    named = {name: partial(independent_findings, name) for name in names}
-    return named_cases("finite_element", {"independent solver": named})
+    model, group = "finite_element", "independent solver"
+    return [CheckedCase(group, n, model, partial(independent_findings, n)) for n in names]
 
 
 def independent_findings(name: str) -> Findings:

@@ -21,7 +21,6 @@ from comparisons.studies.checks import (
     BoundedFigure,
     CheckedCase,
     Findings,
-    named_cases,
     order_figure,
 )
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
@@ -168,11 +167,8 @@ def errors_of(kind: str, cells: int, degree: int) -> tuple[float, float]:
 
 
 def manufactured_cases(bodies: Iterable[tuple[str, int]]) -> list[CheckedCase]:
-    named = {
-        f"{kind}, P{degree}": partial(manufactured_findings, kind, degree)
-        for kind, degree in bodies
-    }
-    return named_cases("finite_element", {"manufactured": named})
+    model, group, solve = "finite_element", "manufactured", manufactured_findings
+    return [CheckedCase(group, f"{k}, P{d}", model, partial(solve, k, d)) for k, d in bodies]
 
 
 def manufactured_findings(kind: str, degree: int) -> Findings:

@@ -26,7 +26,7 @@ from comparisons.assessment.uncertainty import (
 )
 from comparisons.common.quantities import QUANTITIES
 from comparisons.studies.checks import CheckedCase
-from comparisons.studies.verify.coverage import ExactFindings, Pair, exact_findings
+from comparisons.studies.verify.coverage import ExactFindings, Pair
 from comparisons.studies.verify.scenes import (
     LAYER_MODULUS,
     LAYER_RADIUS,
@@ -117,7 +117,7 @@ def operator_findings(case: OperatorContact, elements: float) -> ExactFindings:
                 converged=all(s.converged for _, s in levels),
             )
         )
-    return exact_findings(found)
+    return ExactFindings.of(found)
 
 
 def _solved(case: OperatorContact, elements: float) -> tuple[HatGrid, ContactSolution]:

@@ -8,12 +8,16 @@ import numpy as np
 from comparisons.report.html import STYLES, rendered
 from comparisons.report.terminal import plain_table
 from comparisons.studies.checks import MODEL_LABELS, rows_table, verdict_lines
-from comparisons.studies.verify.coverage import GROUPS, Coverage, ExactFindings, Verification
+from comparisons.studies.verify.coverage import GROUPS, Coverage, ExactFindings, Pair, Verification
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
 COLUMNS = ("figures", "informative", "covered", "median ratio", "90 %")
+OTHERS = "Orders, manufactured solutions, independent solver"
+OTHER_COLUMNS = ("group", "measured", "value", "bound", "holds")
+PAIR_COLUMNS = ("table", "model", "case", "quantity", "exact", "error")
+PAIR_COLUMNS += ("uncertainty", "ratio", "covered")
 
 
 def coverage_line(found: Verification) -> str:
@@ -44,57 +48,31 @@ def verify_page(found: Verification) -> str:
         if not isinstance(row.findings, ExactFindings)
         for f in row.findings.figures
     ]
-    pairs = [
-        [
-            pair.table,
-            MODEL_LABELS[pair.model],
-            pair.case,
-            pair.quantity,
-            f"{pair.exact:.6g}",
-            f"{pair.error:.2e}",
-            f"{pair.stated:.2e}",
-            "" if pair.overestimation is None else f"{pair.overestimation:.2f}",
-            _yes(pair.covered),
-        ]
-        for pair in found.pairs
-    ]
-    other = ("group", "measured", "value", "bound", "holds")
-    exact = (
-        "table",
-        "model",
-        "case",
-        "quantity",
-        "exact",
-        "error",
-        "uncertainty",
-        "ratio",
-        "covered",
+    coverages = (
+        (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(found, names))
+        for names in GROUPS
     )
-    tables = [
-        *(
-            (f"Coverage by {', '.join(names)}", (*names, *COLUMNS), _coverage_rows(found, names))
-            for names in GROUPS
-        ),
-        ("Orders, manufactured solutions, independent solver", other, figures),
-        ("Figures", exact, pairs),
-    ]
+    tables = [*coverages, (OTHERS, OTHER_COLUMNS, figures)]
+    tables.append(("Figures", PAIR_COLUMNS, map(_pair_row, found.pairs)))
     title = f"{'Holds' if found.holds else 'Does not hold'}: {coverage_line(found)}"
     template = Path(__file__).parent / "verify.html.j2"
     return rendered(template, policy=STYLES, title=title, faults=found.faults, tables=tables)
 
 
+def _pair_row(pair: Pair) -> tuple[str, ...]:
+    words = pair.table, MODEL_LABELS[pair.model], pair.case, pair.quantity
+    ratio = "" if pair.overestimation is None else f"{pair.overestimation:.2f}"
+    stated = f"{pair.uncertainty.total:.2e}"
+    return (*words, f"{pair.exact:.6g}", f"{pair.error:.2e}", stated, ratio, _yes(pair.covered))
+
+
 def _coverage_rows(found: Verification, names: tuple[str, ...]) -> list[tuple[str, ...]]:
-    groups = [
-        (
-            *(
-                MODEL_LABELS[word] if name == "model" else word
-                for name, word in zip(names, group, strict=True)
-            ),
-            *_cells(covered),
-        )
-        for group, covered in found.groups(*names).items()
-    ]
-    return [*groups, ("all", *[""] * (len(names) - 1), *_cells(found.coverage))]
+    rows = []
+    for group, covered in found.groups(*names).items():
+        named = zip(names, group, strict=True)
+        words = (MODEL_LABELS[word] if name == "model" else word for name, word in named)
+        rows.append((*words, *_cells(covered)))
+    return [*rows, ("all", *[""] * (len(names) - 1), *_cells(found.coverage))]
 
 
 def _cells(group: Coverage) -> tuple[str, ...]:

@@ -30,15 +30,11 @@ DEGREES = (1, 2, 3)
 
 @dataclass(frozen=True)
 class Scope:
-    """What to verify.
+    """What to verify."""
 
-    exact   cases whose findings are `ExactFindings`
-    others  cases of the finite elements
-    fewest, fewest_rough   informative figures that there must be, in all and of rough contacts
-    """
-
-    exact: tuple[CheckedCase, ...]
-    others: tuple[CheckedCase, ...] = ()
+    exact: tuple[CheckedCase, ...]  # cases whose findings are `ExactFindings`
+    others: tuple[CheckedCase, ...] = ()  # cases of the finite elements
+    # fewest, fewest_rough: informative figures that there must be, in all and of rough contacts
     fewest: int = FEWEST
     fewest_rough: int = FEWEST_ROUGH
 
@@ -63,10 +59,8 @@ def verify(
     callback: ProgressCallback = no_progress,
     scope: Scope | None = None,
 ) -> Verification:
-    """Verify; leave verify.json and verify.html in `out`, JUnit XML in the file `junit`.
-
-    Raises InputError where those cannot be written, and under mpirun.
-    """
+    """Verify; leave verify.json and verify.html in `out`, JUnit XML in the file `junit`. Raises
+    InputError where those cannot be written, and under mpirun."""
     if is_several():
         raise InputError("verify: runs in several processes; allowed is one, without mpirun")
     check_places("verify", out, junit)

@@ -29,7 +29,9 @@ from analytic.exact.cases import (
 from analytic.exact.layers import LayerReference, layer_references
 from analytic.material import Material
 from comparisons.assessment.comparison import figures, relative_l2, uncertainties
+from comparisons.assessment.convergence import Convergence
 from comparisons.assessment.refinement import refined
+from comparisons.assessment.uncertainty import Uncertainty
 from comparisons.common.progress import Stages, no_progress
 from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.common.tasks import Tasks
@@ -46,8 +48,6 @@ from comparisons.studies.verify.coverage import (
     MODEL_ERROR,
     ExactFindings,
     Pair,
-    exact_findings,
-    whole_uncertainty,
 )
 
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
@@ -71,28 +71,20 @@ COMPARED = ("peak_pressure", "contact_length", "tau1_max", "tau1_max_depth", "tx
 
 @dataclass(frozen=True)
 class ExactScene:
-    """A scene and its exact figures.
+    """A scene and its exact figures."""
 
-    name, source   of the case, and of its solution
-    tables         of the scene, as TOML has them
-    kind           Hertz | surface (Hertz, most shear on the surface) | sliding | hardness | layer |
-                   rough
-    exact          figures [SI] by the names of `comparisons.common.quantities`
-    pressure       p(x) [Pa] where it is known in closed form
-    models         that the solution holds for
-    trace          in place of the file that the scene's profile names
-    half_plane     figures of the half-plane on the same gap, None where the model error of the
-                   half-plane is not asked for
-    """
-
+    # name, source: of the case, and of its solution
     name: str
     source: str
+    # Hertz | surface (Hertz, most shear on the surface) | sliding | hardness | layer | rough
     kind: str
-    tables: Mapping[str, object]
-    exact: Mapping[str, float]
-    pressure: Curve | None = None
-    models: tuple[str, ...] = MODELS
-    trace: KnownTrace | None = None
+    tables: Mapping[str, object]  # of the scene, as TOML has them
+    exact: Mapping[str, float]  # figures [SI] by the names of `comparisons.common.quantities`
+    pressure: Curve | None = None  # p(x) [Pa] where it is known in closed form
+    models: tuple[str, ...] = MODELS  # that the solution holds for
+    trace: KnownTrace | None = None  # in place of the file that the scene's profile names
+    # figures of the half-plane on the same gap, None where the model error of the half-plane is
+    # not asked for
     half_plane: Callable[[Problem], Mapping[str, float]] | None = None
 
 
@@ -242,10 +234,8 @@ def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
 
 def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
-
     Where the half-plane's figures are known, too, it is solved with both, and its model error is
-    compared.
-    """
+    compared."""
     resolved = resolve_tables(
         scene.tables,
         name="verify",
@@ -283,25 +273,25 @@ def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
         half_plane = scene.half_plane(problem)
         for quantity, exact in scene.exact.items():
             found = budget.of(quantity, friction)
+            value, stated = found.value, found.uncertainty  # one number for all causes
+            known = Convergence(value, value, stated, 1.0, None, "too few levels")
             pairs.append(
                 Pair(
                     **common,
                     model="half_plane",
                     quantity=quantity,
-                    levels=(found.value,),
+                    levels=(value,),
                     exact=half_plane[quantity] / exact - 1.0,
                     scale=1.0,
-                    uncertainty=whole_uncertainty(found.value, found.uncertainty),
+                    uncertainty=Uncertainty(0.0, stated, 0.0, known),
                     converged=converged,
                     table=MODEL_ERROR,
                 )
             )
     if scene.pressure is None:
-        return exact_findings(pairs)
-    errors = (
-        relative_l2(level.solution.pressure, scene.pressure(level.grid.x)) for level in run.levels
-    )
-    return exact_findings(pairs, tuple(errors))
+        return ExactFindings.of(pairs)
+    solved = ((level.grid.x, level.solution.pressure) for level in run.levels)
+    return ExactFindings.of(pairs, tuple(relative_l2(p, scene.pressure(x)) for x, p in solved))
 
 
 def smooth_half_plane(problem: Problem) -> dict[str, float]:

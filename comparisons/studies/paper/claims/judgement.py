@@ -7,7 +7,7 @@ stand-in profile was made to show what the claim says.
 """
 
 from dataclasses import asdict, dataclass, replace
-from math import inf, isfinite
+from math import inf
 
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import far_boundary, iteration
@@ -15,6 +15,7 @@ from comparisons.assessment.verdict import is_within
 from comparisons.common.numbers import plain
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.results.outcome import Outcome
+from comparisons.studies.checks import finite
 from comparisons.studies.paper.claims.readings import SLIDING, LevelView, Reading
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
@@ -127,30 +128,19 @@ class JudgedClaim:
     def as_dict(self) -> dict:
         """For paper.json: None stands for what is infinite."""
         claim = self.claim
-        return {
+        content = {
             **{name: getattr(claim, name) for name in PLAIN},
             "unit": {"p₀": "p0"}.get(claim.unit, claim.unit),
-            "confirmed_within": [_finite(bound) for bound in claim.confirms],
-            "denied_outside": [_finite(bound) for bound in claim.allows or claim.confirms],
+            "confirmed_within": claim.confirms,
+            "denied_outside": claim.allows or claim.confirms,
             "criterion": claim.criterion,
-            "numbers": {
-                model: {
-                    "value": _finite(number.value),
-                    "uncertainty": _finite(number.uncertainty),
-                    "converged": number.converged,
-                }
-                for model, number in self.numbers.items()
-            },
-            "besides": {
-                words: {model: _finite(value) for model, value in values.items()}
-                for words, values in self.besides.items()
-            },
+            "numbers": {model: asdict(number) for model, number in self.numbers.items()},
+            "besides": self.besides,
             "outcome": self.outcome,
             "why": self.why,
-            "model_error": self.model_error
-            and asdict(self.model_error)
-            | {name: _finite(getattr(self.model_error, name)) for name in ("value", "uncertainty")},
+            "model_error": self.model_error and asdict(self.model_error),
         }
+        return finite(content)
 
 
 def judge(claim: Claim, outcome: Outcome) -> JudgedClaim:
@@ -241,7 +231,3 @@ def _range(bounds: Bounds, unit: str) -> str:
     if high == inf:
         return f"from {plain(low)} {unit}".rstrip() + " on"
     return f"from {plain(low)} to {plain(high)} {unit}".rstrip()
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if isfinite(value) else None

@@ -15,16 +15,11 @@ RANGE = 1.25  # a, to either side
 
 @dataclass(frozen=True)
 class Scales:
-    """Shared by all surfaces.
+    """Shared by all surfaces."""
 
-    bands     of colour, by component's name [p0]
-    pressure  top of the pressures' axes [p0]
-    relief    height of the surfaces' axes [m]
-    """
-
-    bands: dict[str, np.ndarray]
-    pressure: float
-    relief: float
+    bands: dict[str, np.ndarray]  # of colour, by component's name [p0]
+    pressure: float  # top of the pressures' axes [p0]
+    relief: float  # height of the surfaces' axes [m]
 
 
 def values_of(outcome: Outcome, component: Component, model: str, friction: float) -> np.ndarray:
@@ -34,11 +29,9 @@ def values_of(outcome: Outcome, component: Component, model: str, friction: floa
 
 
 def trace_surfaces(outcome: Outcome) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x (n,) and the heights (n,) of body and roller under load [m] over the whole trace.
-
-    From the half-plane's pressures, beyond the contact too; of a smooth body over the range of its
-    pressure elements. The datum of the heights is arbitrary.
-    """
+    """x (n,) and the heights (n,) of body and roller under load [m] over the whole trace. From the
+    half-plane's pressures, beyond the contact too; of a smooth body over the range of its pressure
+    elements. The datum of the heights is arbitrary."""
     problem, level = outcome.problem, outcome.runs["half_plane"].finest
     profile, pitch, grid = problem.scene.profile, level.grid.pitch, level.grid
     if profile is not None:

@@ -16,7 +16,6 @@ from comparisons.studies.verify.coverage import (
     Verification,
     coverage,
     coverage_cases,
-    exact_findings,
     observed_order,
     verification,
 )
@@ -39,7 +38,7 @@ def pair(error: float = 1e-3, stated: float = 2e-3, **others) -> Pair:
 def whole(pairs: Iterable[Pair], error: str | None = None) -> Verification:
     """The verification of one row with these pairs."""
     case = CheckedCase("Hertz", "case <&>", "half_plane", lambda: None)
-    return verification((CheckedRow(case, exact_findings(pairs), error, 0.0),), 0.0, 200, 0)
+    return verification((CheckedRow(case, ExactFindings.of(pairs), error, 0.0),), 0.0, 200, 0)
 
 
 ENOUGH = [pair()] * 200
