@@ -5,10 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scenes import PROJECT
-
-from analytic.exact.hertz import hertz_from_load
-from analytic.exact.layers import (
+from layer_limits import (
     LayerLimit,
     base_deficit,
     thick_layer,
@@ -16,6 +13,9 @@ from analytic.exact.layers import (
     thin_incompressible_layer,
     thin_modulus,
 )
+from scenes import PROJECT
+
+from analytic.exact.hertz import hertz_from_load
 from analytic.material import Material
 
 CASES = json.loads((PROJECT / "analytic/exact/layer_contact.json").read_text())["cases"]
@@ -142,13 +142,3 @@ def test_thin_incompressible_limit_is_of_first_order():
     )
     assert np.log2(left[1] / left[2]) == pytest.approx([1.0, 1.0], abs=0.15)
     assert left[2][1] * 32.0 == pytest.approx(8.0, abs=0.1)
-
-
-def test_what_makes_no_sense_is_refused():
-    with pytest.raises(ValueError, match="thickness must be positive"):
-        thick_layer(1.0, 1.0, 0.0, material(0.3), "bonded")
-    with pytest.raises(ValueError, match="half_width must be positive"):
-        thin_incompressible_layer(-1.0, 1.0, 1.0, 1.0)
-    for limit in (thick_layer, thin_compressible_layer):
-        with pytest.raises(ValueError, match='"bonded" or "frictionless", not \'glued\''):
-            limit(1.0, 1.0, 1.0, material(0.3), "glued")

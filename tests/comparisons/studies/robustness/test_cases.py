@@ -72,7 +72,7 @@ def test_a_solver_that_gives_up_early_fails_the_rows(monkeypatch, row_of):
 def test_a_broken_layer_fails_the_rows(monkeypatch, row_of):
     original = kernel.normal
     monkeypatch.setattr(kernel, "normal", lambda layer, w: original(layer, w) * 1.05)
-    assert not row_of(layers, "a/t = 100, bonded").holds
+    assert not row_of(layers, "coating of the body's own material").holds
 
 
 def test_a_length_that_is_not_in_proportion_fails_the_units(monkeypatch, row_of):

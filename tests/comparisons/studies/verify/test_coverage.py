@@ -12,6 +12,7 @@ from comparisons.common.errors import ExitStatus
 from comparisons.studies.checks import CheckedCase, CheckedRow, study_junit
 from comparisons.studies.verify.coverage import (
     MODEL_ERROR,
+    ExactFindings,
     Pair,
     Verification,
     coverage,
