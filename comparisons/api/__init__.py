@@ -153,16 +153,7 @@ def read(folder: str | os.PathLike) -> Run:
 
 
 def compare(*runs: Run) -> Figures:
-    """The figures of several runs, a row for each run, friction coefficient and quantity.
-
-    >>> steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
-    >>> bodies = {"roller": {"radius": 8e-3, **steel}, "body": steel}
-    >>> scenes = [bodies | {"load": {"per_length": load}} for load in (1e6, 4e6)]
-    >>> both = compare(*(run(scene, "half-plane") for scene in scenes))
-    >>> peaks = [row["half_plane"] for row in both.rows if row["quantity"] == "peak_pressure"]
-    >>> round(peaks[1] / peaks[0], 4)
-    2.0
-    """
+    """The figures of several runs, a row for each run, friction coefficient and quantity."""
     if not runs:
         raise InputError("compare: is given no run; allowed is at least one")
     return Figures(tuple(row for each in runs for row in each.rows))

@@ -177,14 +177,9 @@ class Map(Printed):
             return map_figure(self.content).axes
 
     def _table(self) -> "RenderableType":
-        from rich.console import Group
-
         from comparisons.studies.maps.content import map_table
 
-        if self.folder is not None:
-            return map_table(self.content, self.folder)
-        *lines, _ = map_table(self.content, Path()).renderables  # the last one says where it is
-        return Group(*lines)
+        return map_table(self.content, self.folder)
 
 
 @dataclass(frozen=True, repr=False)

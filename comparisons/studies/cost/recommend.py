@@ -2,6 +2,8 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import takewhile
+from operator import itemgetter
 
 from comparisons.assessment.verdict import judge
 from comparisons.common.numbers import given_percent, integer, percent, with_unit
@@ -69,58 +71,36 @@ def recommendations(
 ) -> list[Recommendation]:
     floors = {name: reference.floor for name, reference in references.items()}
     known = {name: value for name, value in tolerances.items() if name in floors}
-    found = [_recommendation(assessed, floors, {name: value}) for name, value in known.items()]
-    return found + ([_recommendation(assessed, floors, known)] if len(known) > 1 else [])
+    aims = [{name: value} for name, value in known.items()] + [known] * (len(known) > 1)
+    return [_recommendation(assessed, floors, aim) for aim in aims]
 
 
 def _recommendation(
     assessed: list[AssessedRow], floors: dict[str, float], tolerances: Tolerances
 ) -> Recommendation:
     stresses = needs_stress(tolerances)
+    judged = [(each, each.meets(floors, tolerances)) for each in assessed if each.row.status == OK]
 
-    def cheapest(names: Iterable[str]) -> AssessedRow | None:
-        rows = [row for name in names for row in _meeting(assessed, name, floors, tolerances)]
+    def cheapest(rows: Iterable[AssessedRow]) -> AssessedRow | None:
         return min(rows, key=lambda a: a.row.seconds(stresses), default=None)
 
-    half_plane, finite_element = cheapest([FINEST.name]), cheapest(ELEMENTS_OF_RUN)
-    best = cheapest([method.name for method in METHODS])
-    name, tolerance = ALL, None
-    if len(tolerances) == 1:
-        [(name, tolerance)] = tolerances.items()
-    lucky = _by_chance(assessed, floors, tolerances, best)
+    def steady(*names: str) -> AssessedRow | None:
+        """The cheapest of methods that meets the tolerances as all finer ones do: not by chance."""
+        found = []
+        for name in names:
+            rows = reversed([pair for pair in judged if pair[0].row.method.name == name])
+            # None: itself the reference
+            known = (pair for pair in rows if pair[1] is not None)
+            found += [each for each, _ in takewhile(itemgetter(1), known)]
+        return cheapest(found)
+
+    half_plane, finite_element = steady(FINEST.name), steady(*ELEMENTS_OF_RUN)
+    best = steady(*(method.name for method in METHODS))
+    below = float("inf") if best is None else best.row.seconds(stresses)
+    lucky = cheapest(each for each, meets in judged if meets and each.row.seconds(stresses) < below)
+    name, tolerance = next(iter(tolerances.items())) if len(tolerances) == 1 else (ALL, None)
     sentence = _sentence(tolerances, floors, lucky, half_plane, finite_element, best)
     return Recommendation(name, tolerance, half_plane, finite_element, best, sentence)
-
-
-def _meeting(
-    assessed: list[AssessedRow], name: str, floors: dict[str, float], tolerances: Tolerances
-) -> list[AssessedRow]:
-    """Rows of a method that meet the tolerances, as all finer ones do: not by chance."""
-    found = []
-    for each in reversed([a for a in assessed if a.row.method.name == name]):
-        if each.row.status != OK:
-            continue
-        meets = each.meets(floors, tolerances)
-        if meets is None:  # itself the reference
-            continue
-        if not meets:
-            break
-        found.append(each)
-    return found
-
-
-def _by_chance(
-    assessed: list[AssessedRow],
-    floors: dict[str, float],
-    tolerances: Tolerances,
-    best: AssessedRow | None,
-) -> AssessedRow | None:
-    """The cheapest row below `best` that meets the tolerances although a finer one does not."""
-    stresses = needs_stress(tolerances)
-    below = float("inf") if best is None else best.row.seconds(stresses)
-    found = [a for a in assessed if a.row.status == OK and a.meets(floors, tolerances)]
-    found = [a for a in found if a.row.seconds(stresses) < below]
-    return min(found, key=lambda a: a.row.seconds(stresses), default=None)
 
 
 def scene_sections(row: CostRow, problem: Problem) -> dict[str, dict]:

@@ -17,12 +17,7 @@ from comparisons.models.level_cache import scene_key
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
 from comparisons.studies.cost.measure import CostTask, MeasuredRun, RefusedRun, measure
-from comparisons.studies.cost.methods import (
-    METHODS,
-    SolutionMethod,
-    is_half_plane_problem,
-    why_not,
-)
+from comparisons.studies.cost.methods import METHODS, SolutionMethod, is_half_plane_problem, why_not
 
 FOLDER = "cost_points"
 # What shapes what is measured, beside versions of libraries and the machine.

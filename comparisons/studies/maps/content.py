@@ -118,7 +118,7 @@ def significance(found: dict, quantity: str) -> dict:
     return {"error": BELOW if agrees else INCONCLUSIVE}
 
 
-def map_table(content: dict, out: Path) -> "Group":
+def map_table(content: dict, out: Path | None) -> "Group":
     from rich.console import Group
     from rich.table import Table
     from rich.text import Text
@@ -151,5 +151,5 @@ def map_table(content: dict, out: Path) -> "Group":
         Text(f"{len(points)} points: {found}"),
         *(Text(f"failed, {count}: {why}") for why, count in reasons.most_common()),
         Text(f"made by: {content['command']}"),
-        Text(f"map: {out / MAP}, {out / PICTURE}"),
+        *([] if out is None else [Text(f"map: {out / MAP}, {out / PICTURE}")]),
     )

@@ -181,11 +181,7 @@ def _bar(drawn: "Figure") -> None:
 
 
 def _legend(
-    axes: "Axes",
-    content: dict,
-    kinds: set[str],
-    lines: dict[float, object],
-    marked: list[object],
+    axes: "Axes", content: dict, kinds: set[str], lines: dict[float, object], marked: list[object]
 ) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch

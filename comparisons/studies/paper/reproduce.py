@@ -106,9 +106,7 @@ def paper(
 
 
 def solve_surfaces(
-    fineness: Fineness,
-    callback: ProgressCallback = no_progress,
-    effects: bool = False,
+    fineness: Fineness, callback: ProgressCallback = no_progress, effects: bool = False
 ) -> dict[str, Outcome]:
     """By the scene's name. Raises SolverError where a model finds no solution."""
     found = {}

@@ -79,10 +79,7 @@ SHAPES = {"plateau": plateau, "spike": spike, "steps": steps, "flat": np.zeros}
 
 
 def scaled_findings(
-    metre: float = TRACE,
-    pascal: float = 1.0,
-    same: float = SAME,
-    amplitude: float | None = None,
+    metre: float = TRACE, pascal: float = 1.0, same: float = SAME, amplitude: float | None = None
 ) -> Findings:
     """All lengths times `metre`, all stresses times `pascal`, and heights, to which pressures are
     in proportion, up to an `amplitude` [m]; `same` is how well figures agree."""

@@ -17,12 +17,7 @@ from functools import partial
 import numpy as np
 
 from analytic.material import Material
-from comparisons.studies.checks import (
-    BoundedFigure,
-    CheckedCase,
-    Findings,
-    order_figure,
-)
+from comparisons.studies.checks import BoundedFigure, CheckedCase, Findings, order_figure
 from fem.body.elasticity import Coating, ElasticBody, Support, elastic_body
 from fem.body.exact_load import AREA, AREA_WEIGHT, forces_of
 from fem.body.triangle import gradients, jacobians, shapes

@@ -19,11 +19,7 @@ from analytic.material import Material
 from analytic.operators.half_plane import HalfPlane, ModelOperator
 from analytic.operators.periodic import PeriodicHalfPlane
 from comparisons.assessment.convergence import grid_convergence
-from comparisons.assessment.uncertainty import (
-    PRESSURE_PER_RESIDUAL,
-    Uncertainty,
-    length_resolution,
-)
+from comparisons.assessment.uncertainty import PRESSURE_PER_RESIDUAL, Uncertainty, length_resolution
 from comparisons.common.quantities import QUANTITIES
 from comparisons.studies.checks import CheckedCase
 from comparisons.studies.verify.coverage import ExactFindings, Pair

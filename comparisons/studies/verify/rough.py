@@ -88,9 +88,7 @@ def rough_cases() -> list[CheckedCase]:
 
 
 def rough_scenes(
-    half_planes: int = HALF_PLANES,
-    finite_elements: int = FINITE_ELEMENTS,
-    layers: int = LAYERS,
+    half_planes: int = HALF_PLANES, finite_elements: int = FINITE_ELEMENTS, layers: int = LAYERS
 ) -> tuple[ExactScene, ...]:
     """So many half-planes for the half-plane and for the finite elements, and bodies of LAYERED for
     the finite elements; with the model error where there are finite elements."""

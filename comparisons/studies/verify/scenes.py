@@ -44,11 +44,7 @@ from comparisons.runs.run import solve
 from comparisons.scenes.profile import KnownTrace
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.checks import CheckedCase
-from comparisons.studies.verify.coverage import (
-    MODEL_ERROR,
-    ExactFindings,
-    Pair,
-)
+from comparisons.studies.verify.coverage import MODEL_ERROR, ExactFindings, Pair
 
 FRICTIONS = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4)  # with the last the surface shears most
 SLIDING_FRICTIONS = (0.1, 0.3, 0.6, 1.0)
