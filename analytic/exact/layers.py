@@ -18,21 +18,14 @@ TABLE = Path(__file__).with_name("layer_contact.json")
 
 @dataclass(frozen=True)
 class LayerReference:
-    """A contact in units of the layer.
+    """A contact in units of the layer."""
 
-    half_width      a/t
-    poissons_ratio  nu; None where figures over E' are the same at any
-    peak_pressure   p0 R/(E' t)
-    load            P R/(E' t^2)
-    error           of both, relative, by the two derivations
-    """
-
-    half_width: float
-    poissons_ratio: float | None
+    half_width: float  # a/t
+    poissons_ratio: float | None  # nu; None where figures over E' are the same at any
     base: Base
-    peak_pressure: float
-    load: float
-    error: float
+    peak_pressure: float  # p0 R/(E' t)
+    load: float  # P R/(E' t^2)
+    error: float  # of both, relative, by the two derivations
 
 
 @cache

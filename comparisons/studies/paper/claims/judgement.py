@@ -30,45 +30,28 @@ Bounds = tuple[float, float]
 
 @dataclass(frozen=True)
 class Claim:
-    """One claim.
+    """One claim."""
 
-    key        for paper.json
-    figure     of the paper that shows it, with its letter
-    title      in a few words
-    text       what the paper says, in words of this project
-    measure    how the number is found
-    scene      whose stresses it is about
-    reading    of the number
-    confirms   bounds of the number inside which the claim holds
-    unit       "" | "a" | "p₀"
-    allows     wider bounds, outside of which it is denied; None: the same
-    ambiguity  why a number between the two is inconclusive
-    tuned      what the stand-in profile was made to show, so that it proves nothing
-    models     that can measure it
-    exact      the number is an error against an exact value
-    besides    further numbers, by what they are
-    quantity   the compared one whose model error bears on the number; None: it is no figure of a
-               real contact
-    slides     the number is one of the sliding contact
-    """
-
-    key: str
-    figure: str
-    title: str
-    text: str
-    measure: str
-    scene: str
-    reading: Reading
-    confirms: Bounds
-    unit: str = ""
-    allows: Bounds | None = None
-    ambiguity: str | None = None
+    key: str  # for paper.json
+    figure: str  # of the paper that shows it, with its letter
+    title: str  # in a few words
+    text: str  # what the paper says, in words of this project
+    measure: str  # how the number is found
+    scene: str  # whose stresses it is about
+    reading: Reading  # of the number
+    confirms: Bounds  # bounds of the number inside which the claim holds
+    unit: str = ""  # "" | "a" | "p₀"
+    allows: Bounds | None = None  # wider bounds, outside of which it is denied; None: the same
+    ambiguity: str | None = None  # why a number between the two is inconclusive
+    # what the stand-in profile was made to show, so that it proves nothing
     tuned: str | None = None
-    models: tuple[str, ...] = MODELS
-    exact: bool = False
-    besides: tuple[tuple[str, Reading], ...] = ()
+    models: tuple[str, ...] = MODELS  # that can measure it
+    exact: bool = False  # the number is an error against an exact value
+    besides: tuple[tuple[str, Reading], ...] = ()  # further numbers, by what they are
+    # the compared one whose model error bears on the number; None: it is no figure of a real
+    # contact
     quantity: str | None = None
-    slides: bool = False
+    slides: bool = False  # the number is one of the sliding contact
 
     @property
     def criterion(self) -> str:
@@ -81,49 +64,36 @@ class Claim:
 
 @dataclass(frozen=True)
 class MeasuredNumber:
-    """A number of one model with what numerical error may account for, both in its unit.
-
-    uncertainty  0 where the number is itself an error against an exact value; infinite where
-                 fewer than three levels are known
-    converged    all levels met their contact conditions
-    """
+    """A number of one model with what numerical error may account for, both in its unit."""
 
     value: float
+    # 0 where the number is itself an error against an exact value; infinite where fewer than
+    # three levels are known
     uncertainty: float
-    converged: bool = True
+    converged: bool = True  # all levels met their contact conditions
 
 
 @dataclass(frozen=True)
 class FigureModelError:
-    """The half-plane's model error in the quantity of a claim's figure, relative.
-
-    value, uncertainty  of the effects that were computed
-    not_modelled        estimates of the others, by name
-    """
+    """The half-plane's model error in the quantity of a claim's figure, relative."""
 
     quantity: str
+    # value, uncertainty: of the effects that were computed
     value: float
     uncertainty: float
-    not_modelled: dict[str, float]
+    not_modelled: dict[str, float]  # estimates of the others, by name
 
 
 @dataclass(frozen=True)
 class JudgedClaim:
-    """A claim with its outcome.
-
-    numbers  by model
-    besides  by what they are, then by model
-    outcome  one of OUTCOMES
-    why      it is inconclusive; None where it is not
-    model_error  of its figure; None where there is none
-    """
+    """A claim with its outcome."""
 
     claim: Claim
-    numbers: dict[str, MeasuredNumber]
-    besides: dict[str, dict[str, float]]
-    outcome: str
-    why: str | None = None
-    model_error: FigureModelError | None = None
+    numbers: dict[str, MeasuredNumber]  # by model
+    besides: dict[str, dict[str, float]]  # by what they are, then by model
+    outcome: str  # one of OUTCOMES
+    why: str | None = None  # why it is inconclusive; None where it is not
+    model_error: FigureModelError | None = None  # of its figure; None where there is none
 
     def as_dict(self) -> dict:
         """For paper.json: None stands for what is infinite."""
