@@ -71,6 +71,9 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
     skip(stress and not slides, "stresses of the sliding traction", "there is no friction")
+    why = "they take the half-plane" if scene.statistics else "the scene has no [statistics]"
+    unasked = scene.statistics is None or "half_plane" not in models
+    skip(unasked, "statistics of rough contact", why)
     skip(scene.hardness is None, "hardness cap", "the body has no hardness")
     if "half_plane" in models:
         skip(not coupling, "coupling", uncoupled[-1])

@@ -17,6 +17,7 @@ from comparisons.report.figures.pressures import close_up_picture, pressure_pict
 from comparisons.report.figures.problem import problem_picture
 from comparisons.report.figures.running_in import running_in_picture
 from comparisons.report.figures.sections import section_pictures
+from comparisons.report.figures.statistics import statistics_pictures
 from comparisons.report.figures.style import drawing
 from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
@@ -28,6 +29,7 @@ from comparisons.report.tables.model_error import effects_table, model_error_row
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.report.tables.quiescent_zone import zone_table
 from comparisons.report.tables.scatter import scatter_table
+from comparisons.report.tables.statistics import statistics_tables
 from comparisons.report.tables.text import is_shown
 from comparisons.report.tables.verification import (
     check_table,
@@ -57,6 +59,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
     "running_in": running_in_picture,
     "cost": cost_picture,
     "answers": answer_pictures,
+    "statistics": statistics_pictures,
 }
 
 
@@ -87,6 +90,7 @@ def render(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> str
         coupling=coupling_table(outcome),
         scatter=scatter_table(outcome),
         samples=outcome.scatter,
+        statistics=statistics_tables(outcome),
         model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),

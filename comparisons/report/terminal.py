@@ -18,6 +18,7 @@ from comparisons.report.tables.model_error import model_error_rows, not_modelled
 from comparisons.report.tables.problem import in_mm
 from comparisons.report.tables.quiescent_zone import zone_line
 from comparisons.report.tables.scatter import scatter_lines
+from comparisons.report.tables.statistics import statistics_lines
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
 
@@ -196,6 +197,7 @@ def _facts(outcome: Outcome) -> "Table":
         said = (f"{SHORT[row.quantity]}, friction {row.friction}: {row.moved}" for row in moves)
         rows += [("another asperity", line) for line in said]
     rows += [("inputs", line) for line in scatter_lines(outcome)]
+    rows += statistics_lines(outcome)
     if (moved := coupling_line(outcome)) is not None:
         rows.append(("coupling", moved))
     if (zone := zone_line(outcome)) is not None:

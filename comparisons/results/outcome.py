@@ -9,6 +9,7 @@ from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.scatter.figures import InputScatter
+from comparisons.assessment.statistics.figures import RoughContactStatistics
 from comparisons.assessment.verdict import Comparison, ToleranceCheck
 from comparisons.assessment.yielding import FlowAssessment, flow_assessment
 from comparisons.common.errors import ExitStatus
@@ -40,6 +41,7 @@ class Outcome:
     # the norms of the difference on all levels, one a friction coefficient; empty for one model
     pairs: tuple[PairHistory, ...] = ()
     scatter: InputScatter | None = None  # what uncertain inputs do, None without [scatter]
+    statistics: RoughContactStatistics | None = None  # of rough contact, None without [statistics]
     # from outside, beside a model; empty where the scene has none
     answers: tuple[ComparedAnswer, ...] = ()
 

@@ -140,8 +140,14 @@ def solve(
         here = [partial(import_module, name) for name in REPORT if out is not None]
         with tasks_of_a_run(told, memory, here, there) as tasks:
             scattered = _announce_scatter(problem, plan, cache, tasks, executor)
+            counted = None
+            if problem.scene.statistics is not None and "half_plane" in plan.models:
+                from comparisons.assessment.statistics.study import announce_statistics
+
+                counted = announce_statistics(problem, tasks)
             runs, stop, moved, rows, budget = solved(problem, plan, window, cache, tasks)
             scatter = scattered and scattered(runs["half_plane"].finest)
+            statistics = counted and counted(runs)
     except KeyboardInterrupt:
         raise _interrupted(out) from None
     except (ContactError, FemError, InputError, MeshError):
@@ -149,6 +155,7 @@ def solve(
         raise
     result = result_of(problem, plan, runs, rows, stop, moved, budget, scatter)
     result["quiescent_zone"] = quiescent_zones(problem, runs, window)
+    result["statistics"] = statistics and statistics.as_dict()
     hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
     run_in = problem.scene.run_in
     if run_in is not None:
@@ -174,6 +181,7 @@ def solve(
         budget=budget,
         pairs=pair_histories(problem, runs, window) if plan.compares else (),
         scatter=scatter,
+        statistics=statistics,
         answers=compared_answers,
     )
     try:

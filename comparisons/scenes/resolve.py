@@ -18,6 +18,7 @@ from comparisons.scenes.scene import (
     Load,
     Resolution,
     ResolvedScene,
+    RoughnessStatistics,
     StressWindow,
     Yielding,
 )
@@ -151,6 +152,7 @@ def resolve_tables(
         budget=Budget(**dict(scene.budget)),
         tables=plain,
         scatter=scene.scatter and scatter_of(scene.scatter),
+        statistics=scene.statistics and RoughnessStatistics(**dict(scene.statistics)),
         answers=answer_sources(scene.answers, folder),
     )
 

@@ -211,6 +211,17 @@ class Scatter:
 
 
 @dataclass(frozen=True)
+class RoughnessStatistics:
+    """What is asked of the statistics of rough contact."""
+
+    traces: int  # random ones of the profile's spectrum, from `seed` on
+    seed: int
+    cutoffs: tuple[float, ...] | None  # [m] under which summits are counted; None: chosen
+    metal: str  # ferrous | nonferrous: by which h/R an asperity flows
+    lubricated: bool  # by which it cuts
+
+
+@dataclass(frozen=True)
 class ResolvedScene:
     """Everything one run needs."""
 
@@ -242,6 +253,7 @@ class ResolvedScene:
     # folder that holds the profile's file, gives this scene
     tables: dict = field(repr=False)
     scatter: Scatter | None = None  # None: inputs are taken as exact
+    statistics: RoughnessStatistics | None = None  # of rough contact; None: not asked for
     # what running-in did to the surface, None until it was done; then the profile and its figures
     # are those after it
     run_in: RunIn | None = field(default=None, compare=False, repr=False)

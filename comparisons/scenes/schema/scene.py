@@ -35,6 +35,7 @@ from comparisons.scenes.schema.finite_element import SEVERAL_FRICTIONS, FiniteEl
 from comparisons.scenes.schema.profile import ProfileSection
 from comparisons.scenes.schema.running_in import RunningInSection
 from comparisons.scenes.schema.scatter import ScatterSection
+from comparisons.scenes.schema.statistics import StatisticsSection
 
 MOST_STRESS_POINTS = 50_000_000  # four doubles each are 1.6 GB
 MOST_STRESS_LINES = 20_000  # each way: every depth takes transforms of its own
@@ -167,6 +168,7 @@ class SceneFile(SceneSection):
     resolution: ResolutionSection = ResolutionSection()
     budget: BudgetSection = BudgetSection()
     scatter: ScatterSection | None = None
+    statistics: StatisticsSection | None = None
     answers: dict[str, AnswerSection] | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -189,6 +191,8 @@ class SceneFile(SceneSection):
             yield f"finite_element.{field}", problem
         if self.scatter is not None:
             yield from self.scatter.misfits(self)
+        if self.statistics is not None and self.profile is None:
+            yield "statistics", "is given for a smooth surface; allowed only with [profile]"
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             given = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
             yield "coating.thickness", f"{given}; allowed is less, the body's thickness contains it"

@@ -129,3 +129,11 @@ def test_too_smooth_and_wrong_loads_are_refused():
         rough_contact("cylinder", 1e9, 1.0)
     with pytest.raises(ValueError, match="load must be positive"):
         rough_contact("cylinder", 0.0, 1.0)
+
+
+def test_the_separation_has_the_datum_that_it_says():
+    """h - d at the centre is the sink there, -(2/pi) integral p* ln rho drho."""
+    found = rough_contact("cylinder", 3.0, 4.0)
+    logarithm = np.log(np.maximum(found.rho, 1e-300))
+    sink = -2.0 / np.pi * np.sum(found.steps * found.pressure * logarithm)
+    assert found.h[0] - found.d == pytest.approx(sink, abs=1e-3)

@@ -190,6 +190,7 @@ def test_every_scene_is_named_here():
         "ground-run-in",
         "ground-running-in",
         "ground-unrun",
+        "rough-statistics",
         "self-affine",
         "sinusoid",
         "smooth",

@@ -1,0 +1,1 @@
+"""Theories of rough contact beside the solved one, and every asperity's penetration."""
