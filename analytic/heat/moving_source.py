@@ -68,17 +68,6 @@ def fast_band(peclet: float) -> tuple[float, float]:
     return largest, 2.0 / 3.0 * largest
 
 
-def band_at_rest(x: ArrayLike, reach: float) -> np.ndarray:
-    """k T / (q l) at places x [l] of a steady band, each line of it T = 0 at `reach` [l]: at rest
-    a half-space has no other datum."""
-
-    def half(edge: np.ndarray) -> np.ndarray:
-        return edge * (1.0 + np.log(reach / np.abs(edge).clip(1e-300)))
-
-    place = np.asarray(x, dtype=float)
-    return (half(place + 1.0) - half(place - 1.0)) / np.pi
-
-
 def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
     """I(u) as in the head of this module, less 1 where `ahead`."""
     size = np.abs(u).clip(1e-300)

@@ -3,9 +3,9 @@
 The heat q = mu p V of a sliding contact goes into both. Where they touch both surfaces have one
 temperature, which fixes the flux f into the first at every node; the rest enters the second:
 
-    T1 + (C1 f)_i = T2 + (C2 (q - f))_i   at contacting nodes i,      f = 0 at the others,
+    (C1 f)_i = (C2 (q - f))_i   at contacting nodes i,      f = 0 at the others,
 
-C1 and C2 the rises by hats of flux (`HeatedSurface`), T1 and T2 the bulk temperatures. Equal bodies
+C1 and C2 the rises above a common bulk temperature by hats of flux (`HeatedSurface`). Equal bodies
 that pass the contact alike take half each; so do, in the ratio of their conductivities, bodies of
 equal V / kappa; fast ones in the ratio of k sqrt(V / kappa).
 
@@ -14,6 +14,7 @@ are equal, Jaeger's, the mean ones, and Seireg's (ch. 5), by conductivities of b
 layer.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,12 +44,11 @@ class HeatPartition:
     mismatch: float
 
 
-def divided(
-    first: HeatedSurface, second: HeatedSurface, heat: np.ndarray, difference: float = 0.0
-) -> HeatPartition:
-    """The partition of `heat` (n,) [W/m^2], which is positive at contacting nodes and 0 elsewhere;
-    `difference` T2 - T1 [K] of the bulk temperatures. Raises ArithmeticError where the solution
-    does not settle."""
+def divided(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> HeatPartition:
+    """The partition of `heat` (n,) [W/m^2], which is positive at contacting nodes and 0 elsewhere.
+
+    Raises ArithmeticError where the solution does not settle.
+    """
     nodes = np.flatnonzero(heat > 0.0)
     inverse = 1.0 / (_symbol(first) + _symbol(second))
     flux = np.zeros(len(heat))
@@ -67,7 +67,7 @@ def divided(
 
     goal = TOLERANCE * float(np.linalg.norm(heat))
     for _ in range(PASSES):
-        left = conditioned((second.rise(heat - flux) + difference - first.rise(flux))[nodes])
+        left = conditioned((second.rise(heat - flux) - first.rise(flux))[nodes])
         step, error = krylov_step(applied, left, goal)
         flux[nodes] += step
         if error <= goal:
@@ -77,7 +77,7 @@ def divided(
             f"the partition of the heat is found to {error / goal:.1e} of its goal"
         )
     rises = first.rise(flux), second.rise(heat - flux)
-    mismatch = np.abs(rises[0] - rises[1] - difference)[nodes].max()
+    mismatch = np.abs(rises[0] - rises[1])[nodes].max()
     return HeatPartition(flux, *rises, float(flux.sum() / heat.sum()), float(mismatch))
 
 
@@ -91,19 +91,13 @@ def _symbol(surface: HeatedSurface) -> np.ndarray:
     return np.sinc(0.5 * wave * surface.pitch / np.pi) ** 2 / (material.conductivity * root)
 
 
-def equal_largest(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> float:
-    """Blok's fraction of the heat that enters the first."""
-    return _one_fraction(first.rise(heat).max(), second.rise(heat).max())
-
-
-def equal_mean(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> float:
-    """Jaeger's fraction of the heat that enters the first, means over the contact."""
-    touch = heat > 0.0
-    return _one_fraction(first.rise(heat)[touch].mean(), second.rise(heat)[touch].mean())
-
-
-def _one_fraction(first: float, second: float) -> float:
-    return float(second / (first + second))
+def one_fraction(
+    first: HeatedSurface, second: HeatedSurface, heat: np.ndarray, of: Callable = np.max
+) -> float:
+    """Fraction of the heat that enters the first where it is one for the whole contact, and `of`
+    both rises there is equal: np.max is Blok's rule, np.mean Jaeger's."""
+    one, other = (of(body.rise(heat)[heat > 0.0]) for body in (first, second))
+    return float(other / (one + other))
 
 
 def layered_fraction(first: tuple[float, float], second: tuple[float, float]) -> float:

@@ -99,6 +99,9 @@ def sections_of(
             Block("Section 4.8: relative penetration", (), claims("4.9")),
         )
         found.append(Section("seireg", "Seireg, chapter 4: rough contact", blocks))
+        heat = sum((claims(number) for number in ("5.2", "5.3", "5.5", "ch. 5")), ())
+        block = Block("Short formulas, and the partition", (), heat)
+        found.append(Section("seireg-heat", "Seireg, chapter 5: heat", (block,)))
     return tuple(found)
 
 

@@ -1,4 +1,5 @@
-"""Seireg's (1998) claims on rough contact, and the numbers of its theory that judge them."""
+"""Seireg's (1998) claims on rough contact, and the numbers of its theory that judge them; those
+on heat are judged by `comparisons.studies.paper.claims.heat`."""
 
 import tomllib
 from functools import cache
@@ -9,6 +10,7 @@ import numpy as np
 from analytic.statistics.nominally_flat import Summits
 from analytic.statistics.penetration import BOOK_POISSON, relative_penetration
 from analytic.statistics.rough_bodies import RoughContact, bearing_of, rough_contact
+from comparisons.studies.paper.claims import heat
 from comparisons.studies.paper.claims.judgement import (
     THEORY,
     Claim,
@@ -83,7 +85,7 @@ def judged_book() -> tuple[JudgedClaim, ...]:
 
 def _judged(table: dict) -> JudgedClaim:
     def number(name: str, *given: float) -> float:
-        return globals()[name](*given)
+        return (globals().get(name) or getattr(heat, name))(*given)
 
     besides = {words: {THEORY: number(*how)} for words, how in table.pop("besides", {}).items()}
     numbers = {THEORY: MeasuredNumber(number(*table["reading"]), 0.0)}

@@ -17,9 +17,27 @@ REFERENCE = json.loads((DATA / "g_greenwood.json").read_text())["GT"]
 
 def test_outcomes_are_those_of_the_numbers():
     denied = {key for key, each in JUDGED.items() if each.outcome == DENIED}
-    assert denied == {"rough-constant", "penetration-coefficient"}
+    assert denied == {"rough-constant", "penetration-coefficient"} | {
+        f"seireg-{name}" for name in ("bottom", "fifteen", "partition")
+    }
     assert {each.outcome for each in JUDGED.values()} == {CONFIRMED, DENIED}
-    assert len(JUDGED) == 7
+    assert len(JUDGED) == 13
+
+
+def test_heat_against_reference_values():
+    """Those of 16 digits; the parabola's error, and the partition, have tests of their own."""
+    reference = json.loads((DATA / "h_heat.json").read_text())["seed_claims"]
+    fifteen = JUDGED["seireg-fifteen"]
+    exact = float(reference["bottom_deviation_at_15_tL_exact"])
+    assert fifteen.numbers[THEORY].value == pytest.approx(exact, rel=1e-12)
+    mean, short, _ = (each[THEORY] for each in fifteen.besides.values())
+    assert mean == pytest.approx(float(reference["mean_deviation_at_15_tL_exact"]), rel=1e-10)
+    exact = float(reference["bottom_deviation_at_15_tL_seed_formula"])
+    assert short == pytest.approx(exact, rel=1e-12)
+    coefficient = 1.12 / float(reference["surface_flux_coefficient_exact_2_over_sqrt_pi"])
+    assert JUDGED["seireg-flux"].numbers[THEORY].value == pytest.approx(coefficient, rel=1e-12)
+    halves = list(JUDGED["seireg-partition"].besides.values())
+    assert halves[0][THEORY] == pytest.approx(0.5, abs=1e-9)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("A", 1.79), ("B", 1.62), ("C", 1.62)])

@@ -80,7 +80,9 @@ def test_the_page_holds_every_figure(page):
         assert len(image["alt"]) > 40
     assert len({image["alt"] for image in page.images}) == PICTURES
     sections = [place for place in page.places if place.startswith("figure-")]
-    assert sections == [f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11", "seireg")]
+    assert sections == [
+        f"figure-{n}" for n in ("1", "5", "6", "8", "9", "10", "11", "seireg", "seireg-heat")
+    ]
 
 
 def test_the_page_holds_every_claim_with_its_outcome(made, page):
