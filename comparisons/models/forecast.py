@@ -26,17 +26,13 @@ class PlannedLevel:
 
 @dataclass(frozen=True)
 class Forecast:
-    """The levels that a scene's budget allows if nothing ends the refinement earlier; at least one.
-
-    asked       levels to begin with
-    per_wave    pressure elements to the shortest wave on the last of them; None for smooth bodies
-    ends        why there are no more
-    """
+    """The levels that a scene's budget allows if nothing ends refinement earlier; at least one."""
 
     levels: tuple[PlannedLevel, ...]
-    asked: int
+    asked: int  # levels to begin with
+    # pressure elements to the shortest wave on the last of them; None for smooth bodies
     per_wave: float | None
-    ends: str
+    ends: str  # why there are no more
 
     @property
     def text(self) -> str:

@@ -27,17 +27,14 @@ class ExpectedCost:
 
 @dataclass(frozen=True)
 class StressResult:
-    """Stresses under one friction coefficient.
-
-    extremes  largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
-    field     (m, k) on the common window
-    maxima    largest tau1 and |txz| of each asperity of the problem: value, x and z (3, k); empty
-              where there is one
-    """
+    """Stresses under one friction coefficient."""
 
     friction: float
+    # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
-    field: StressState
+    field: StressState  # (m, k) on the common window
+    # largest tau1 and |txz| of each asperity of the problem: value, x and z (3, k); empty where
+    # there is one
     maxima: dict[str, np.ndarray] = field(default_factory=dict)
 
     def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
@@ -58,22 +55,16 @@ def highest(maxima: np.ndarray) -> Extremum:
 
 @dataclass(frozen=True)
 class MeshField:
-    """A finite-element level's own mesh, with stresses and displacements, one set a friction.
+    """A finite-element level's own mesh, with stresses and displacements, one set a friction."""
 
-    points          (n, 2) x and z [m] of the real body; twice where two materials meet
-    triangles       (m, 6) quadratic triangles in gmsh order
-    stresses        by friction coefficient, (n,) each
-    displacement    by friction coefficient, (n, 2) [m] in x and z, zero where the body is held; at
-                    finite deformation but for a shift of all along x
-    poissons_ratio  (n,) of the material at each point
-    others          further fields (n,) by name with their unit: what plastic flow leaves
-    """
-
-    points: np.ndarray
-    triangles: np.ndarray
-    stresses: dict[float, StressState]
+    points: np.ndarray  # (n, 2) x and z [m] of the real body; twice where two materials meet
+    triangles: np.ndarray  # (m, 6) quadratic triangles in gmsh order
+    stresses: dict[float, StressState]  # by friction coefficient, (n,) each
+    # by friction coefficient, (n, 2) [m] in x and z, zero where the body is held; at finite
+    # deformation but for a shift of all along x
     displacement: dict[float, np.ndarray]
-    poissons_ratio: np.ndarray
+    poissons_ratio: np.ndarray  # (n,) of the material at each point
+    # further fields (n,) by name with their unit: what plastic flow leaves
     others: dict[str, np.ndarray] = field(default_factory=dict)
 
 
@@ -81,21 +72,19 @@ class MeshField:
 class RecoverableField:
     """What a `MeshField` of linear bodies under vertical pressures is made of. Of all levels of a
     model the last one's field alone is written: stresses are recovered when they are asked for.
-
-    displacement    (n, c, 2) [m] at the nodes of the displacement, one for each friction
-    hats, pressure  as in `fem.compliance.operator`
-    ends            what the hats leave out
     """
 
     mesh: BlockMesh
     material: Material
     coating: Coating | None
     degree: int
+    # (n, c, 2) [m] at the nodes of the displacement, one for each friction
     displacement: np.ndarray
+    # as in `fem.compliance.operator`
     hats: np.ndarray
     pressure: np.ndarray
     frictions: tuple[float, ...]
-    ends: EndStress
+    ends: EndStress  # what the hats leave out
 
     @cached_property
     def recovered(self) -> MeshField:
@@ -119,38 +108,28 @@ class RecoverableField:
 
 @dataclass(frozen=True)
 class Level:
-    """One model on pressure elements of one pitch.
-
-    displacement  (n,) [m] of the rough body's surface, averaged over each hat; positive into the
-                  body, with the model's own datum
-    patches       (k, 2) [m] contact patches
-    stresses      one a friction coefficient; empty when no field is asked for
-    seconds       by stage
-    unknowns      of the linear systems behind the compliance
-    factor_memory bytes that their factors hold, 0 without any
-    peak_memory   largest memory of the process when the level was done [bytes]
-    expected_seconds, expected_memory   [bytes] by the laws that a level is refused or planned by;
-                  of memory 0 without finite elements
-    mesh          finite elements only: the BlockMesh solved on
-    mesh_field    finite elements only, with stresses
-    operator      finite elements only: their compliance before the contact, where it was checked
-    material      (n,) [m] where what now stands at the grid's nodes stood without load; None: there
-    """
+    """One model on pressure elements of one pitch."""
 
     grid: HatGrid
     solution: ContactSolution
+    # (n,) [m] of the rough body's surface, averaged over each hat; positive into the body, with the
+    # model's own datum
     displacement: np.ndarray
-    patches: np.ndarray
-    seconds: dict[str, float]
-    unknowns: int
-    factor_memory: int = 0
-    peak_memory: int = 0
+    patches: np.ndarray  # (k, 2) [m] contact patches
+    seconds: dict[str, float]  # by stage
+    unknowns: int  # of the linear systems behind the compliance
+    factor_memory: int = 0  # bytes that their factors hold, 0 without any
+    peak_memory: int = 0  # largest memory of the process when the level was done [bytes]
+    # by the laws that a level is refused or planned by; memory [bytes], 0 without finite elements
     expected_seconds: float = 0.0
     expected_memory: float = 0.0
+    # one a friction coefficient; empty when no field is asked for
     stresses: tuple[StressResult, ...] = ()
-    mesh: BlockMesh | None = None
-    mesh_field: MeshField | RecoverableField | None = None
+    mesh: BlockMesh | None = None  # finite elements only: the BlockMesh solved on
+    mesh_field: MeshField | RecoverableField | None = None  # finite elements only, with stresses
+    # finite elements only: their compliance before the contact, where it was checked
     operator: ComplianceCheck | None = None
+    # (n,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
 
     @property
@@ -176,13 +155,11 @@ class Level:
 
 @dataclass(frozen=True)
 class ModelRun:
-    """All levels of one model, half_plane or finite_element, coarse to fine.
-
-    far_boundary_check  the coarsest level again on a block of half the size, where it is checked
-    """
+    """All levels of one model, half_plane or finite_element, coarse to fine."""
 
     name: str
     levels: tuple[Level, ...]
+    # the coarsest level again on a block of half the size, where it is checked
     far_boundary_check: Level | None = None
 
     @property

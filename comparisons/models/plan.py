@@ -22,26 +22,16 @@ class Skipped:
 
 @dataclass(frozen=True)
 class Plan:
-    """Steps of a run.
+    """Steps of a run."""
 
-    models         of MODELS
-    stress         compute subsurface fields
-    shared_factor  the roller's block is the body's with another modulus: one factorisation
-    coupling       solve the half-plane with and without normal-tangential coupling
-    effects        compute effects beside the scene's own where their estimates ask for it
-    domain_check   repeat the coarsest finite-element level on a block of half the size
-    skipped        steps, each with its reason
-    assumptions    of the models of this run
-    """
-
-    models: tuple[str, ...]
-    stress: bool
-    shared_factor: bool
-    coupling: bool
-    effects: bool
-    domain_check: bool
-    skipped: tuple[Skipped, ...]
-    assumptions: tuple[str, ...]
+    models: tuple[str, ...]  # of MODELS
+    stress: bool  # compute subsurface fields
+    shared_factor: bool  # the roller's block is the body's with another modulus: one factorisation
+    coupling: bool  # solve the half-plane with and without normal-tangential coupling
+    effects: bool  # compute effects beside the scene's own where their estimates ask for it
+    domain_check: bool  # repeat the coarsest finite-element level on a block of half the size
+    skipped: tuple[Skipped, ...]  # steps, each with its reason
+    assumptions: tuple[str, ...]  # of the models of this run
 
     @property
     def compares(self) -> bool:

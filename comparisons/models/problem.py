@@ -51,26 +51,20 @@ MARGIN, SMOOTH_MARGIN = 0.15, 0.5
 
 @dataclass(frozen=True)
 class Problem:
-    """What both models solve.
+    """What both models solve."""
 
-    scene      as resolved, its surface run in where it asks for that
-    modulus    E* of roller and body [Pa]
-    hertz      the smooth contact under the same load
-    gap        initial gap g0(x) [m] under a parabola, but for a constant
-    knots      (k,) [m] places where the gap's third derivative jumps, None if smooth
-    extent     (2,) [m] stretch of the surface that contact may reach
-    pitches    of the first levels, coarse to fine, each half of the one before [m]
-    asperities (k,) [m] where one ends and the next begins, ascending: largest values are compared
-               at the same asperity
-    """
-
-    scene: ResolvedScene
-    modulus: float
-    hertz: HertzContact
+    scene: ResolvedScene  # as resolved, its surface run in where it asks for that
+    modulus: float  # E* of roller and body [Pa]
+    hertz: HertzContact  # the smooth contact under the same load
+    # initial gap g0(x) [m] under a parabola, but for a constant
     gap: Callable[[np.ndarray], np.ndarray]
+    # (k,) [m] places where the gap's third derivative jumps, None if smooth
     knots: np.ndarray | None
-    extent: tuple[float, float]
+    extent: tuple[float, float]  # (2,) [m] stretch of the surface that contact may reach
+    # of the first levels, coarse to fine, each half of the one before [m]
     pitches: tuple[float, ...]
+    # (k,) [m] where one ends and the next begins, ascending: largest values are compared at the
+    # same asperity
     asperities: tuple[float, ...] = ()
 
     @property

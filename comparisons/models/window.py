@@ -18,14 +18,12 @@ SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searche
 class Window:
     """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
 
-    extent  [m] extremes are searched at |x| <= extent, whatever the density of x
-
     The spacing in x is the pitch of every level's pressure elements times or over a power of two.
     """
 
     x: np.ndarray
     z: np.ndarray
-    extent: float
+    extent: float  # [m] extremes are searched at |x| <= extent, whatever the density of x
 
     def stride(self, pitch: float) -> int:
         """Pressure elements of a pitch [m] from one x to the next, 1 where x is finer."""

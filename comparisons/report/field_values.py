@@ -28,14 +28,10 @@ DIGITS = 6  # of a place
 
 @dataclass(frozen=True)
 class FieldExplorer:
-    """What the page needs: choices of the reader, and the numbers as JSON.
+    """What the page needs: choices of the reader, and the numbers as JSON."""
 
-    components   symbol and words
-    frictions    coefficients in words
-    """
-
-    components: tuple[tuple[str, str], ...]
-    frictions: tuple[str, ...]
+    components: tuple[tuple[str, str], ...]  # symbol and words
+    frictions: tuple[str, ...]  # coefficients in words
     fields: "Markup"
 
 

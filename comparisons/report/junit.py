@@ -27,18 +27,13 @@ RESULTS: dict[Verdict | Validity, Result] = {
 
 @dataclass(frozen=True)
 class JunitCase:
-    """A test as CI systems show it.
+    """A test as CI systems show it."""
 
-    classname  what they group by, with dots
-    text       what was found
-    message    in a line, why it did not pass
-    """
-
-    classname: str
+    classname: str  # what they group by, with dots
     name: str
-    text: str
+    text: str  # what was found
     result: Result = "passed"
-    message: str = ""
+    message: str = ""  # in a line, why it did not pass
 
 
 def check_place(junit: Path | None) -> None:

@@ -19,14 +19,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Report:
-    """What was drawn.
-
-    pdf, no_pdf  where it was printed to, or why it was not; neither where that was not asked for
-    row          the run on a summary
-    """
+    """What was drawn."""
 
     page: Path
-    row: SummaryRow
+    row: SummaryRow  # the run on a summary
+    # where it was printed to, or why it was not; neither where that was not asked for
     pdf: Path | None = None
     no_pdf: str | None = None
 

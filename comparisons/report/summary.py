@@ -36,18 +36,13 @@ class Cell:
 
 @dataclass(frozen=True)
 class SummaryRow:
-    """A run.
-
-    report  its page
-    kind    the verdict in a word or two, with its sentence
-    cells   of those of COLUMNS that the run has
-    """
+    """A run."""
 
     title: str
-    report: Path
-    kind: str
+    report: Path  # its page
+    kind: str  # the verdict in a word or two, with its sentence
     sentence: str
-    cells: dict[str, Cell]
+    cells: dict[str, Cell]  # of those of COLUMNS that the run has
 
 
 def summary_row(outcome: Outcome) -> SummaryRow:

@@ -18,19 +18,14 @@ from comparisons.scenes.scene import ResolvedScene
 
 @dataclass(frozen=True)
 class Effect:
-    """One assumption that is dropped.
+    """One assumption that is dropped."""
 
-    label       short name for tables
-    words       what replaces the assumption, for tables
-    contained   whether a scene's finite elements have it
-    applies     whether it could differ from the half-plane at all in a scene
-    give        puts what `whole` has of it into a plainer scene
-    """
-
-    label: str
-    words: str
-    contained: Callable[[ResolvedScene], bool]
+    label: str  # short name for tables
+    words: str  # what replaces the assumption, for tables
+    contained: Callable[[ResolvedScene], bool]  # whether a scene's finite elements have it
+    # whether it could differ from the half-plane at all in a scene
     applies: Callable[[Problem], bool]
+    # puts what `whole` has of it into a plainer scene
     give: Callable[[ResolvedScene, ResolvedScene], ResolvedScene]
 
 

@@ -38,18 +38,12 @@ class NotComputedError(Exception):
 
 @dataclass(frozen=True)
 class SplitVariants:
-    """The variants that the split takes at one friction coefficient.
+    """The variants that the split takes at one friction coefficient."""
 
-    whole    with all effects
-    own      that stands for the scene's own finite elements, None: these
-    nothing  without any effect
-    pairs    by effect, with and without it
-    """
-
-    whole: ModelVariant
-    own: ModelVariant | None
-    nothing: ModelVariant
-    pairs: dict[str, tuple[ModelVariant, ModelVariant]]
+    whole: ModelVariant  # with all effects
+    own: ModelVariant | None  # that stands for the scene's own finite elements, None: these
+    nothing: ModelVariant  # without any effect
+    pairs: dict[str, tuple[ModelVariant, ModelVariant]]  # by effect, with and without it
 
     @property
     def wholes(self) -> tuple[ModelVariant, ...]:
@@ -65,20 +59,15 @@ class SplitVariants:
 
 @dataclass(frozen=True)
 class EffectContributions:
-    """At one friction coefficient, on one level.
+    """At one friction coefficient, on one level."""
 
-    whole    the finite elements with all effects
-    own      the scene's own
-    nothing  without any effect; None where nothing is split on this level
-    pairs    by effect, the solutions with and without it, as far as there are any
-    unsplit  why there can be no split, else None
-    """
-
-    whole: QuantitiesOfInterest
-    own: QuantitiesOfInterest
+    whole: QuantitiesOfInterest  # the finite elements with all effects
+    own: QuantitiesOfInterest  # the scene's own
+    # without any effect; None where nothing is split on this level
     nothing: QuantitiesOfInterest | None
+    # by effect, the solutions with and without it, as far as there are any
     pairs: dict[str, tuple[QuantitiesOfInterest, QuantitiesOfInterest]]
-    unsplit: str | None = None
+    unsplit: str | None = None  # why there can be no split, else None
 
     @property
     def not_contained(self) -> QuantitiesOfInterest:

@@ -54,26 +54,19 @@ GROWTH_OF_TIME = 3.2  # from one level to the next, at most
 
 @dataclass(frozen=True)
 class ErrorBudget:
-    """What separates the half-plane from the whole model, and both from the surface.
+    """What separates the half-plane from the whole model, and both from the surface."""
 
-    selection     which effects were computed
-    levels        that the whole was taken to; 0 where it has no solution
-    unsplit       why the difference of the models could not be split, else None
-    model_errors  of each quantity at each friction coefficient
-    sampling      by friction and quantity: what half the samples of the trace change
-    seconds       that the effects took
-    wholes        by friction, the finite elements with every effect that matters, on the finest
-                  level of the effects, with their fields
-    left_out      which further level of the whole cannot change a verdict, else None
-    """
-
-    selection: EffectSelection
-    levels: int
-    unsplit: str | None
-    model_errors: tuple[ModelError, ...]
+    selection: EffectSelection  # which effects were computed
+    levels: int  # that the whole was taken to; 0 where it has no solution
+    unsplit: str | None  # why the difference of the models could not be split, else None
+    model_errors: tuple[ModelError, ...]  # of each quantity at each friction coefficient
+    # by friction and quantity: what half the samples of the trace change
     sampling: dict[float, dict[str, float]]
-    seconds: float
+    seconds: float  # that the effects took
+    # by friction, the finite elements with every effect that matters, on the finest level of the
+    # effects, with their fields
     wholes: dict[float, Level] = field(default_factory=dict)
+    # which further level of the whole cannot change a verdict, else None
     left_out: str | None = None
 
     def of(self, quantity: str, friction: float) -> ModelError:

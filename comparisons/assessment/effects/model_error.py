@@ -43,37 +43,28 @@ NEAR = 0.5  # of the largest value: asperities below it do not compete
 
 @dataclass(frozen=True)
 class Estimate:
-    """A relative size with its uncertainty, absolute in the same measure.
-
-    moves_maximum  whether the effect by itself moves the largest value to another asperity
-    """
+    """A relative size with its uncertainty, absolute in the same measure."""
 
     value: float
     uncertainty: float
+    # whether the effect by itself moves the largest value to another asperity
     moves_maximum: bool = False
 
 
 @dataclass(frozen=True)
 class ModelError:
-    """Of one quantity at one friction coefficient, relative to the whole.
-
-    effects      by name, what each changes in the finite elements
-    interaction  what they change jointly beyond their sum
-    value        (half-plane - whole) / whole, or the norm of that difference
-    uncertainty  of `value`
-    jump         of a largest value: what the half-plane's own exceeds its value at the whole's
-                 asperity
-    moved        x [m] of the half-plane's largest value and of the whole's, where these are at two
-                 asperities, else None
-    """
+    """Of one quantity at one friction coefficient, relative to the whole."""
 
     quantity: str
     friction: float
-    effects: dict[str, Estimate]
-    interaction: float
-    value: float
-    uncertainty: float
+    effects: dict[str, Estimate]  # by name, what each changes in the finite elements
+    interaction: float  # what they change jointly beyond their sum
+    value: float  # (half-plane - whole) / whole, or the norm of that difference
+    uncertainty: float  # of `value`
+    # of a largest value: what the half-plane's own exceeds its value at the whole's asperity
     jump: float = 0.0
+    # x [m] of the half-plane's largest value and of the whole's, where these are at two asperities,
+    # else None
     moved: tuple[float, float] | None = None
 
     @property

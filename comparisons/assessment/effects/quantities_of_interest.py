@@ -28,17 +28,13 @@ LARGEST = {
 
 @dataclass(frozen=True)
 class QuantitiesOfInterest:
-    """Of one model at one friction coefficient, or a difference of such.
+    """Of one model at one friction coefficient, or a difference of such."""
 
-    figures    by compared quantity, SI: (k,) one an asperity, (1,) where it is no largest value
-    pressure   (n,) [Pa] at the nodes of the level's pressure elements
-    tau1       (m, k) [Pa] on the common window, None without [stress]
-    places     of a model: x [m] of its largest values, undeformed, as `figures`
-    """
-
+    # by compared quantity, SI: (k,) one an asperity, (1,) where it is no largest value
     figures: dict[str, np.ndarray]
-    pressure: np.ndarray
-    tau1: np.ndarray | None
+    pressure: np.ndarray  # (n,) [Pa] at the nodes of the level's pressure elements
+    tau1: np.ndarray | None  # (m, k) [Pa] on the common window, None without [stress]
+    # of a model: x [m] of its largest values, undeformed, as `figures`
     places: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __add__(self, other: QuantitiesOfInterest) -> QuantitiesOfInterest:

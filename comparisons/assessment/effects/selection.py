@@ -27,20 +27,13 @@ ORDER = (
 
 @dataclass(frozen=True)
 class EffectSelection:
-    """What becomes of every effect.
+    """What becomes of every effect."""
 
-    contained    the scene's own finite elements have it
-    added        computed beside, for the verdict
-    negligible   too small to matter, each with its estimate
-    impossible   would matter, but cannot be computed here: the reason
-    estimates    of all that apply, by effect and quantity
-    """
-
-    contained: frozenset[str]
-    added: frozenset[str]
-    negligible: dict[str, Sizes]
-    impossible: dict[str, str]
-    estimates: dict[str, Sizes]
+    contained: frozenset[str]  # the scene's own finite elements have it
+    added: frozenset[str]  # computed beside, for the verdict
+    negligible: dict[str, Sizes]  # too small to matter, each with its estimate
+    impossible: dict[str, str]  # would matter, but cannot be computed here: the reason
+    estimates: dict[str, Sizes]  # of all that apply, by effect and quantity
 
     @property
     def whole(self) -> frozenset[str]:

@@ -35,31 +35,25 @@ CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 
 @dataclass
 class SolvedVariants:
-    """Quantities of interest of model variants on the levels of a problem.
-
-    own       the scene's own finite elements; None while they are not solved yet
-    cache     of levels
-    tasks     that solve the variants
-    patches   (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
-    solved    by variant, number of the level from 1, and friction coefficient
-    failed    why a variant has no solution, by variant and number of the level
-    seconds   that the variants took, of all processes together
-    expected  the same by the laws of cost [s], by variant and number of the level
-    wholes    the variants whose finest level is kept, with its fields; by these, the level
-    """
+    """Quantities of interest of model variants on the levels of a problem."""
 
     problem: Problem
     window: Window | None
-    own: ModelRun | None
-    cache: Cache
-    tasks: Tasks
+    own: ModelRun | None  # the scene's own finite elements; None while they are not solved yet
+    cache: Cache  # of levels
+    tasks: Tasks  # that solve the variants
+    # (k, 2) [m] of the half-plane's contact: what the variants' tasks will take
     patches: np.ndarray
+    # by variant, number of the level from 1, and friction coefficient
     solved: dict[tuple[ModelVariant, int, float], QuantitiesOfInterest] = field(
         default_factory=dict
     )
+    # why a variant has no solution, by variant and number of the level
     failed: dict[tuple[ModelVariant, int], NotComputedError] = field(default_factory=dict)
-    seconds: float = 0.0
+    seconds: float = 0.0  # that the variants took, of all processes together
+    # the same by the laws of cost [s], by variant and number of the level
     expected: dict[tuple[ModelVariant, int], float] = field(default_factory=dict)
+    # the variants whose finest level is kept, with its fields; by these, the level
     wholes: dict[ModelVariant, Level | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -10,16 +10,12 @@ STRAINED = "P2"  # elements of finite deformation
 
 @dataclass(frozen=True)
 class ModelVariant:
-    """A finite-element model of the scene with other effects.
+    """A finite-element model of the scene with other effects."""
 
-    effects    names of those that it has
-    friction   the coefficient that shapes its pressures; None: they are the same for all
-    quadratic  its elements are those that finite deformation takes
-    """
-
-    effects: frozenset[str]
+    effects: frozenset[str]  # names of those that it has
+    # the coefficient that shapes its pressures; None: they are the same for all
     friction: float | None = None
-    quadratic: bool = False
+    quadratic: bool = False  # its elements are those that finite deformation takes
 
     @property
     def name(self) -> str:

@@ -34,16 +34,13 @@ HELD = 3  # a rough body, and what presses it in two sets of effects
 
 @dataclass(frozen=True)
 class BodyPair:
-    """What presses and is pressed.
+    """What presses and is pressed."""
 
-    rough         the rough body
-    roller        the roller's own body; None: rigid, or the rough body's block serves for both
-    roller_share  of the rough body's own compliance that an elastic roller without a body of its
-                  own adds: the ratio of their moduli, 0 for a rigid one
-    """
-
-    rough: ElasticBody
+    rough: ElasticBody  # the rough body
+    # the roller's own body; None: rigid, or the rough body's block serves for both
     roller: ElasticBody | None
+    # of the rough body's own compliance that an elastic roller without a body of its own adds: the
+    # ratio of their moduli, 0 for a rigid one
     roller_share: float
 
     @property

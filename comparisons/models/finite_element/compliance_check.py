@@ -77,22 +77,17 @@ class Differences:
 
 @dataclass(frozen=True)
 class ComplianceCheck:
-    """Of one level.
+    """Of one level."""
 
-    nearest       from the analytic surface that is nearest to the scene's bodies
-    datum         whether displacements count from a base; else a constant was removed
-    not_modelled  what the nearest surface does not model of these finite elements
-    half_plane    from half-planes of body and roller, where the body is `finite` in some respect;
-                  this difference is an effect of the body and no error
-    verdict       neither | mesh | modulus | block | geometry, and why
-    """
-
-    nearest: Differences
-    datum: bool
+    nearest: Differences  # from the analytic surface that is nearest to the scene's bodies
+    datum: bool  # whether displacements count from a base; else a constant was removed
+    # what the nearest surface does not model of these finite elements
     not_modelled: tuple[str, ...]
+    # from half-planes of body and roller, where the body is `finite` in some respect; this
+    # difference is an effect of the body and no error
     half_plane: Differences | None
     finite: tuple[str, ...]
-    verdict: str
+    verdict: str  # neither | mesh | modulus | block | geometry, and why
     because: str
 
     def as_dict(self) -> dict:

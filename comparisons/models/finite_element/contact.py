@@ -27,15 +27,11 @@ Direction = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
 @dataclass(frozen=True)
 class Part:
-    """One body's share of the mutual displacement.
-
-    factor    of the body's compliance, where it serves for a body of another modulus too
-    friction  sliding traction over pressure, towards +x
-    """
+    """One body's share of the mutual displacement."""
 
     compliance: FiniteElementCompliance
-    factor: float
-    friction: float
+    factor: float  # of the body's compliance, where it serves for a body of another modulus too
+    friction: float  # sliding traction over pressure, towards +x
 
 
 class MutualCompliance:

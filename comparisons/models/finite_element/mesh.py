@@ -32,13 +32,10 @@ DISC_HALF_WIDTH, DISC_DEPTH = 0.7, 0.6  # of the radius, at most: a sector of th
 
 @dataclass(frozen=True)
 class Refinement:
-    """How fine a level is.
+    """How fine a level is."""
 
-    pitch        of the pressure elements [m]
-    half_block   support an unbounded body at half its width and depth, on the same mesh
-    """
-
-    pitch: float
+    pitch: float  # of the pressure elements [m]
+    # support an unbounded body at half its width and depth, on the same mesh
     half_block: bool = False
 
 

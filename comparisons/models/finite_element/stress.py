@@ -24,29 +24,23 @@ from fem.stress.surface_load import SurfaceLoad
 
 @dataclass(frozen=True)
 class LoadedBody:
-    """The rough body in contact.
-
-    displacement  (count,) [m^2] of its surface into the body, weighted by each hat
-    stresses      one for each of some friction coefficients
-    patches       (k, 2) [m] contact patches
-    across        stress across the plane (n,) [Pa] at the mesh's points; None: nu (sx + sz)
-    others        further fields there, by name
-    moved         (n, 2) [m] at the nodes of the displacement; None: the stresses have it
-    on_mesh       what stresses at all points of the mesh are recovered from, by displacements and
-                  friction coefficients; None: these stresses are known already
-    material      (count,) [m] where what now stands at the grid's nodes stood without load; None:
-                  there
-    """
+    """The rough body in contact."""
 
     body: ElasticBody
     solution: ContactSolution
-    displacement: np.ndarray
+    displacement: np.ndarray  # (count,) [m^2] of its surface into the body, weighted by each hat
+    # one for each of some friction coefficients
     stresses: Callable[[tuple[float, ...]], tuple[NodalStress, ...]]
-    patches: np.ndarray
+    patches: np.ndarray  # (k, 2) [m] contact patches
+    # stress across the plane (n,) [Pa] at the mesh's points; None: nu (sx + sz)
     across: np.ndarray | None = None
-    others: dict[str, np.ndarray] = field(default_factory=dict)
+    others: dict[str, np.ndarray] = field(default_factory=dict)  # further fields there, by name
+    # (count,) [m] where what now stands at the grid's nodes stood without load; None: there
     material: np.ndarray | None = None
+    # what stresses at all points of the mesh are recovered from, by displacements and friction
+    # coefficients; None: these stresses are known already
     on_mesh: Callable[[np.ndarray, tuple[float, ...]], RecoverableField] | None = None
+    # (n, 2) [m] at the nodes of the displacement; None: the stresses have it
     moved: np.ndarray | None = None
 
 

@@ -40,17 +40,14 @@ LOOKS = {
 
 @dataclass(frozen=True)
 class Waterfall:
-    """The steps to the error of a quantity at one or more friction coefficients.
-
-    steps         relative sizes by name, with the sign of the error; of a figure they add up to it
-    uncertainty   of `error`; `not_modelled` is the estimate of what else it may be
-    """
+    """The steps to the error of a quantity at one or more friction coefficients."""
 
     quantity: str
     name: str
+    # relative sizes by name, with the sign of the error; of a figure they add up to it
     steps: dict[str, float]
     error: float
-    uncertainty: float
+    uncertainty: float  # of `error`; `not_modelled` is the estimate of what else it may be
     not_modelled: float
     tolerance: float | None
 

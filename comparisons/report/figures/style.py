@@ -72,24 +72,15 @@ _SETTINGS = {
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawn picture.
+    """A drawn picture."""
 
-    source       data URI
-    alternative  what it shows, for those who cannot see it
-    caption      what it shows and how to read it
-    narrow       data URI of a version for narrow screens
-    wide         across the page
-    field        JSON: which field is drawn where, for values under the pointer
-    data         words of a link to its curves as CSV, and their data URI
-    """
-
-    source: str
-    alternative: str
-    caption: str
-    narrow: str | None = None
-    wide: bool = False
-    field: str | None = None
-    data: tuple[str, str] | None = None
+    source: str  # data URI
+    alternative: str  # what it shows, for those who cannot see it
+    caption: str  # what it shows and how to read it
+    narrow: str | None = None  # data URI of a version for narrow screens
+    wide: bool = False  # across the page
+    field: str | None = None  # JSON: which field is drawn where, for values under the pointer
+    data: tuple[str, str] | None = None  # words of a link to its curves as CSV, and their data URI
 
 
 _COLLECTED: "ContextVar[list[Figure] | None]" = ContextVar("collected_figures", default=None)

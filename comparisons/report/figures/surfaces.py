@@ -21,16 +21,13 @@ POINTS_PER_INCH = 90  # of an outline across a panel
 
 @dataclass(frozen=True)
 class Surfaces:
-    """Heights [m] on a level's pressure elements, averaged over each; all (n,).
+    """Heights [m] on a level's pressure elements, averaged over each; all (n,)."""
 
-    x                            [m]
-    body, roller                 under load; they coincide in the contact
-    body_before, roller_before   before loading, at first touch
-    """
-
-    x: np.ndarray
+    x: np.ndarray  # [m]
+    # under load; they coincide in the contact
     body: np.ndarray
     roller: np.ndarray
+    # before loading, at first touch
     body_before: np.ndarray
     roller_before: np.ndarray
 
