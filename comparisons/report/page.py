@@ -1,6 +1,6 @@
 """The report: one page that opens without a network and prints without loss."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from importlib import import_module
 
@@ -63,9 +63,8 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
 }
 
 
-def render(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> str:
-    """The page of a finished run; equal outcomes give equal text. Works `beside` are carried out
-    side by side with the drawing."""
+def render(outcome: Outcome) -> str:
+    """The page of a finished run; equal outcomes give equal text."""
     script, policy = inline("field_values.js")
     errors = [] if outcome.budget is None else model_error_rows(outcome)
     return rendered(
@@ -106,16 +105,16 @@ def render(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> str
         planned=outcome.forecast.text,
         record=record_rows(outcome),
         commands=commands(outcome),
-        pictures=draw(outcome, beside),
+        pictures=draw(outcome),
     )
 
 
-def draw(outcome: Outcome, beside: Sequence[Callable[[], object]] = ()) -> dict[str, object]:
-    """What each of PICTURES gives, drawn side by side, and with works `beside`."""
+def draw(outcome: Outcome) -> dict[str, object]:
+    """What each of PICTURES gives, drawn side by side."""
     for name in ("matplotlib.figure", "matplotlib.backends.backend_svg"):
         import_module(name)  # once for all copies
     works = [partial(_drawn, name, outcome) for name in PICTURES]
-    return dict(zip(PICTURES, side_by_side([*beside, *works])[len(beside) :], strict=True))
+    return dict(zip(PICTURES, side_by_side(works), strict=True))
 
 
 def _drawn(name: str, outcome: Outcome) -> object:

@@ -182,6 +182,11 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
             return Stated(own * scale, quantity, scale)
         case ("answers", *_):
             return Stated(abs(value), "itself", abs(value) or 1.0)
+        case ("quiescent_zone", model, int(entry), str(quantity), "value" | "uncertainty"):
+            own = _number(recorded["quiescent_zone"][model][entry][quantity]["uncertainty"])
+            return Stated(own, "itself", abs(value) or 1.0)
+        case ("quiescent_zone", *_):
+            return _largest(recorded, abs(value) or 1.0)
         case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")
         case ("hertz" | "groups", _) if _moves_load(recorded):

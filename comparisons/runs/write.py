@@ -8,6 +8,7 @@ import numpy as np
 from comparisons.common.errors import one_line
 from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
+from comparisons.common.processes import side_by_side
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.models.level import Level, deformed_height
@@ -38,7 +39,8 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         callback("drawing the report")
-        (folder / "report.html").write_text(render(outcome, works), encoding="utf-8")
+        side_by_side(works)
+        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
