@@ -155,11 +155,6 @@ class QuiescentZone:
         across = abs(self.dip.ratio - QUIET) <= self.uncertainty["ratio"]
         return UNCLEAR if across else self.dip.status
 
-    @property
-    def bridged(self) -> int:
-        """Asperities below which shear does not fall."""
-        return sum(each.dip.status == BRIDGED for each in self.asperities)
-
     def as_dict(self) -> dict:
         """For result.json: SI, None for what is unknown or not there."""
         figures = {
@@ -170,7 +165,8 @@ class QuiescentZone:
             {"x": each.x, "length": each.length, "level": each.dip.level, "status": each.dip.status}
             for each in self.asperities
         ]
-        account = {"bridged": self.bridged, "asperities": below}
+        bridged = sum(each["status"] == BRIDGED for each in below)
+        account = {"bridged": bridged, "asperities": below}
         return {"friction": self.friction, "status": self.status, **figures, **account}
 
 

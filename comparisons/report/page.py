@@ -16,13 +16,14 @@ from comparisons.report.figures.model_error import model_error_picture
 from comparisons.report.figures.pressures import close_up_picture, pressure_picture
 from comparisons.report.figures.problem import problem_picture
 from comparisons.report.figures.running_in import running_in_picture
-from comparisons.report.figures.sections import section_pictures
+from comparisons.report.figures.sections import bulge_picture, section_pictures
 from comparisons.report.figures.statistics import statistics_pictures
 from comparisons.report.figures.style import drawing
 from comparisons.report.figures.surfaces import surface_picture
 from comparisons.report.headline import headline
 from comparisons.report.html import inline, rendered
 from comparisons.report.tables.answers import answer_facts, answer_table, measured_table
+from comparisons.report.tables.bulge import bulge_table
 from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
@@ -57,6 +58,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
     "problem": problem_picture,
     "surface": surface_picture,
     "running_in": running_in_picture,
+    "bulge": bulge_picture,
     "cost": cost_picture,
     "answers": answer_pictures,
     "statistics": statistics_pictures,
@@ -94,6 +96,7 @@ def render(outcome: Outcome) -> str:
         effects=effects_table(outcome),
         flow=flow_table(outcome),
         zone=zone_table(outcome),
+        bulge=bulge_table(outcome),
         answers=[
             (each.name, answer_table(outcome, each), answer_facts(each), measured_table(each))
             for each in outcome.answers

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from analytic.contact.problem import ContactError
 from comparisons.answers.answer import Answer
+from comparisons.assessment.bulge import bulges
 from comparisons.assessment.comparison import compared, pair_histories
 from comparisons.assessment.effects.error_budget import (
     ErrorBudget,
@@ -155,6 +156,7 @@ def solve(
         raise
     result = result_of(problem, plan, runs, rows, stop, moved, budget, scatter)
     result["quiescent_zone"] = quiescent_zones(problem, runs, window)
+    result["bulge"] = bulges(problem, runs, window)
     result["statistics"] = statistics and statistics.as_dict()
     hashes = {f"{n}_pressure": digest(run.finest.solution.pressure) for n, run in runs.items()}
     run_in = problem.scene.run_in

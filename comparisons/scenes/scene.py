@@ -107,11 +107,13 @@ class Extent:
 
 @dataclass(frozen=True)
 class StressWindow:
-    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz)."""
+    """The points of the subsurface field: |x| <= half_range, 0 <= z <= depth; `points` (nx, nz).
+    `bulge` asks for what sliding raises ahead of the contact."""
 
     depth: Extent
     half_range: Extent
     points: tuple[int, int]
+    bulge: bool = False
 
 
 @dataclass(frozen=True)

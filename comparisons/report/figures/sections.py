@@ -1,4 +1,5 @@
-"""Principal shear over depth on two verticals, after Bailey and Sayles (1991), figure 11."""
+"""Principal shear over depth on two verticals, after Bailey and Sayles (1991), figure 11; and the
+surface ahead of a sliding contact over the distance from it."""
 
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 NEAR = 0.1  # half-widths: depth of the enlarged part of a rough section
 TOP, TITLE, TALL, FOOT = 0.24, 0.3, 1.85, 0.46  # inches
 LEFT, ROOM, BETWEEN = 0.616, 4.872, 0.28  # inches
+FARTHEST = 5.0  # half-widths, of the surface
+BULGE = {"color": "#222222", "marker": "_", "linewidth": 0.8}
 
 
 def section_pictures(outcome: Outcome) -> list[style.Picture]:
@@ -108,3 +111,31 @@ def _section(axes: "Axes", outcome: Outcome, column: int, friction: float, depth
             axes.axvspan(*ends, color="#009E73", alpha=0.14, linewidth=0.0, label="quiescent zone")
     axes.set_xlim(0.0, depth)
     axes.locator_params(axis="x", nbins=6)
+
+
+def bulge_picture(outcome: Outcome) -> style.Picture | None:
+    """None where the run has no bulge."""
+    entries = (outcome.result.get("bulge") or {}).get("by_friction", ())
+    if not entries:
+        return None
+    a = outcome.problem.hertz.half_width
+    h = a**2 / outcome.problem.scene.roller_radius
+    drawn = style.figure(style.COLUMN, 2.6)
+    [axes] = style.stacked(drawn, [(0.35, 1.75)], 0.75)
+    for entry in entries:
+        s = np.array(entry["distance"]) / a
+        look = {"label": f"friction {plain(entry['friction'])}", "linewidth": 1.3}
+        axes.plot(s[s <= FARTHEST], np.array(entry["rise"])[s <= FARTHEST] / h, **look)
+        ends = np.array([entry["half_plane"], entry["half_plane"] + entry["height"]]) / h
+        axes.plot(np.full(2, entry["at"] / a), ends, **BULGE)
+    axes.axhline(0.0, color="#222222", linewidth=0.7)
+    axes.set(xlim=(0.0, FARTHEST), xlabel="s/a", ylabel="ahead − behind, over h")
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.1)
+    largest = "; ".join(
+        f"friction {plain(each['friction'])}: {significant(each['over_penetration'], 3)} h"
+        for each in entries
+    )
+    words = "Surface ahead of the sliding contact less that as far behind it, raised by the "
+    words += f"traction alone, over the distance from the load's centre. Bulge: {largest}."
+    caption = f"{words} Bars: it, from the half-plane's exact step up; h = a²/R."
+    return style.Picture(style.data_uri(drawn), words, caption, data=style.csv_link(drawn))

@@ -127,6 +127,7 @@ class StressWindowSection(SceneSection):
     depth: Annotated[Extent, ExtentField()] = Extent(1.0, in_half_widths=True)
     half_range: Annotated[Extent, ExtentField()] = Extent(1.5, in_half_widths=True)
     points: Annotated[tuple[int, int], Grid(MOST_STRESS_POINTS, MOST_STRESS_LINES)] = (600, 200)
+    bulge: Annotated[bool, Truth()] = False
 
 
 class ToleranceSection(SceneSection):

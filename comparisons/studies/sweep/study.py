@@ -82,15 +82,12 @@ def solved(point: SweepPoint, name: str) -> dict:
         rows = tuple(rows_of(outcome.result, name))
         found = {"status": SOLVED, "rows": rows}
         if (zones := outcome.result["quiescent_zone"]) and "why" not in zones:
-            found[ZONE] = {model: _counted(entries) for model, entries in zones.items()}
+            for entry in (each for entries in zones.values() for each in entries):
+                entry["asperities"] = len(entry["asperities"])
+            found[ZONE] = zones
     except (InputError, SolverError, ArithmeticError) as error:
         found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
-
-
-def _counted(entries: list[dict]) -> list[dict]:
-    """Of the quiescent zone by friction, with the number of its asperities in place of them."""
-    return [entry | {"asperities": len(entry["asperities"])} for entry in entries]
 
 
 def sweep_content(request: SweepRequest, cache: Cache) -> dict:

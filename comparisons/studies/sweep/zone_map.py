@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 COLOURS = {QUIESCENT: "#56B4E9", UNCLEAR: "#F0E442", BRIDGED: "#E69F00", SMOOTH: "#e4e4e4"}
 CELL, LEFT, RIGHT, ABOVE, FOOT = (0.5, 0.24), 1.25, 0.3, 0.32, 0.8  # inches
 LEAST_WIDE = 5.0
+SQUARE = (-0.5, 0.5, 0.5, -0.5), (-0.5, -0.5, 0.5, 0.5)
 FRICTION = "load.friction"
 
 Entries = dict[tuple, dict]  # of result.json by values of the swept fields without friction
@@ -59,15 +60,10 @@ def zone_map_figure(content: dict) -> "Figure":
 def _draw(axes: "Axes", entries: Entries, columns: list, rows: list[tuple]) -> None:
     for key, entry in entries.items():
         at = columns.index(key[0] if key else ""), rows.index(key[1:])
-        corner = np.array(at) - 0.5
-        axes.fill(
-            corner[0] + np.array([0, 1, 1, 0]),
-            corner[1] + np.array([0, 0, 1, 1]),
-            facecolor=COLOURS[entry["status"]],
-            edgecolor="white",
-        )
-        level = entry["level"]["value"]
-        axes.text(*at, f"{level:.2f}", ha="center", va="center", fontsize=8.0)
+        square = np.add(SQUARE, np.reshape(at, (2, 1)))
+        axes.fill(*square, facecolor=COLOURS[entry["status"]], edgecolor="white")
+        level = f"{entry['level']['value']:.2f}"
+        axes.text(*at, level, ha="center", va="center", fontsize=8.0)
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(-0.5, len(rows) - 0.5))
     axes.set_xticks(range(len(columns)), [str(value) for value in columns], fontsize=7.5)
     axes.set_yticks(range(len(rows)), [", ".join(map(str, row)) for row in rows], fontsize=7.5)

@@ -1,7 +1,5 @@
 """Which waves bridge the quiescent zone below a roller, on the half-plane."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from analytic.operators.tangential import CoupledHalfPlane
@@ -9,19 +7,17 @@ from analytic.stress.field import friction_field
 from comparisons.assessment.comparison import DEEP
 from comparisons.assessment.quiescent_zone import QUIET, mean_shear, shear_dip
 from comparisons.models.nearest_operator import solve_on
-
-if TYPE_CHECKING:
-    from comparisons.studies.paper.claims.readings import LevelView, Reading
+from comparisons.studies.paper.claims.readings import LevelView, Reading
 
 WAVES = np.geomspace(0.2, 0.8, 9)  # a
 SEVERITY = 2.0  # p0: the mean pressure that would close the waves, pi E* height / wavelength
 
 
-def bridging_wavelength(friction: float) -> "Reading":
+def bridging_wavelength(friction: float) -> Reading:
     """Shortest wave [a], a crest under the roller's middle, over whose zone the mean shear falls
     nowhere below QUIET of both maxima; infinite where there is none up to 0.8 a."""
 
-    def reading(view: "LevelView") -> float:
+    def reading(view: LevelView) -> float:
         ratios = np.array([_ratio(view, wave, friction) for wave in WAVES])
         bridging = np.flatnonzero(ratios >= QUIET)
         if len(bridging) == 0:
@@ -32,7 +28,7 @@ def bridging_wavelength(friction: float) -> "Reading":
     return reading
 
 
-def _ratio(view: "LevelView", wave: float, friction: float) -> float:
+def _ratio(view: LevelView, wave: float, friction: float) -> float:
     """Least mean shear over the smaller maximum, under waves [a] on the view's smooth body."""
     problem, grid, window = view.problem, view.level.grid, view.window
     hertz, length = problem.hertz, wave * problem.hertz.half_width
