@@ -208,7 +208,7 @@ def no_pictures() -> Callable[[Outcome], dict]:
     the page has all its words, and nothing to look at."""
     blank = Picture("data:image/svg+xml;base64,", "", "")
 
-    def pictures(outcome: Outcome) -> dict[str, object]:
+    def pictures(outcome: Outcome, beside: object = ()) -> dict[str, object]:
         run_in = None if outcome.problem.scene.run_in is None else blank
         budget = None if outcome.budget is None else blank
         made = dict.fromkeys(PICTURES, blank) | {"running_in": run_in, "model_error": budget}
