@@ -167,7 +167,10 @@ class FiniteContact:
     def by_newton(
         self, load: float | None, approach: float | None = None, hardness: float = np.inf
     ) -> "FiniteDeformation":
-        """Pressed as `press_finitely`, on its own tangents."""
+        """Pressed on its own tangents, from the linear solution under `start`: by a load P [N/m],
+        the vertical force, or to an `approach` d [m] of the roller's lowest point from z = 0,
+        positive into the body. `hardness` H [Pa] caps `pressure`. Raises FemError if it does not
+        converge, ValueError for a load that the hats cannot bear."""
         state = ContactState((self.linear,), self._start, approach=0.0)
         constant, wanted = np.zeros_like(self.weights), (load, approach, hardness)
         for _ in range(MOST_SETTINGS):
@@ -308,51 +311,6 @@ class FiniteCompliance:
         )
         bodies = zip(self._contact.elastic, pieces, strict=True)
         return np.vstack([body.solve(piece) for body, piece in bodies])
-
-
-def press_finitely(
-    body: ElasticBody,
-    hats: np.ndarray,
-    roller: Roller | FiniteElementCompliance,
-    start: np.ndarray,
-    load: float | None = None,
-    approach: float | None = None,
-    friction: float = 0.0,
-    hardness: float = np.inf,
-    far: FarField | None = None,
-) -> FiniteDeformation:
-    """Press a body by a roller whose lowest point is at x = 0, by Newton's method.
-
-    load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
-               z = 0, positive into the body
-    hardness   H [Pa], cap on `pressure`
-
-    Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
-    Raises FemError if it does not converge, and on more than one process; ValueError for a load
-    that the hats cannot bear.
-    """
-    contact = FiniteContact(body, hats, roller, start, friction, far)
-    return contact.by_newton(load, approach, hardness)
-
-
-def press(
-    bodies: list[tuple[Response, Contact]],
-    body: ElasticBody,
-    hats: np.ndarray,
-    start: np.ndarray,
-    load: float | None = None,
-    approach: float | None = None,
-    friction: float = 0.0,
-    hardness: float = np.inf,
-    gap: np.ndarray | None = None,
-) -> NonlinearSolution:
-    """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
-    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only."""
-    moved = _started(FiniteElementCompliance(body, hats), start, friction)
-    weights = 0.5 * (hats[2:] - hats[:-2])
-    gap = np.zeros_like(weights) if gap is None else gap
-    state = ContactState((moved,), start, approach=0.0)
-    return solve_nonlinear_contact(bodies, gap, weights, state, load, approach, hardness)
 
 
 def _started(

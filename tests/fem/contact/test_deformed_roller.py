@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from pressed_bodies import press_finitely
 from scenes import hat_nodes
 
 from analytic.contact.patches import contact_patches
@@ -20,7 +21,6 @@ from fem.contact.deformed_roller import DeformedSurface, PairContact
 from fem.contact.nonlinear import solve_nonlinear_contact, state_at_rest
 from fem.contact.rigid_roller import CurrentContact, parabola
 from fem.contact.terms import LinearContact, LinearResponse
-from fem.nonlinear.finite_deformation import press_finitely
 from fem.solver.mumps import FemError
 from fem.stress.maximum import maximum
 from meshes.block import BlockSpec

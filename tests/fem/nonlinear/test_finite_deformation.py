@@ -5,6 +5,7 @@ Lengths in half-widths of the contact that Hertz expects, stresses in Young's mo
 
 import numpy as np
 import pytest
+from pressed_bodies import press, press_finitely
 from scenes import hat_nodes
 
 from analytic.exact.westergaard import westergaard_from_mean_pressure
@@ -16,7 +17,6 @@ from fem.contact import nonlinear as nonlinear_contact
 from fem.contact.nonlinear import RESIDUAL
 from fem.contact.rigid_roller import CurrentContact, circle, parabola
 from fem.contact.terms import LinearContact, LinearResponse
-from fem.nonlinear.finite_deformation import press, press_finitely
 from fem.solver.mumps import FemError
 from fem.stress.maximum import highest_node
 from fem.stress.stress import nodal_stress

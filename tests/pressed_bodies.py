@@ -1,0 +1,57 @@
+"""A body pressed from a guessed pressure alone: by a roller, or with a chosen response."""
+
+import numpy as np
+
+from fem.body.elasticity import ElasticBody
+from fem.compliance.far_field import FarField
+from fem.compliance.operator import FiniteElementCompliance
+from fem.contact.nonlinear import ContactState, NonlinearSolution, solve_nonlinear_contact
+from fem.contact.rigid_roller import Roller
+from fem.contact.terms import Contact, Response
+from fem.nonlinear.finite_deformation import FiniteContact, FiniteDeformation
+
+
+def press_finitely(
+    body: ElasticBody,
+    hats: np.ndarray,
+    roller: Roller | FiniteElementCompliance,
+    start: np.ndarray,
+    load: float | None = None,
+    approach: float | None = None,
+    friction: float = 0.0,
+    hardness: float = np.inf,
+    far: FarField | None = None,
+) -> FiniteDeformation:
+    """Press a body by a roller whose lowest point is at x = 0, by Newton's method.
+
+    load       P [N/m], the vertical force; or `approach` d [m] of the roller's lowest point from
+               z = 0, positive into the body
+    hardness   H [Pa], cap on `pressure`
+
+    Others as of `FiniteContact`; Newton's method starts from the linear solution under `start`.
+    Raises FemError if it does not converge, and on more than one process; ValueError for a load
+    that the hats cannot bear.
+    """
+    contact = FiniteContact(body, hats, roller, start, friction, far)
+    return contact.by_newton(load, approach, hardness)
+
+
+def press(
+    bodies: list[tuple[Response, Contact]],
+    body: ElasticBody,
+    hats: np.ndarray,
+    start: np.ndarray,
+    load: float | None = None,
+    approach: float | None = None,
+    friction: float = 0.0,
+    hardness: float = np.inf,
+    gap: np.ndarray | None = None,
+) -> NonlinearSolution:
+    """The contact of `body` with a chosen response and kinematics, started as `press_finitely`.
+    `gap` (count,) [m^2] is the initial gap, for contact on the undeformed surface only."""
+    moved = FiniteElementCompliance(body, hats).displacement(start, friction)
+    moved = np.where(body.held, 0.0, moved)
+    weights = 0.5 * (hats[2:] - hats[:-2])
+    gap = np.zeros_like(weights) if gap is None else gap
+    state = ContactState((moved,), start, approach=0.0)
+    return solve_nonlinear_contact(bodies, gap, weights, state, load, approach, hardness)
