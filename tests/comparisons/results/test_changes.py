@@ -100,6 +100,20 @@ class TestFigures:
         total = figures["models"]["finite_element"][0]["uncertainty"][of]["total"]
         assert stated_for(path, value, figures).allowed == pytest.approx(total * value)
 
+    def test_zone_and_bulge_by_what_they_state(self, figures):
+        level = {"value": 0.4, "uncertainty": 0.01}
+        stated = {
+            "quiescent_zone": {"half_plane": [{"level": level}]},
+            "bulge": {"by_friction": [{"height": 2e-8, "uncertainty": 3e-9, "rise": [1e-8]}]},
+        }
+        recorded = figures | stated
+        zone = ("quiescent_zone", "half_plane", 0, "level", "value")
+        assert stated_for(zone, 0.4, recorded).allowed == 0.01
+        for place in (("height",), ("rise", 0)):
+            found = stated_for(("bulge", "by_friction", 0, *place), 2e-8, recorded)
+            assert found.allowed == 3e-9
+        assert stated_for(("bulge", "by_friction", 0, "at"), 1e-4, recorded).allowed > 0.0
+
     def test_a_difference_by_its_own_uncertainty(self, figures):
         row = figures["comparison"]["tau1_max"][0]
         path = ("comparison", "tau1_max", 0, "difference")
