@@ -15,8 +15,7 @@ from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
 from comparisons.common.progress import Stages, peak_memory
 from comparisons.models.level import ExpectedCost, Level, StressResult
-from comparisons.models.nearest_operator import solve_on
-from comparisons.models.problem import Problem, ends_of
+from comparisons.models.problem import Problem, ends_of, pressed_on
 from comparisons.models.window import Window, search_window
 
 # Of a level with stresses, measured from 5 000 to 160 000 nodes.
@@ -53,8 +52,7 @@ def half_plane_on(
     """
     with stages.stage("contact", "half-plane: contact"):
         operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
-        weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-        solution = solve_on(operator, weighted_gap, grid.weights, problem.constraints())
+        solution = pressed_on(problem, grid, operator)
         body = HalfPlane(grid.count, grid.pitch, problem.scene.body.plane_strain_modulus)
         level = Level(
             grid=grid,

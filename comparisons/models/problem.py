@@ -56,10 +56,6 @@ class Problem:
     scene: ResolvedScene  # as resolved, its surface run in where it asks for that
     modulus: float  # E* of roller and body [Pa]
     hertz: HertzContact  # the smooth contact under the same load
-    # initial gap g0(x) [m] under a parabola, but for a constant
-    gap: Callable[[np.ndarray], np.ndarray]
-    # (k,) [m] places where the gap's third derivative jumps, None if smooth
-    knots: np.ndarray | None
     extent: tuple[float, float]  # (2,) [m] stretch of the surface that contact may reach
     # of the first levels, coarse to fine, each half of the one before [m]
     pitches: tuple[float, ...]
@@ -88,11 +84,23 @@ class Problem:
         return max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)
 
     @cached_property
+    def gap(self) -> Callable[[np.ndarray], np.ndarray]:
+        """Initial gap g0(x) [m] under a parabola, but for a constant."""
+        return self._gap_under("parabola")
+
+    @cached_property
     def finite_element_gap(self) -> Callable[[np.ndarray], np.ndarray]:
         """Initial gap g0(x) [m] of the finite elements' roller, but for a constant."""
+        return self._gap_under(self.scene.finite_element.roller_shape)
+
+    def _gap_under(self, shape: str) -> Callable[[np.ndarray], np.ndarray]:
         curve = None if self.scene.profile is None else surface(self.scene.profile)
-        shape = self.scene.finite_element.roller_shape
         return roller_gap(self.scene.roller_radius, curve, shape)
+
+    @property
+    def knots(self) -> np.ndarray | None:
+        """(k,) [m] places where the gap's third derivative jumps, None if smooth."""
+        return None if self.scene.profile is None else self.scene.profile.x
 
     @cached_property
     def first_touch(self) -> float:
@@ -146,16 +154,8 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     modulus = combined_modulus(scene.roller, scene.body)
     hertz = _smooth_contact(scene, modulus, load)
     _check_layers(scene, hertz.half_width)
-    curve = None if scene.profile is None else surface(scene.profile)
-    problem = Problem(
-        scene=scene,
-        modulus=modulus,
-        hertz=hertz,
-        gap=roller_gap(scene.roller_radius, curve),
-        knots=None if scene.profile is None else scene.profile.x,
-        extent=(-1.5 * hertz.half_width, 1.5 * hertz.half_width),
-        pitches=(),
-    )
+    extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
+    problem = Problem(scene, modulus, hertz, extent, pitches=())
     plain = scene.profile is None and scene.width is None and scene.hardness is None
     plain = plain and scene.coating is None
     if not plain or problem.coupling:
@@ -254,23 +254,33 @@ def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
 
 
 def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
-    """First and last contact [m] of either model between `low` and `high`, by SEARCH_HATS
-    pressures; and how near to the ends [m] that is too near."""
-    grid = HatGrid.within(low, high, (high - low) / SEARCH_HATS)
-    half_plane = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
-    start, stop = touched(problem, grid, half_plane)
+    """First and last contact [m] of either model between `low` and `high`, and how near to the
+    ends [m] that is too near."""
+    start, stop = _touched(problem, (low, high), layered=False)
     if is_layered(problem.scene):
-        other = touched(problem, grid, nearest_operator(problem.scene, grid))
+        other = _touched(problem, (low, high), layered=True)
         start, stop = min(start, other[0]), max(stop, other[1])
-    return (start, stop), 2.0 * grid.pitch
+    return (start, stop), 2.0 * (high - low) / SEARCH_HATS
 
 
-def touched(problem: Problem, grid: HatGrid, operator: ModelOperator) -> tuple[float, float]:
-    """First and last contact [m] on an operator."""
-    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-    solution = solve_on(operator, weighted_gap, grid.weights, problem.constraints())
+def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tuple[float, float]:
+    """First and last contact [m] between two ends by SEARCH_HATS pressures, on the half-plane or
+    on the body's layers."""
+    grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
+    operator = nearest_operator(problem.scene, grid) if layered else _half_plane(problem, grid)
+    solution = pressed_on(problem, grid, operator)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
+
+
+def _half_plane(problem: Problem, grid: HatGrid) -> CoupledHalfPlane:
+    return CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
+
+
+def pressed_on(problem: Problem, grid: HatGrid, operator: ModelOperator) -> ContactSolution:
+    """The contact of a problem on an analytic operator."""
+    weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
+    return solve_on(operator, weighted_gap, grid.weights, problem.constraints())
 
 
 def _pitches(problem: Problem) -> tuple[float, ...]:
@@ -281,8 +291,7 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
         return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
     if is_layered(scene):
-        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SEARCH_HATS)
-        start, stop = touched(problem, grid, nearest_operator(scene, grid))
+        start, stop = _touched(problem, problem.extent, layered=True)
         finest = min(finest, 0.5 * (stop - start) / SMOOTH_ELEMENTS)
     if scene.profile is not None:
         finest = min(finest, shortest_wavelength(scene.profile) / HATS_PER_WAVE)
@@ -316,9 +325,7 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
     if problem.scene.profile is None:
         return ()
     grid = problem.grid(problem.pitches[0])
-    operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
-    gap = grid.hat_integrals(problem.gap, problem.knots)
-    pressure = solve_on(operator, gap, grid.weights, problem.constraints()).pressure
+    pressure = pressed_on(problem, grid, _half_plane(problem, grid)).pressure
     peaks = standing_out(pressure, STANDS_OUT * pressure.max())
     valleys = []
     for start, stop in pairwise(peaks):
@@ -336,8 +343,7 @@ def _check_circle(problem: Problem) -> None:
         return
     widest = WIDEST_CIRCLE * scene.roller_radius
     if farthest > widest and is_layered(scene):
-        grid = HatGrid.within(*problem.extent, np.ptp(problem.extent) / SEARCH_HATS)
-        farthest = np.abs(touched(problem, grid, nearest_operator(scene, grid))).max()
+        farthest = np.abs(_touched(problem, problem.extent, layered=True)).max()
     if farthest > widest:
         reach = f"{farthest:.3g} m from the centre of a roller of {scene.roller_radius:.3g} m"
         raise SceneError(
@@ -348,10 +354,8 @@ def _check_circle(problem: Problem) -> None:
 
 def _check_count(problem: Problem) -> None:
     """Refuse pressure elements that are too few to show a contact, or too many to hold."""
-    where, length = (
-        f"{problem.scene.source}: resolution.pitch",
-        problem.extent[1] - problem.extent[0],
-    )
+    where = f"{problem.scene.source}: resolution.pitch"
+    length = problem.extent[1] - problem.extent[0]
     coarsest, finest = problem.pitches[0], problem.pitches[-1]
     if length < FEWEST_ELEMENTS * coarsest:
         raise SceneError(

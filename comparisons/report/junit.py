@@ -77,36 +77,21 @@ def run_cases_of(outcome: Outcome) -> list[JunitCase]:
     all are errors where a solver did not converge.
     """
     scene, sentence = outcome.problem.scene.name, headline(outcome).sentence
-    cases = [JunitCase(f"{scene}.solvers", "converged", sentence)]
-    for row in outcome.comparisons:
-        if row.verdict is not None:
-            parts = row.difference, row.uncertainty, row.tolerance, row.verdict
-            cases.append(_judged(f"{scene}.comparison", row.quantity, row.friction, *parts))
-    for row in outcome.tolerance_checks:
-        parts = row.value, row.total_uncertainty, row.tolerance, row.verdict
-        cases.append(_judged(f"{scene}.model_error", row.quantity, row.friction, *parts))
+    found = [("comparison", row, row.difference, row.uncertainty) for row in outcome.comparisons]
+    found += [("model_error", s, s.value, s.total_uncertainty) for s in outcome.tolerance_checks]
     for answer in outcome.answers:
-        for row in answer.rows:
-            if row.verdict is not None:
-                parts = row.difference, row.uncertainty, row.tolerance, row.verdict
-                where = f"{scene}.answers.{answer.name}"
-                cases.append(_judged(where, row.quantity, row.friction, *parts))
+        table = f"answers.{answer.name}"
+        found += [(table, row, row.difference, row.uncertainty) for row in answer.rows]
+    cases = [JunitCase(f"{scene}.solvers", "converged", sentence)]
+    for table, row, value, uncertainty in found:
+        if row.verdict is None:
+            continue
+        text = (
+            f"{row.verdict}: {error_text(row.quantity, value, uncertainty)} with an uncertainty "
+            f"of {percent(uncertainty)}, tolerance {given_percent(row.tolerance)}"
+        )
+        name = f"{row.quantity}, friction {row.friction:g}"
+        cases.append(JunitCase(f"{scene}.{table}", name, text, RESULTS[row.verdict], text))
     if outcome.converged:
         return cases
     return [replace(case, result="error", message=sentence) for case in cases]
-
-
-def _judged(
-    table: str,
-    quantity: str,
-    friction: float,
-    value: float,
-    uncertainty: float | None,
-    tolerance: float,
-    verdict: Verdict | Validity,
-) -> JunitCase:
-    text = (
-        f"{verdict}: {error_text(quantity, value, uncertainty)} with an uncertainty of "
-        f"{percent(uncertainty)}, tolerance {given_percent(tolerance)}"
-    )
-    return JunitCase(table, f"{quantity}, friction {friction:g}", text, RESULTS[verdict], text)

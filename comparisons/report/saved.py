@@ -11,8 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.grid import roller_gap
-from analytic.profile import surface
 from comparisons.common.cache import DAMAGED, decoded, encoded, kinds_of
 from comparisons.common.errors import InputError
 from comparisons.common.quantities import WHOLE
@@ -29,8 +27,6 @@ LONGEST = 200  # characters of what a library says: zipfile quotes whole headers
 MESH = Path("finite_element") / "mesh.msh"
 # Of an outcome: in other files, or not shown.
 ELSEWHERE = ("problem", "result", "record", "directory")
-# Of a problem: made again from the scene.
-REMADE = ("gap", "knots")
 
 
 @dataclass(frozen=True)
@@ -46,8 +42,7 @@ def save_shown(path: Path, outcome: Outcome) -> None:
     arrays: dict[str, np.ndarray] = {}
     shown = _shown(outcome)
     parts = {f.name: getattr(shown, f.name) for f in fields(Outcome) if f.name not in ELSEWHERE}
-    problem = {f.name: getattr(shown.problem, f.name) for f in fields(Problem)}
-    parts["problem"] = {name: part for name, part in problem.items() if name not in REMADE}
+    parts["problem"] = {f.name: getattr(shown.problem, f.name) for f in fields(Problem)}
     outline = json.dumps({"schema": SCHEMA, "outcome": encoded(parts, arrays)})
     np.savez(path, outline=np.array(outline), **arrays)  # fields compress to nine tenths only
 
@@ -64,15 +59,8 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
     check_schema(folder / "result.json", result, RESULT_SCHEMA)
     parts = _read(folder / FILE)
     try:
-        given = parts.pop("problem")
-        scene = given["scene"]
-        curve = None if scene.profile is None else surface(scene.profile)
-        problem = Problem(
-            **given,
-            gap=roller_gap(scene.roller_radius, curve),
-            knots=None if scene.profile is None else scene.profile.x,
-        )
-        outcome = Outcome(**parts, problem=problem, result=result, record=record, directory=folder)
+        parts["problem"] = Problem(**parts["problem"])
+        outcome = Outcome(**parts, result=result, record=record, directory=folder)
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{folder / FILE}: {error}; {REMEDY}") from None
     return _with_mesh(outcome, folder / MESH) if with_mesh else outcome

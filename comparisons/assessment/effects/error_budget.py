@@ -19,8 +19,7 @@ from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from typing import Literal
 
-from analytic.grid import roller_gap
-from analytic.profile import Profile, surface
+from analytic.profile import Profile
 from comparisons.assessment.effects.contributions import (
     EffectContributions,
     NotComputedError,
@@ -356,5 +355,4 @@ def _thinned(problem: Problem, first: int) -> Problem:
     last = len(profile.x) - 1
     samples = sorted({0, *range(first, last + 1, 2), last})
     profile = Profile(profile.x[samples], profile.height[samples])
-    gap = roller_gap(scene.roller_radius, surface(profile))
-    return replace(problem, scene=replace(scene, profile=profile), gap=gap, knots=profile.x)
+    return replace(problem, scene=replace(scene, profile=profile))

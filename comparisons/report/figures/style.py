@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from itertools import zip_longest
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,6 +28,7 @@ COLUMN = 5.6  # inches: two such pictures stand side by side on a wide screen
 HATCH = 0.055  # inches between hatches
 ROWS = 1500  # of a picture's curves as CSV, at most; contact.csv has all
 WIDE = 11.4  # inches: a picture across the page
+SETTINGS = Path(__file__).with_name("pictures.mplstyle")
 
 LINES = {
     "half_plane": {"color": "#0072B2", "linestyle": "-", "linewidth": 1.5},
@@ -42,32 +44,6 @@ OUTLINE = {"color": "#444444", "linewidth": 1.0}
 
 _OUTLINE = re.compile(rb' d="([^"]*)"')
 _INVISIBLE = re.compile(rb"(?<=\.\d\d)\d+|\s+(?=[MLCQZz])|(?<=[MLCQZz])\s+")
-
-_SETTINGS = {
-    "axes.axisbelow": True,
-    "axes.edgecolor": "#555555",
-    "axes.grid": True,
-    "axes.labelsize": 9.0,
-    "axes.linewidth": 0.7,
-    "axes.spines.right": False,
-    "axes.spines.top": False,
-    "axes.titlelocation": "left",
-    "axes.titlesize": 9.0,
-    "axes.titley": 1.0,  # nothing stands above that matplotlib would have to measure first
-    "font.family": "DejaVu Sans",
-    "font.size": 9.0,
-    "grid.color": "#e2e2e2",
-    "grid.linewidth": 0.6,
-    "legend.fontsize": 8.5,
-    "legend.frameon": False,
-    "legend.handlelength": 2.6,
-    "path.simplify_threshold": 0.2,
-    "savefig.dpi": 170.0,  # of what is rasterised inside a picture
-    "svg.fonttype": "path",  # the same letters on every machine
-    "svg.hashsalt": "crosscheck",  # the same names inside for the same picture
-    "xtick.labelsize": 8.5,
-    "ytick.labelsize": 8.5,
-}
 
 
 @dataclass(frozen=True)
@@ -91,10 +67,8 @@ def drawing() -> Iterator[None]:
     """Settings of matplotlib for what is drawn inside; the caller's settings come back."""
     import matplotlib
 
-    shows_itself = matplotlib.rcParams["interactive"]  # as figures of a notebook do
     with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS | {"interactive": shows_itself})
+        matplotlib.rc_file(SETTINGS)
         yield
 
 
@@ -173,7 +147,7 @@ def horizontal_bars(axes: "Axes", places: np.ndarray, names: list[str]) -> None:
 def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float = 0.8) -> None:
     """Diagonals on patches of the axes, as lines: browsers print patterns as coarse pixels."""
     from matplotlib.lines import Line2D
-    from matplotlib.path import Path
+    from matplotlib.path import Path as Outline
 
     if not patches:
         return
@@ -184,7 +158,7 @@ def hatch(axes: "Axes", patches: Sequence["Patch"], colour: object, width: float
     look = {"color": colour, "linewidth": width, "gid": "hatch"}
     lines = Line2D(x, y, transform=axes.figure.dpi_scale_trans, **look)
     outlines = [p.get_patch_transform().transform_path(p.get_path()) for p in patches]
-    lines.set_clip_path(Path.make_compound_path(*outlines), axes.transData)
+    lines.set_clip_path(Outline.make_compound_path(*outlines), axes.transData)
     axes.add_artist(lines)
 
 
