@@ -14,13 +14,10 @@ LAWS = ("neo-hookean", "hencky", "st-venant-kirchhoff", "murnaghan")
 
 @dataclass(frozen=True)
 class Law:
-    """What stress follows from a finite strain; all laws have the same limit of small strains.
+    """What stress follows from a finite strain; all laws have the same limit of small strains."""
 
-    name       one of LAWS
-    murnaghan  third-order constants l, m, n [Pa], of that law alone
-    """
-
-    name: str = "neo-hookean"
+    name: str = "neo-hookean"  # one of LAWS
+    # third-order constants l, m, n [Pa], of that law alone
     murnaghan: tuple[float, float, float] | None = None
 
     def __post_init__(self) -> None:

@@ -18,14 +18,10 @@ Surface = Callable[..., np.ndarray]
 
 @dataclass(frozen=True)
 class Profile:
-    """Heights along a line, not periodic and unknown outside its samples.
+    """Heights along a line, not periodic and unknown outside its samples."""
 
-    x       (n,) [m] strictly ascending, n >= 4; the samples need not be evenly spaced
-    height  (n,) [m] positive out of the body
-    """
-
-    x: np.ndarray
-    height: np.ndarray
+    x: np.ndarray  # (n,) [m] strictly ascending, n >= 4; the samples need not be evenly spaced
+    height: np.ndarray  # (n,) [m] positive out of the body
 
     def __post_init__(self) -> None:
         if self.x.ndim != 1 or self.x.shape != self.height.shape:

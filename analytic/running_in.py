@@ -44,44 +44,30 @@ Status = Literal["settled", "passes spent"]
 
 @dataclass(frozen=True)
 class Pass:
-    """The roller pressed on once.
+    """The roller pressed on once."""
 
-    position   x_c [m] on the trace
-    volume     taken off the profile, per unit length [m^2]
-    lowering   largest overlap taken off [m]
-    at_end     whether contact reaches an end of the trace, beyond which nothing supports the roller
-    converged  whether the contact solution did; `residual` is its worst
-    """
-
-    position: float
-    volume: float
-    lowering: float
+    position: float  # x_c [m] on the trace
+    volume: float  # taken off the profile, per unit length [m^2]
+    lowering: float  # largest overlap taken off [m]
+    # whether contact reaches an end of the trace, beyond which nothing supports the roller
     at_end: bool
-    converged: bool
+    converged: bool  # whether the contact solution did; `residual` is its worst
     residual: float
 
 
 @dataclass(frozen=True)
 class RunIn:
-    """A profile after running-in.
+    """A profile after running-in."""
 
-    before    the profile as it was given
-    profile   its samples, and in the swept stretch the middles of hats, lowered
-    lowering  (n,) [m] how far each of these was lowered, >= 0
-    constraints  load and hardness
-    passes    in order; `sweeps` of them over all positions
-    pitch     of the pressure hats [m]
-    status    settled: the last sweep moved at most SMALLEST_SWEEP of the volume of all;
-              passes spent: it moved more, and no further sweep was allowed
-    """
-
-    before: Profile
-    profile: Profile
-    lowering: np.ndarray
-    constraints: Constraints
-    passes: tuple[Pass, ...]
+    before: Profile  # the profile as it was given
+    profile: Profile  # its samples, and in the swept stretch the middles of hats, lowered
+    lowering: np.ndarray  # (n,) [m] how far each of these was lowered, >= 0
+    constraints: Constraints  # load and hardness
+    passes: tuple[Pass, ...]  # in order; `sweeps` of them over all positions
     sweeps: int
-    pitch: float
+    pitch: float  # of the pressure hats [m]
+    # settled: the last sweep moved at most SMALLEST_SWEEP of the volume of all; passes spent: it
+    # moved more, and no further sweep was allowed
     status: Status
 
     @property

@@ -171,16 +171,13 @@ class Constraints:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] on a fixed active set, the load carried.
-
-    overlap   (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
-    accurate  whether g vanishes on the free nodes to `tight`, or as far as rounding lets it
-    """
+    """Pressures (n,) [Pa] and weighted gap g (n,) [m^2] on a fixed active set, the load carried."""
 
     pressure: np.ndarray
     weighted_gap: np.ndarray
+    # (n,) [m^2] that counts as none: SET_TOLERANCE of the displacements' range, rounding
     overlap: np.ndarray
-    accurate: bool
+    accurate: bool  # whether g vanishes on the free nodes to `tight`, or as far as rounding lets it
 
 
 class EquilibriumProblem:

@@ -36,22 +36,17 @@ class ContactError(ArithmeticError):
 class Residuals:
     """How well the contact conditions hold; all dimensionless, zero when exact.
 
-    load_balance       |w'p - P| / P (zero when the approach is prescribed)
-    complementarity    p'|g| over the nodes below the hardness and p'g over those at it that are
-                       open / (P times the displacement scale)
-    penetration        largest overlap where p < H / the displacement scale
-    negative_pressure  largest tension / the largest pressure
-    excess_pressure    largest pressure above H / H
-
     The displacement scale is the range of Cp/w over all nodes, or EVEN of its largest amount
     where the surface moves as a whole; with the approach prescribed it is the largest amount.
     """
 
-    load_balance: float
+    load_balance: float  # |w'p - P| / P (zero when the approach is prescribed)
+    # p'|g| over the nodes below the hardness and p'g over those at it that are open / (P times the
+    # displacement scale)
     complementarity: float
-    penetration: float
-    negative_pressure: float
-    excess_pressure: float
+    penetration: float  # largest overlap where p < H / the displacement scale
+    negative_pressure: float  # largest tension / the largest pressure
+    excess_pressure: float  # largest pressure above H / H
 
     @property
     def worst(self) -> float:
@@ -61,24 +56,15 @@ class Residuals:
 
 @dataclass(frozen=True)
 class ContactSolution:
-    """Solution of the contact problem on one grid.
+    """Solution of the contact problem on one grid."""
 
-    pressure    (n,) [Pa]
-    gap         (n,) weighted gap over weight, g_i / w_i [m]; negative at capped nodes
-    approach    d [m], relative to the operator's datum
-    load        w'p [N/m]
-    residuals   the contact conditions, evaluated once more with the operator itself
-    iterations  set exchanges and operator applications, on all grids together
-    converged   all residuals below KKT_TOLERANCE
-    """
-
-    pressure: np.ndarray
-    gap: np.ndarray
-    approach: float
-    load: float
-    residuals: Residuals
-    iterations: dict
-    converged: bool
+    pressure: np.ndarray  # (n,) [Pa]
+    gap: np.ndarray  # (n,) weighted gap over weight, g_i / w_i [m]; negative at capped nodes
+    approach: float  # d [m], relative to the operator's datum
+    load: float  # w'p [N/m]
+    residuals: Residuals  # the contact conditions, evaluated once more with the operator itself
+    iterations: dict  # set exchanges and operator applications, on all grids together
+    converged: bool  # all residuals below KKT_TOLERANCE
 
 
 def assessed(

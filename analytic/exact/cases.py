@@ -32,36 +32,24 @@ MATERIALS["rubber"] = Material(5e6, 0.49)
 
 @dataclass(frozen=True)
 class ExactContact:
-    """A contact problem and its exact solution; x [m] as in the scene, q = friction p in +x.
-
-    name, source  of the case, and of its solution
-    body, roller  materials; a `roller` of None is rigid
-    load          [N/m]; a wavelength's where periodic
-    gap           initial gap g0(x) [m] but for a constant
-    half_range    [m]: the contact lies well inside |x| < half_range
-    pressure      exact p(x) [Pa], zero outside the contact
-    quantities    exact figures [SI] by name: peak_pressure, contact_length, left_edge and
-                  right_edge always; where known peak_position, mean_gap, tau1_max,
-                  tau1_max_depth, txz_max_abs, flowed_length. Periodic cases count one patch.
-    friction      of the traction; it also shifts the pressure where `coupled`
-    knots         places [m] where g0 is not smooth
-    period        [m] of pressure and gap, or None
-    hardness      cap on the pressure [Pa]
-    """
+    """A contact problem and its exact solution; x [m] as in the scene, q = friction p in +x."""
 
     name: str
-    source: str
+    source: str  # of the solution
     body: Material
-    roller: Material | None
-    load: float
-    gap: Curve
-    half_range: float
-    pressure: Curve
+    roller: Material | None  # None: rigid
+    load: float  # [N/m]; a wavelength's where periodic
+    gap: Curve  # initial gap g0(x) [m] but for a constant
+    half_range: float  # [m]: the contact lies well inside |x| < half_range
+    pressure: Curve  # exact p(x) [Pa], zero outside the contact
+    # exact figures [SI] by name: peak_pressure, contact_length, left_edge and right_edge always;
+    # where known peak_position, mean_gap, tau1_max, tau1_max_depth, txz_max_abs, flowed_length.
+    # Periodic cases count one patch.
     quantities: Mapping[str, float]
-    friction: float = 0.0
-    knots: tuple[float, ...] = ()
-    period: float | None = None
-    hardness: float = np.inf
+    friction: float = 0.0  # of the traction; it also shifts the pressure where `coupled`
+    knots: tuple[float, ...] = ()  # places [m] where g0 is not smooth
+    period: float | None = None  # [m] of pressure and gap, or None
+    hardness: float = np.inf  # cap on the pressure [Pa]
 
     @property
     def combined_modulus(self) -> float:

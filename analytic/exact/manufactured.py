@@ -134,20 +134,13 @@ class PressurePatch:
 
 @dataclass(frozen=True)
 class ManufacturedContact:
-    """Pressures, and the initial gap under which they are those of an exact contact.
+    """Pressures, and the initial gap under which they are those of an exact contact."""
 
-    patches         from left to right, apart from each other
-    body, roller    materials; the body's is that of its layer where it has one; a roller of None
-                    is rigid
-    layer           what the body is but a half-plane, or None
-    friction        q = friction p in +x, of stresses; it moves no surface
-    """
-
-    patches: tuple[PressurePatch, ...]
-    body: Material
-    roller: Material | None = None
-    layer: LayeredBody | None = None
-    friction: float = 0.0
+    patches: tuple[PressurePatch, ...]  # from left to right, apart from each other
+    body: Material  # that of its layer where it has one
+    roller: Material | None = None  # None: rigid
+    layer: LayeredBody | None = None  # what the body is but a half-plane, or None
+    friction: float = 0.0  # q = friction p in +x, of stresses; it moves no surface
 
     def __post_init__(self) -> None:
         edges = np.array([patch.edges for patch in self.patches]).ravel()

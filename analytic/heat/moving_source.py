@@ -78,17 +78,13 @@ def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class HeatedSurface:
-    """A half-space under fluxes that are piecewise linear between nodes of one pitch.
-
-    count, pitch  nodes, [m]
-    velocity      [m/s] at which the material passes the contact, towards +x; 0: at rest
-    reach         [m] where a half-space at rest has the temperature from which rises count
-    """
+    """A half-space under fluxes that are piecewise linear between nodes of one pitch."""
 
     material: ThermalMaterial
-    count: int
-    pitch: float
-    velocity: float
+    count: int  # nodes
+    pitch: float  # [m]
+    velocity: float  # [m/s] at which the material passes the contact, towards +x; 0: at rest
+    # [m] where a half-space at rest has the temperature from which rises count
     reach: float = np.inf
 
     def __post_init__(self) -> None:

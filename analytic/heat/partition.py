@@ -29,19 +29,13 @@ PASSES = 8  # of GMRES; rough contacts of bodies as unlike as steel and a polyme
 
 @dataclass(frozen=True)
 class HeatPartition:
-    """What a contact heats both bodies by.
+    """What a contact heats both bodies by."""
 
-    flux         (n,) [W/m^2] into the first
-    first, second  (n,) rises [K] of the surfaces above their bulk temperatures
-    fraction     of the heat that enters the first
-    mismatch     largest difference of the two surfaces' temperatures at a contacting node [K]
-    """
-
-    flux: np.ndarray
-    first: np.ndarray
-    second: np.ndarray
-    fraction: float
-    mismatch: float
+    flux: np.ndarray  # (n,) [W/m^2] into the first
+    first: np.ndarray  # (n,) [K] rise of its surface above its bulk temperature
+    second: np.ndarray  # the same of the other
+    fraction: float  # of the heat that enters the first
+    mismatch: float  # largest difference of the two surfaces' temperatures at a contacting node [K]
 
 
 def divided(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> HeatPartition:

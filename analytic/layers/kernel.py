@@ -39,16 +39,13 @@ _SWING = 12.0  # phase of a cosine on one panel [rad]
 class _Response:
     """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the half-plane of
     the `base`.
-
-    odd     the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
-    finest  w below which nothing of a scale of its own is left
     """
 
     share: Callable[[np.ndarray], np.ndarray]
     surface: float
     base: float
-    odd: bool
-    finest: float
+    odd: bool  # the integral is over sin(k h d), and ln|x| is replaced by its conjugate, an angle
+    finest: float  # w below which nothing of a scale of its own is left
 
 
 def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float = 0.0) -> np.ndarray:

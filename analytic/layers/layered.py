@@ -50,16 +50,12 @@ _SERIES = 0.5  # w below which sinh 2w - 2w is summed; 12 terms leave less than 
 
 @dataclass(frozen=True)
 class Contrast:
-    """Constants of a layer and of what it lies on.
+    """Constants of a layer and of what it lies on."""
 
-    e, base_e  1 - 2 nu of both      softness  g = G/G2, zero on a rigid base
-    slides     along the base, without friction
-    """
-
-    e: float
+    e: float  # 1 - 2 nu
     base_e: float = 0.0
-    softness: float = 0.0
-    slides: bool = False
+    softness: float = 0.0  # g = G/G2, zero on a rigid base
+    slides: bool = False  # along the base, without friction
 
 
 def normal(layer: Contrast, w: np.ndarray) -> np.ndarray:
@@ -167,14 +163,12 @@ _LONGEST = 1e-100  # w so small that every limit is reached
 
 @dataclass(frozen=True)
 class LayeredBody:
-    """A layer of `material` and `thickness` t [m] on a `base`.
-
-    base  a rigid one that the layer is "bonded" to, or that it slides on, "frictionless"; or the
-          Material of a half-plane that it is bonded to
-    """
+    """A layer of `material` and `thickness` t [m] on a `base`."""
 
     material: Material
     thickness: float
+    # a rigid one that the layer is "bonded" to, or that it slides on, "frictionless"; or the
+    # Material of a half-plane that it is bonded to
     base: Base | Material
 
     def __post_init__(self) -> None:

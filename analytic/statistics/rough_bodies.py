@@ -38,24 +38,18 @@ STEPS, SETTLED = 200, 1e-12
 
 @dataclass(frozen=True)
 class RoughContact:
-    """Dimensionless, or in SI: `pressure` (n,) at `rho` (n,) >= 0, separations `h` (n,) over s.
+    """Dimensionless, or in SI: `pressure` (n,) at `rho` (n,) >= 0, separations `h` (n,) over s."""
 
-    smooth           half-width or radius, and peak pressure, of the smooth body
-    steps            (n,) weights of integrals over rho
-    effective_width  half-width or radius of the smooth contact with the same mean |r| of the
-                     pressure on a line through the centre: (3 pi/4) <rho>
-    mean_real_pressure  load over real area, in E* sqrt(s / beta) or [Pa]
-    d                of the module, dimensionless
-    """
-
-    smooth: tuple[float, float]
+    smooth: tuple[float, float]  # half-width or radius, and peak pressure, of the smooth body
     rho: np.ndarray
-    steps: np.ndarray
+    steps: np.ndarray  # (n,) weights of integrals over rho
     h: np.ndarray
     pressure: np.ndarray
+    # half-width or radius of the smooth contact with the same mean |r| of the pressure on a line
+    # through the centre: (3 pi/4) <rho>
     effective_width: float
-    mean_real_pressure: float
-    d: float
+    mean_real_pressure: float  # load over real area, in E* sqrt(s / beta) or [Pa]
+    d: float  # of the module, dimensionless
 
 
 def rough_cylinder(load: float, radius: float, modulus: float, summits: Summits) -> RoughContact:

@@ -24,18 +24,13 @@ _BLOCK = 2**15  # values of one kernel at a time, which stay in the cache
 
 @dataclass(frozen=True)
 class StressGrid:
-    """Where stresses are wanted, and under which element.
+    """Where stresses are wanted, and under which element."""
 
-    x, z          columns (m,) and levels (k,) [m]
-    pitch         of the nodes [m], divided into `subdivisions` steps
-    first, last   columns, counted in steps from the first node; every `stride`-th counts
-    """
-
-    x: np.ndarray
-    z: np.ndarray
-    pitch: float
+    x: np.ndarray  # (m,) [m] columns
+    z: np.ndarray  # (k,) [m] levels
+    pitch: float  # of the nodes [m], divided into `subdivisions` steps
     subdivisions: int
-    first: int
+    first: int  # column, counted in steps from the first node; every `stride`-th counts
     last: int
     stride: int
     element: Element

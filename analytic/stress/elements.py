@@ -23,14 +23,10 @@ from analytic.stress_state import StressState
 
 @dataclass(frozen=True)
 class FrictionStress:
-    """Stresses [Pa] under a pressure p and, by superposition, a traction q = friction * p.
+    """Stresses [Pa] under a pressure p and, by superposition, a traction q = friction * p."""
 
-    normal       under p alone
-    traction_sx  sx under q = p in +x, which is sx a unit of friction
-    """
-
-    normal: StressState
-    traction_sx: np.ndarray
+    normal: StressState  # under p alone
+    traction_sx: np.ndarray  # sx under q = p in +x, which is sx a unit of friction
 
     @classmethod
     def of(cls, parts: np.ndarray) -> "FrictionStress":

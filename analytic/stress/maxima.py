@@ -25,14 +25,12 @@ _MOST_ROUNDS = 30  # 6 where no ridge is walked along, up to 11 where one is
 
 @dataclass(frozen=True)
 class StressMaxima:
-    """Largest principal shear, largest amount of the orthogonal shear, largest von Mises.
-
-    cells  by the names of the first two, in each cell of x: value, x and z (3, k + 1)
-    """
+    """Largest principal shear, largest amount of the orthogonal shear, largest von Mises."""
 
     tau1: Extremum
     txz_abs: Extremum
     von_mises: Extremum
+    # by the names of the first two, in each cell of x: value, x and z (3, k + 1)
     cells: dict[str, np.ndarray]
 
 

@@ -41,16 +41,12 @@ _BOXES = 2048  # boxes at a time
 
 @dataclass(frozen=True)
 class BoxLevel:
-    """Boxes of `half` pitches half-width: `ids` (b,) of those over points, sorted.
-
-    outer  (ORDER, boxes + 1) of all boxes over the load, and zero
-    inner  (ORDER, b)
-    """
+    """Boxes of `half` pitches half-width: `ids` (b,) of those over points, sorted."""
 
     half: float
     ids: np.ndarray
-    outer: np.ndarray
-    inner: np.ndarray
+    outer: np.ndarray  # (ORDER, boxes + 1) of all boxes over the load, and zero
+    inner: np.ndarray  # (ORDER, b)
 
 
 def box_levels(load: np.ndarray, element: Element, boxes: list[np.ndarray]) -> list[BoxLevel]:

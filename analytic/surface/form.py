@@ -26,17 +26,13 @@ STRAIGHT = 64.0 * np.finfo(float).eps  # a sagitta below this part of the height
 
 @dataclass(frozen=True)
 class RemovedForm:
-    """What `remove_form` took away.
+    """What `remove_form` took away."""
 
-    kind     none | mean | line | arc
-    mean     [m] mean height of the trace before removal; 0 if nothing was removed
-    slope    slope of the line, or of the arc in the middle of the trace; 0 for the others
-    radius   [m] of the arc, positive if convex (crowned), negative if concave, inf if straight
-    """
-
-    kind: str
-    mean: float = 0.0
+    kind: str  # none | mean | line | arc
+    mean: float = 0.0  # [m] mean height of the trace before removal; 0 if nothing was removed
+    # slope of the line, or of the arc in the middle of the trace; 0 for the others
     slope: float = 0.0
+    # [m] of the arc, positive if convex (crowned), negative if concave, inf if straight
     radius: float = inf
 
     def __str__(self) -> str:

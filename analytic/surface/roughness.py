@@ -24,23 +24,16 @@ FLAT = 64.0 * np.finfo(float).eps  # slopes below this part of max |height| / sp
 
 @dataclass(frozen=True)
 class Roughness:
-    """Figures of a profile over its whole length (definitions of ISO 4287, unfiltered).
+    """Figures of a profile over its whole length (definitions of ISO 4287, unfiltered)."""
 
-    mean       [m] mean height
-    ra, rq     [m] mean and root mean square of |z|
-    rsk, rku   skewness and kurtosis of z (0 for a flat profile)
-    rt         [m] highest peak to deepest valley
-    rms_slope, max_slope  root mean square and maximum of |dz/dx|
-    """
-
-    mean: float
-    ra: float
-    rq: float
-    rsk: float
-    rku: float
-    rt: float
-    rms_slope: float
-    max_slope: float
+    mean: float  # [m] mean height
+    ra: float  # [m] mean of |z|
+    rq: float  # [m] root mean square of z
+    rsk: float  # skewness of z, 0 for a flat profile
+    rku: float  # kurtosis
+    rt: float  # [m] highest peak to deepest valley
+    rms_slope: float  # root mean square of dz/dx
+    max_slope: float  # largest |dz/dx|
 
 
 def roughness(profile: Profile) -> Roughness:

@@ -40,31 +40,21 @@ END_SAMPLES = 30  # over which the ends of a spline are forgotten, to rounding
 
 @dataclass(frozen=True)
 class StandardRoughness:
-    """Parameters of the filtered profile (ISO 21920-2:2021) over `sections` cut-offs.
+    """Parameters of the filtered profile (ISO 21920-2:2021) over `sections` cut-offs."""
 
-    cutoff, short_cutoff  [m] lambda_c; lambda_s or None
-    sections   section lengths in the evaluation length
-    start      [m] place on the trace where the first section begins
-    ra, rq     [m] mean and root mean square of |z|
-    rsk, rku   skewness and kurtosis (0 for a flat profile)
-    rt         [m] highest peak to deepest valley of the whole evaluation length
-    rz         [m] the same of each section, averaged
-    rdq        root mean square of dz/dx
-    rsm        [m] mean width of the profile's elements, a hill and a dale each, told apart by a
-               tenth of Rz; None where there is no whole one
-    """
-
-    cutoff: float
-    short_cutoff: float | None
-    sections: int
-    start: float
-    ra: float
-    rq: float
-    rsk: float
-    rku: float
-    rt: float
-    rz: float
-    rdq: float
+    cutoff: float  # [m] lambda_c
+    short_cutoff: float | None  # [m] lambda_s
+    sections: int  # section lengths in the evaluation length
+    start: float  # [m] place on the trace where the first section begins
+    ra: float  # [m] mean of |z|
+    rq: float  # [m] root mean square of z
+    rsk: float  # skewness of z, 0 for a flat profile
+    rku: float  # kurtosis
+    rt: float  # [m] highest peak to deepest valley of the whole evaluation length
+    rz: float  # [m] the same of each section, averaged
+    rdq: float  # root mean square of dz/dx
+    # [m] mean width of the profile's elements, a hill and a dale each, told apart by a tenth of Rz;
+    # None where there is no whole one
     rsm: float | None
 
 

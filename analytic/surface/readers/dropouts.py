@@ -15,20 +15,14 @@ EVEN = (0.5, 1.5)  # of the median step: most steps of an even trace, its x roun
 
 @dataclass(frozen=True)
 class MeasuredProfile:
-    """A profile as its file gives it, in m, x ascending, and how it was read.
-
-    format     text | SDF … | x3p, by SurfaceTopography …
-    place      which line of which map, None for a line scan
-    bridged    dropouts put on the straight line between their neighbours
-    trimmed    dropouts left out at the ends of the trace
-    stretch    [m] from where to where the longest bridge goes, None without any
-    """
+    """A profile as its file gives it, in m, x ascending, and how it was read."""
 
     profile: Profile
-    format: str
-    place: str | None
-    bridged: int
-    trimmed: int
+    format: str  # text | SDF … | x3p, by SurfaceTopography …
+    place: str | None  # which line of which map, None for a line scan
+    bridged: int  # dropouts put on the straight line between their neighbours
+    trimmed: int  # dropouts left out at the ends of the trace
+    # [m] from where to where the longest bridge goes, None without any
     stretch: tuple[float, float] | None = None
 
 

@@ -62,27 +62,17 @@ DECIMAL_COMMAS = (
 
 @dataclass(frozen=True)
 class ProfileTable:
-    """The rows of a file.
-
-    numbers    (rows, columns), NaN for a dropout
-    text       each row as it stands in the file, without comments
-    lines      each row's line number in the file, from 1
-    separator  ";", tab, " " (any run of blanks), "," or "" for a single column
-    decimal    "." or ","
-    names      of the columns, as the file has them, or () where it has none
-    head       the lines above the rows
-    format     of the file, in words
-    """
+    """The rows of a file."""
 
     path: Path
-    numbers: np.ndarray
-    text: Sequence[str]
-    lines: np.ndarray
-    separator: str = ""
-    decimal: str = "."
-    names: tuple[str, ...] = ()
-    head: tuple[str, ...] = ()
-    format: str = "text"
+    numbers: np.ndarray  # (rows, columns), NaN for a dropout
+    text: Sequence[str]  # each row as it stands in the file, without comments
+    lines: np.ndarray  # each row's line number in the file, from 1
+    separator: str = ""  # ";", tab, " " (any run of blanks), "," or "" for a single column
+    decimal: str = "."  # "." or ","
+    names: tuple[str, ...] = ()  # of the columns, as the file has them, or () where it has none
+    head: tuple[str, ...] = ()  # the lines above the rows
+    format: str = "text"  # of the file, in words
 
     def error(self, row: int, message: str) -> ProfileError:
         """The error to raise about one row."""

@@ -31,24 +31,19 @@ class UnchosenLineError(ProfileError):
 
 @dataclass(frozen=True)
 class Topography:
-    """Heights of one channel of a file.
-
-    heights  (rows, columns) of a map, (n,) of a line scan; [m], or what the file counts in
-             where it names no unit; NaN where nothing was measured
-    pitch    distance between columns and between rows (of a scan: twice that of its samples),
-             in the same unit; None where the file gives none, or the scan is uneven
-    x        (n,) places of an uneven scan, ascending; else None
-    unit     [m] what the file counts in, None where it does not say
-    format   of the file, in words
-    channels names of the channels of which `channel` is this, () where the file has no names
-    """
+    """Heights of one channel of a file."""
 
     path: Path
+    # (rows, columns) of a map, (n,) of a line scan; [m], or what the file counts in where it names
+    # no unit; NaN where nothing was measured
     heights: np.ndarray
+    # distance between columns and between rows (of a scan: twice that of its samples), in the same
+    # unit; None where the file gives none, or the scan is uneven
     pitch: tuple[float, float] | None
-    x: np.ndarray | None
-    unit: float | None
-    format: str
+    x: np.ndarray | None  # (n,) places of an uneven scan, ascending; else None
+    unit: float | None  # [m] what the file counts in, None where it does not say
+    format: str  # of the file, in words
+    # names of the channels of which `channel` is this, () where the file has no names
     channels: tuple[str, ...] = ()
     channel: str | None = None
 
@@ -68,14 +63,11 @@ class Topography:
 
 @dataclass(frozen=True)
 class MapLine:
-    """Which line of a map: exactly one of a row, a column and a straight `line`.
+    """Which line of a map: exactly one of a row, a column and a straight `line`."""
 
-    row, column   counted from 0
-    line          its first and last point, ((x0, y0), (x1, y1)) [m]
-    """
-
-    row: int | None = None
-    column: int | None = None
+    row: int | None = None  # counted from 0
+    column: int | None = None  # the same
+    # its first and last point, ((x0, y0), (x1, y1)) [m]
     line: tuple[tuple[float, float], tuple[float, float]] | None = None
 
     def __str__(self) -> str:
