@@ -119,11 +119,8 @@ def _stuck(before: dict[str, float], now: dict[str, float]) -> bool:
 
 def _spent(problem: Problem, plan: Plan, runs: dict[str, ModelRun], machine: float) -> str | None:
     """Why one more level of every model would exceed the budget, or the memory of the `machine`
-    [bytes], or None.
-
-    Time is that of the laws by which levels are planned: by a clock, a busy machine would stop at
-    other figures.
-    """
+    [bytes], or None. Time is that of the laws by which levels are planned: by a clock, a busy
+    machine would stop at other figures."""
     budget = problem.scene.budget
     time = sum(level.expected_seconds for run in runs.values() for level in run.levels)
     memory = 0.0

@@ -69,10 +69,8 @@ def far_boundary(moved: float, first: float = 0.0) -> float:
 
 
 def length_resolution(pitch: float, patches: int) -> float:
-    """How finely the length of contact [m] in a number of patches can be read on a grid.
-
-    The errors of a patch's two edges may add; those of different patches are independent.
-    """
+    """How finely the length of contact [m] in a number of patches can be read on a grid. The errors
+    of a patch's two edges may add; those of different patches are independent."""
     return 2.0 * EDGE_FOUND * pitch * float(np.sqrt(patches))
 
 
@@ -84,11 +82,9 @@ def relative_resolution(one: Level, other: Level) -> float:
 
 
 def peak_resolution(pressure: np.ndarray) -> float:
-    """How finely the largest pressure can be read from nodal pressures (n,), relative to it.
-
-    Two models have their peaks at different places between the nodes. Off by half a pitch, a node
-    is an eighth of the second difference too low, and so is an interpolation to other nodes.
-    """
+    """How finely the largest pressure can be read from nodal pressures (n,), relative to it. Two
+    models have their peaks at different places between the nodes. Off by half a pitch, a node is an
+    eighth of the second difference too low, and so is an interpolation to other nodes."""
     top = int(np.argmax(pressure))
     before, high, after = np.pad(pressure, 1)[top : top + 3]
     return float(2.0 * (2.0 * high - before - after) / 8.0 / high) if high > 0.0 else 0.0

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,10 @@ from comparisons.models.finite_element.compliance_check import ComplianceCheck
 from comparisons.models.problem import Problem, mean_height
 from fem.body.coating import Coating
 from meshes.block import BlockMesh
+
+if TYPE_CHECKING:
+    from fem.body.elasticity import ElasticBody
+    from fem.stress.stress import NodalStress
 
 
 @dataclass(frozen=True)
@@ -67,6 +72,22 @@ class MeshField:
     # further fields (n,) by name with their unit: what plastic flow leaves
     others: dict[str, np.ndarray] = field(default_factory=dict)
 
+    @staticmethod
+    def of(
+        body: "ElasticBody",
+        frictions: tuple[float, ...],
+        nodal: "tuple[NodalStress, ...]",
+        displacement: np.ndarray,
+        others: dict[str, np.ndarray],
+    ) -> "MeshField":
+        """Of a body's stresses at its mesh's points and displacements (n, c, 2) [m] at its nodes,
+        one set a friction."""
+        nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
+        moved = body.at_points(np.moveaxis(displacement, 1, 0))[:, nodes.point]
+        states = (StressState(*each.values.T) for each in nodal)
+        sets = (dict(zip(frictions, given, strict=True)) for given in (states, moved))
+        return MeshField(body.points[nodes.point], nodes.triangles, *sets, nu, others)
+
 
 @dataclass(frozen=True)
 class RecoverableField:
@@ -97,13 +118,7 @@ class RecoverableField:
         given = self.hats, self.pressure, np.array(self.frictions), straight_down
         beside = [self.ends.at(friction) for friction in self.frictions]
         found = nodal_stresses(self.displacement, SurfaceLoad(body, *given), beside)
-        stresses = (StressState(*each.values.T) for each in found)
-        nodes, nu = found[0].nodes, found[0].poissons_ratio
-        by_friction = dict(zip(self.frictions, stresses, strict=True))
-        moved = body.at_points(np.moveaxis(self.displacement, 1, 0))[:, nodes.point]
-        displacement = dict(zip(self.frictions, moved, strict=True))
-        points = body.points[nodes.point]
-        return MeshField(points, nodes.triangles, by_friction, displacement, nu)
+        return MeshField.of(body, self.frictions, found, self.displacement, {})
 
 
 @dataclass(frozen=True)
@@ -181,9 +196,7 @@ class ModelRun:
 
 
 def deformed_height(problem: Problem, level: Level) -> np.ndarray:
-    """Heights (n,) [m] of the rough body's surface under load, averaged over each hat.
-
-    Zero displacement at the mean of the grid's two ends: a datum that both models have.
-    """
+    """Heights (n,) [m] of the rough body's surface under load, averaged over each hat. Zero
+    displacement at the mean of the grid's two ends: a datum that both models have."""
     ends = level.displacement[[0, -1]].mean()
     return mean_height(problem, level.grid) - (level.displacement - ends)

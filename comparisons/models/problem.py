@@ -74,11 +74,9 @@ class Problem:
 
     @property
     def block(self) -> float:
-        """Width and depth [m] of the block that stands for an unbounded body.
-
-        In half-widths of the smooth contact, or of a wider extent of pressures: a light load
-        on a rough surface touches far beyond its Hertz contact, and beside the roller's centre.
-        """
+        """Width and depth [m] of the block that stands for an unbounded body. In half-widths of the
+        smooth contact, or of a wider extent of pressures: a light load on a rough surface touches
+        far beyond its Hertz contact, and beside the roller's centre."""
         half_width = max(self.hertz.half_width, LEAST_BLOCK * (self.extent[1] - self.extent[0]))
         farthest = max(abs(self.extent[0]), abs(self.extent[1]))
         return max(self.scene.finite_element.block * half_width, LEAST_EXTENT * farthest)

@@ -25,10 +25,8 @@ SMOOTH_HATS = 80  # and at least so many on its half-width
 
 
 def run_in_scene(scene: ResolvedScene) -> ResolvedScene:
-    """The scene with its surface run in; the scene itself where there is nothing to do.
-
-    Raises SceneError if the trace cannot carry the load at the hardness.
-    """
+    """The scene with its surface run in; the scene itself where there is nothing to do. Raises
+    SceneError if the trace cannot carry the load at the hardness."""
     settings = scene.running_in
     if settings is None or scene.run_in is not None:
         return scene

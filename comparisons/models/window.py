@@ -16,10 +16,8 @@ SEARCH_RATIO = 1.2  # of a depth to the one above it, where extremes are searche
 
 @dataclass(frozen=True)
 class Window:
-    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on.
-
-    The spacing in x is the pitch of every level's pressure elements times or over a power of two.
-    """
+    """Points of a field: every x (k,) [m] at every depth z (m,) [m], z from 0 on. The spacing in x
+    is the pitch of every level's pressure elements times or over a power of two."""
 
     x: np.ndarray
     z: np.ndarray
@@ -84,11 +82,9 @@ def window_of(problem: Problem) -> Window:
 
 
 def search_window(problem: Problem, window: Window) -> Window:
-    """Points from which the search for extremes inside a window starts, whatever its density.
-
-    As dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from
-    a fraction of that by a fixed ratio.
-    """
+    """Points from which the search for extremes inside a window starts, whatever its density. As
+    dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from a
+    fraction of that by a fixed ratio."""
     spacing = min(problem.pitches[0], window.extent)
     last = round(window.extent / spacing)
     depth = window.z[-1]

@@ -71,11 +71,9 @@ def junit_xml(suite: str, testcases: Iterable[JunitCase], seconds: float) -> str
 
 
 def run_cases_of(outcome: Outcome) -> list[JunitCase]:
-    """That the solvers converged, and each judged figure and friction of both tables.
-
-    A figure that differs or fails is a failure; an inconclusive one is skipped, with the reason;
-    all are errors where a solver did not converge.
-    """
+    """That the solvers converged, and each judged figure and friction of both tables. A figure that
+    differs or fails is a failure; an inconclusive one is skipped, with the reason; all are errors
+    where a solver did not converge."""
     scene, sentence = outcome.problem.scene.name, headline(outcome).sentence
     found = [("comparison", row, row.difference, row.uncertainty) for row in outcome.comparisons]
     found += [("model_error", s, s.value, s.total_uncertainty) for s in outcome.tolerance_checks]

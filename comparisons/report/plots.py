@@ -28,11 +28,9 @@ def _method(name: str, words: str, first: int = 0) -> "Callable[..., list[Axes]]
 
 @dataclass(frozen=True)
 class Plots:
-    """Draws what a run has found; each method returns the axes, in the order of the picture.
-
-    The figure is `axes[0].figure`; it is one of pyplot's, so that a notebook shows it by itself.
-    Raises InputError where the run does not have what is to be drawn.
-    """
+    """Draws what a run has found; each method returns the axes, in the order of the picture. The
+    figure is `axes[0].figure`; it is one of pyplot's, so that a notebook shows it by itself. Raises
+    InputError where the run does not have what is to be drawn."""
 
     outcome: Outcome
 

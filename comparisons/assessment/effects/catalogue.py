@@ -1,15 +1,17 @@
 """The half-plane's assumptions, each as an effect that finite elements may contain.
 
-A new finite-element effect gets its entry in EFFECTS, an estimate in `estimates`, and its place in
-the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and given any
-effects (`with_effects`): so each is measured alone. What makes finite deformation is one effect: at
-finite strain the gap is on the deformed surface and the boundary is rough. Its parts by themselves
-are linear bodies that have one of them without the others, with largest stresses on the flanks of
-asperities that do not flatten; no model error is put together of these.
+A new finite-element effect gets its entry in effects.toml, an estimate in `estimates`, and its
+place in the sums of `selection`. A scene is reduced to what the half-plane assumes (`plain`) and
+given any effects (`with_effects`): so each is measured alone. What makes finite deformation is one
+effect: at finite strain the gap is on the deformed surface and the boundary is rough. Its parts by
+themselves are linear bodies that have one of them without the others, with largest stresses on the
+flanks of asperities that do not flatten; no model error is put together of these.
 """
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from comparisons.models.nearest_operator import is_layered
 from comparisons.models.problem import Problem
@@ -18,110 +20,42 @@ from comparisons.scenes.scene import ResolvedScene
 
 @dataclass(frozen=True)
 class Effect:
-    """One assumption that is dropped."""
+    """One assumption that is dropped, as effects.toml describes it."""
 
-    label: str  # short name for tables
-    words: str  # what replaces the assumption, for tables
-    contained: Callable[[ResolvedScene], bool]  # whether a scene's finite elements have it
-    # whether it could differ from the half-plane at all in a scene
-    applies: Callable[[Problem], bool]
-    # puts what `whole` has of it into a plainer scene
-    give: Callable[[ResolvedScene, ResolvedScene], ResolvedScene]
+    label: str
+    words: str
+    sets: dict[str, object] = field(default_factory=dict)
+    takes: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
 
+    def contained(self, scene: ResolvedScene) -> bool:
+        """Whether a scene's finite elements have it, and its half-plane has not."""
+        if "coupled" in self.sets and scene.coupled:
+            return False
+        given = {name: getattr(scene.finite_element, name) for name in self.sets}
+        return given == self.sets if given else _any_of(scene, self.takes)
 
-def _with(scene: ResolvedScene, **setting: object) -> ResolvedScene:
-    return replace(scene, finite_element=replace(scene.finite_element, **setting))
+    def applies(self, problem: Problem) -> bool:
+        """Whether it could differ from the half-plane at all in a scene."""
+        scene = problem.scene
+        if "coupled" in self.sets:
+            moves = problem.dundurs_beta != 0.0 or is_layered(scene)
+            return moves and any(scene.friction) and not scene.coupled
+        return not self.needs or _any_of(scene, self.needs)
 
-
-def _switch(
-    label: str,
-    words: str,
-    applies: Callable[[Problem], bool] = lambda problem: True,
-    **setting: object,
-) -> Effect:
-    """An effect that is one field of the scene's [finite_element], at this value."""
-    [(field, value)] = setting.items()
-    return Effect(
-        label,
-        words,
-        lambda scene: getattr(scene.finite_element, field) == value,
-        applies,
-        lambda scene, whole: _with(scene, **setting),
-    )
+    def give(self, scene: ResolvedScene, whole: ResolvedScene) -> ResolvedScene:
+        """A plainer scene with what `whole` has of it."""
+        settings = replace(scene.finite_element, **self.sets)
+        taken = {name: getattr(whole, name) for name in self.takes}
+        return replace(scene, finite_element=settings, **taken)
 
 
-def _bounded(scene: ResolvedScene) -> bool:
-    return scene.thickness is not None or scene.width is not None
+def _any_of(scene: ResolvedScene, parts: Iterable[str]) -> bool:
+    return any(getattr(scene, name) is not None for name in parts)
 
 
-def _couples(problem: Problem) -> bool:
-    scene = problem.scene
-    moves = problem.dundurs_beta != 0.0 or is_layered(scene)
-    return moves and any(scene.friction) and not scene.coupled
-
-
-EFFECTS: dict[str, Effect] = {
-    "finite_size": Effect(
-        "finite thickness or width",
-        "the body's own thickness and width",
-        _bounded,
-        lambda problem: _bounded(problem.scene),
-        lambda scene, whole: replace(
-            scene, thickness=whole.thickness, width=whole.width, base=whole.base
-        ),
-    ),
-    "coating": Effect(
-        "coating",
-        "the coating",
-        lambda scene: scene.coating is not None,
-        lambda problem: problem.scene.coating is not None,
-        lambda scene, whole: replace(scene, coating=whole.coating),
-    ),
-    "rough_boundary": _switch(
-        "rough boundary",
-        "the trace as boundary",
-        lambda problem: problem.scene.profile is not None,
-        geometry="rough",
-    ),
-    "deformed_gap": _switch(
-        "deformed gap",
-        "the gap on the deformed surface, along the roller's normal",
-        gap="displaced",
-    ),
-    "exact_circle": _switch("exact circle", "the roller's circle", roller_shape="circle"),
-    "finite_roller": _switch(
-        "finite roller",
-        "a roller of finite size",
-        lambda problem: problem.scene.roller is not None,
-        roller_body="disc",
-    ),
-    "normal_tangential_coupling": Effect(
-        "normal-tangential coupling",
-        "sliding traction that moves the surfaces",
-        lambda scene: scene.finite_element.coupled and not scene.coupled,
-        _couples,
-        lambda scene, whole: _with(scene, coupled=True),
-    ),
-    "finite_strain": _switch(
-        "finite deformation",
-        "strains and rotations that are not small, on the deformed surface of the trace",
-        deformation="finite",
-    ),
-    "law_of_elasticity": Effect(
-        "law of elasticity",
-        "another law of finite strain with the same constants",
-        lambda scene: False,
-        lambda problem: True,
-        lambda scene, whole: scene,
-    ),
-    "plastic_flow": Effect(
-        "plastic flow",
-        "flow in place of the cap on the pressure",
-        lambda scene: scene.finite_element.plastic,
-        lambda problem: problem.scene.hardness is not None or problem.scene.yielding is not None,
-        lambda scene, whole: _with(scene, plastic=True),
-    ),
-}
+_TABLE = tomllib.loads(Path(__file__).with_name("effects.toml").read_text(encoding="utf-8"))
+EFFECTS = {name: Effect(**described) for name, described in _TABLE.items()}
 
 # What finite deformation contains in any scene, and with a profile.
 IN_FINITE_STRAIN = "deformed_gap"

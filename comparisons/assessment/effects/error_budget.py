@@ -16,8 +16,6 @@ The model error and its uncertainty are stated for every figure in any case.
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from operator import attrgetter
-from typing import Literal
 
 from analytic.profile import Profile
 from comparisons.assessment.effects.contributions import (
@@ -93,10 +91,8 @@ def error_budget(
     cache: Cache,
     tasks: Tasks,
 ) -> ErrorBudget:
-    """Select the effects that may matter, solve them, and split the difference of the models.
-
-    An effect that cannot be solved is not modelled: its estimate and the reason are kept.
-    """
+    """Select the effects that may matter, solve them, and split the difference of the models. An
+    effect that cannot be solved is not modelled: its estimate and the reason are kept."""
     half_plane = runs["half_plane"]
     selection = _selected(problem, plan, half_plane, couplings)
     is_frugal = problem.scene.budget.effects != "all"
@@ -108,8 +104,8 @@ def error_budget(
         splits = {mu: split_variants(problem, selection, mu) for mu in problem.scene.friction}
         solved.keep(split.whole for split in splits.values())
         try:
-            given = problem, window, runs, rows, splits, solved, is_frugal and selection
-            levels, own, unsplit, left_out = _refined(*given)
+            frugal = selection if is_frugal else None
+            levels, own, unsplit, left_out = _refined(half_plane, rows, splits, solved, frugal)
             wholes = {mu: solved.finest(split.whole) for mu, split in splits.items()}
             break
         except NotComputedError as error:
@@ -169,33 +165,30 @@ def _most_levels(problem: Problem) -> int:
 
 
 def _refined(
-    problem: Problem,
-    window: Window | None,
-    runs: dict[str, ModelRun],
+    half_plane: ModelRun,
     rows: tuple[Comparison, ...],
     splits: dict[float, SplitVariants],
     solved: SolvedVariants,
-    frugal: EffectSelection | Literal[False],
+    frugal: EffectSelection | None,
 ) -> tuple[int, list[ModelError], str | None, str | None]:
     """The level that the whole was taken to, the model errors, why these are not split, and which
     level cannot change a verdict.
 
-    frugal  what was selected, where such a level is left out; else False
+    frugal  what was selected, where such a level is left out; else None
 
     The split stays on the least levels, unless the whole and the scene's own finite elements are
     all that it takes. Raises NotComputedError where a whole has no solution on the least levels.
     """
+    problem, runs = solved.problem, {"half_plane": half_plane, "finite_element": solved.own}
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
     left_out, tolerance = None, problem.scene.tolerance
-    most = min(_most_levels(problem), len(runs["finite_element"].levels))
+    most = min(_most_levels(problem), len(solved.own.levels))
+    every = dict.fromkeys(each for split in splits.values() for each in split.all)
+    wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
     for number in range(1, most + 1):
-        every, wholes = (
-            dict.fromkeys(each for split in splits.values() for each in variants(split))
-            for variants in (attrgetter("all"), attrgetter("wholes"))
-        )
         finer = number > LEAST_LEVELS
-        if finer and _is_beyond(problem, runs, solved, number, wholes):
+        if finer and _is_beyond(solved, number, wholes):
             break
         alone = finer and any(solved.is_open(each, number) for each in every if each not in wholes)
         solved.prepare(wholes if alone else every, number)
@@ -210,7 +203,7 @@ def _refined(
         own = []
         for friction, parts in history.items():
             there = [row for row in rows if row.friction == friction]
-            own += model_errors(problem, window, runs, there, parts)
+            own += model_errors(problem, solved.window, runs, there, parts)
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
         if LEAST_LEVELS <= number < most and frugal:
@@ -253,19 +246,13 @@ def _tolerance_checks(
     return found
 
 
-def _is_beyond(
-    problem: Problem,
-    runs: dict[str, ModelRun],
-    solved: SolvedVariants,
-    number: int,
-    asked: Iterable[ModelVariant],
-) -> bool:
+def _is_beyond(solved: SolvedVariants, number: int, asked: Iterable[ModelVariant]) -> bool:
     """Whether a level of these variants would exceed the time, by the laws of cost: clocks would
     give another machine other figures."""
-    spent = sum(level.expected_seconds for level in runs["finite_element"].levels)
+    spent = sum(level.expected_seconds for level in solved.own.levels)
     spent += sum(solved.expected_of(each) for each in range(1, number))
     finer = GROWTH_OF_TIME * solved.expected_of(number - 1, asked)
-    return spent + finer > problem.scene.budget.time
+    return spent + finer > solved.problem.scene.budget.time
 
 
 def _unsplit(rows: tuple[Comparison, ...]) -> list[ModelError]:

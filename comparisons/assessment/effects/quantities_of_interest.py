@@ -92,11 +92,9 @@ def relative_sizes(
     problem: Problem,
     window: Window | None,
 ) -> dict[str, float]:
-    """A difference relative to a reference, by quantity in the order of QUANTITIES.
-
-    Figures keep their sign, largest values are those of the reference's leading asperity; norms are
-    relative L2. What vanishes is measured by the Hertz contact.
-    """
+    """A difference relative to a reference, by quantity in the order of QUANTITIES. Figures keep
+    their sign, largest values are those of the reference's leading asperity; norms are relative L2.
+    What vanishes is measured by the Hertz contact."""
     found = {}
     for name, value in difference.figures.items():
         at = reference.leading(name)

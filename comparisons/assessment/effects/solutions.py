@@ -120,9 +120,8 @@ class SolvedVariants:
         plan, pitch = make_plan(problem, MODELS), problem.pitches[0] / 2.0 ** (number - 1)
         cost = expected_level("finite_element", problem, plan, pitch, self.patches)
         given = self.cache, key, problem, plan, self.window, variant, number, whole
-        tasks = self.tasks
         size = {"seconds": cost.seconds, "memory": cost.memory}
-        tasks.add(key, _level, *given, **size, urgency=urgency, shares=pitch)
+        self.tasks.add(key, _level, *given, **size, urgency=urgency, shares=pitch)
         return key
 
     def _keep(self, variant: ModelVariant, number: int, level: Level) -> None:

@@ -30,11 +30,9 @@ def values_at(spread: Spread, own: float, share: ArrayLike) -> np.ndarray:
 
 
 def sampled(scene: ResolvedScene, point: np.ndarray) -> ResolvedScene:
-    """The scene with its uncertain inputs at a point (d,) of the unit cube, in their order.
-
-    Of the noise the point chooses the seed. Noise comes before the tip, which rounds what it
-    makes too sharp, as a stylus would have.
-    """
+    """The scene with its uncertain inputs at a point (d,) of the unit cube, in their order. Of the
+    noise the point chooses the seed. Noise comes before the tip, which rounds what it makes too
+    sharp, as a stylus would have."""
     at = dict(zip(scene.scatter.inputs, point, strict=True))
 
     def value(name: str, own: float) -> float:

@@ -32,10 +32,8 @@ class Shares:
 
 
 def designs(samples: int, inputs: int, seed: int) -> np.ndarray:
-    """Points (2 + d, n, d) of the open unit cube: A, B, and A_i for every input.
-
-    Sobol's sequence in 2 d dimensions, scrambled by `seed`; `samples` n is a power of two.
-    """
+    """Points (2 + d, n, d) of the open unit cube: A, B, and A_i for every input. Sobol's sequence
+    in 2 d dimensions, scrambled by `seed`; `samples` n is a power of two."""
     from scipy.stats.qmc import Sobol
 
     points = Sobol(2 * inputs, scramble=True, seed=seed).random_base2(samples.bit_length() - 1)
@@ -49,10 +47,8 @@ def designs(samples: int, inputs: int, seed: int) -> np.ndarray:
 
 def shares(values: np.ndarray, scores: np.ndarray, seed: int = 0) -> Shares | None:
     """Of a figure's values (2 + d, n) on the designs, whose inputs have `scores` (2 + d, n, d), of
-    any mean and size. Samples with a nan on any design are left out.
-
-    None where nothing varies, or hardly a sample is left.
-    """
+    any mean and size. Samples with a nan on any design are left out. None where nothing varies, or
+    hardly a sample is left."""
     known = np.all(np.isfinite(values), axis=0)
     values, scores = values[:, known], scores[:, known]
     count, inputs = values.shape[1], scores.shape[-1]

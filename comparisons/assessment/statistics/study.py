@@ -46,10 +46,7 @@ def announce_statistics(
     problem: Problem, tasks: Tasks
 ) -> Callable[[dict[str, ModelRun]], RoughContactStatistics]:
     """Make the random traces known to the tasks of a run; what is returned waits for them, and
-    takes the runs of the models.
-
-    Raises SceneError, one line, for a profile without statistics.
-    """
+    takes the runs of the models. Raises SceneError, one line, for a profile without statistics."""
     scene, wanted = problem.scene, problem.scene.statistics
     try:
         rows = summit_rows(scene.profile, wanted.cutoffs)
@@ -67,11 +64,9 @@ def announce_statistics(
 
 
 def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
-    """Of the profile as pressed, at every cut-off [m] and from every so many of its samples.
-
-    Raises ValueError for a profile without statistics and for a cut-off that was asked for and does
-    not suit the trace.
-    """
+    """Of the profile as pressed, at every cut-off [m] and from every so many of its samples. Raises
+    ValueError for a profile without statistics and for a cut-off that was asked for and does not
+    suit the trace."""
     rows = [_summits(profile, "as pressed", profile.spacing, strict=True)]
     for cutoff in cutoffs or np.multiply(CUTOFFS, shortest_wavelength(profile)).tolist():
         with nullcontext() if cutoffs else suppress(ValueError):

@@ -63,11 +63,8 @@ class MutualCompliance:
 
 
 def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> MutualCompliance:
-    """Both bodies under the same hats.
-
-    Along the roller's normal where the gap is on the deformed surface: to first order the
-    displacement along it closes the gap there.
-    """
+    """Both bodies under the same hats. Along the roller's normal where the gap is on the deformed
+    surface: to first order the displacement along it closes the gap there."""
     scene, settings = problem.scene, problem.scene.finite_element
     hats = np.concatenate([[grid.x[0] - grid.pitch], grid.x, [grid.x[-1] + grid.pitch]])
     friction = scene.friction[0] if settings.coupled else 0.0
@@ -94,9 +91,7 @@ def mutual_compliance(problem: Problem, bodies: BodyPair, grid: HatGrid) -> Mutu
 
 def roller_normal(problem: Problem, mirrored: bool = False) -> Direction:
     """Force per length of x under unit pressure along the roller's normal, into the rough body.
-
-    `mirrored` is the reaction in the roller's own frame, z into the roller.
-    """
+    `mirrored` is the reaction in the roller's own frame, z into the roller."""
     roller, sign = roller_of(problem), -1.0 if mirrored else 1.0
 
     def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -159,11 +159,9 @@ def expected_unknowns(
 
 
 def _boundary(problem: Problem) -> Callable[[np.ndarray], np.ndarray]:
-    """Heights [m] of the rough boundary anywhere on the block's top, the same on every level.
-
-    The profile wherever pressure may come to act; beyond it the roughness fades, so that elements
-    which grow there need not follow waves that they cannot resolve.
-    """
+    """Heights [m] of the rough boundary anywhere on the block's top, the same on every level. The
+    profile wherever pressure may come to act; beyond it the roughness fades, so that elements which
+    grow there need not follow waves that they cannot resolve."""
     curve = problem.scene.profile.spline()
     first, last = problem.scene.profile.x[[0, -1]]
     start, stop = problem.extent

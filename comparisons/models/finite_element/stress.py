@@ -8,7 +8,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import ContactSolution
 from analytic.grid import HatGrid
-from analytic.stress_state import StressState, von_mises
+from analytic.stress_state import von_mises
 from comparisons.common.mpi import from_first
 from comparisons.models.finite_element.contact import MutualCompliance, roller_normal
 from comparisons.models.level import MeshField, RecoverableField, StressResult, highest
@@ -52,10 +52,7 @@ def pressed_linearly(
     gap: np.ndarray,
 ) -> LoadedBody:
     """The linear elastic body under the pressures of a contact; gap (count,) [m^2] is the initial
-    one, weighted by each hat.
-
-    Where the gap is on the deformed surface, so are the pressures.
-    """
+    one, weighted by each hat. Where the gap is on the deformed surface, so are the pressures."""
     rough, settings = operator.rough, problem.scene.finite_element
     displaced = settings.gap == "displaced"
     direction = roller_normal(problem) if displaced else straight_down
@@ -162,13 +159,8 @@ def _stresses_of(
         moved = np.stack([pressed.moved] * len(frictions), axis=1)
     if pressed.on_mesh is not None:
         return tuple(results), pressed.on_mesh(moved, frictions)
-    stresses = {mu: StressState(*each.values.T) for mu, each in zip(frictions, nodal, strict=True)}
-    nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
     others = pressed.others
     if pressed.across is not None:
         mises = von_mises(nodal[0].stress, pressed.across)
         others = {"sy": pressed.across, "von_mises": mises, **others}
-    at_nodes = body.at_points(np.moveaxis(moved, 1, 0))[:, nodes.point]
-    displacement = dict(zip(frictions, at_nodes, strict=True))
-    given = body.points[nodes.point], nodes.triangles, stresses, displacement, nu
-    return tuple(results), MeshField(*given, others)
+    return tuple(results), MeshField.of(body, frictions, nodal, moved, others)

@@ -54,10 +54,8 @@ def cross(axes: "Axes", x: float, z: float) -> None:
 
 
 def layout(models: int, height: float) -> "tuple[Figure, list[Axes], list[Axes]]":
-    """An empty figure, its fields from top to bottom, and its colour bars.
-
-    The models stand above one bar; with two models their difference follows, above another.
-    """
+    """An empty figure, its fields from top to bottom, and its colour bars. The models stand above
+    one bar; with two models their difference follows, above another."""
     block, bar = (TITLE, height), (FOOT, BAR)
     panels = [block] * models + [bar]
     if models > 1:

@@ -181,9 +181,8 @@ def _draw(axes: "Axes", panel: Waterfall, rows: list[str], across: float) -> Non
             text = error_text(panel.quantity, size, panel.uncertainty)
             _beside(axes, max(begin, start), y, text)
         if not panel.is_norm:
-            top = (
-                y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
-            )  # past a step that does not apply
+            # past a step that does not apply
+            top = y - 0.5 * BAR if abs(size) > NOTHING else y + 0.5 * BAR
             axes.plot([start, start], [top, y - 1.0 + 0.5 * BAR], color="#555555", linewidth=0.6)
         ends += [begin, start]
     style.hatch(axes, hatched, LOOKS[False]["edgecolor"])

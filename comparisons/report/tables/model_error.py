@@ -78,11 +78,8 @@ def _moved(errors: list[ModelError]) -> str:
 
 
 def contributions_in_words(error: ModelError) -> tuple[str, ...]:
-    """What the half-plane does not model, as shares of its error, the largest first.
-
-    An effect that raises the finite elements' figure makes the half-plane's too low. Norms have no
-    sign.
-    """
+    """What the half-plane does not model, as shares of its error, the largest first. An effect that
+    raises the finite elements' figure makes the half-plane's too low. Norms have no sign."""
     sizes = {EFFECTS[name].label: -effect.value for name, effect in error.effects.items()}
     sizes |= {"interaction": -error.interaction, "another asperity": error.jump}
     least = max(SHOWN, 0.1 * abs(error.value))
