@@ -63,18 +63,10 @@ def _equispaced(degree: int, shape: tuple | None = (2,)):
     return basix.ufl.element(basix.ElementFamily.P, "triangle", degree, variant, shape=shape)
 
 
-def displacement_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
-    """Continuous vector space of evenly spaced nodes."""
-    return _continuous(mesh, degree, (2,))
+def continuous_space(mesh: "Mesh", degree: int, shape: tuple | None) -> "FunctionSpace":
+    """Continuous space of evenly spaced nodes: of vectors with a `shape` (2,), of scalars without.
 
-
-def temperature_space(mesh: "Mesh", degree: int) -> "FunctionSpace":
-    """Continuous scalar space of evenly spaced nodes."""
-    return _continuous(mesh, degree, None)
-
-
-def _continuous(mesh: "Mesh", degree: int, shape: tuple | None) -> "FunctionSpace":
-    """0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by
+    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by
     default. 0.5 looks up the compiled element on disk each time; here once a process.
     """
     from dolfinx import fem
@@ -87,8 +79,9 @@ def _continuous(mesh: "Mesh", degree: int, shape: tuple | None) -> "FunctionSpac
     scalar = ufl.FiniteElement("Lagrange", mesh.ufl_cell(), degree, variant="equispaced")
     used = ufl.VectorElement(scalar) if shape else scalar
     name = ("element", degree, shape)
-    (element, dofmap), module, _ = _compiled_once(name, lambda: used, mesh.comm)
-    element, dofmap = (_address(module, each) for each in (element, dofmap))
+    parts, module, _ = _compiled_once(name, lambda: used, mesh.comm)
+    ffi = module.ffi
+    element, dofmap = (ffi.cast("uintptr_t", ffi.addressof(part)) for part in parts)
     element = cpp.fem.FiniteElement(element)
     dofmap = cpp.fem.create_dofmap(mesh.comm, dofmap, mesh.topology, element)
     return fem.FunctionSpace(mesh, used, cpp.fem.FunctionSpace(mesh._mesh, element, dofmap))
@@ -101,11 +94,6 @@ def _compiled_once(name: tuple, make: Callable[[], object], comm: "Comm") -> tup
     if name not in _COMPILED:
         _COMPILED[name] = jit.ffcx_jit(comm, make())
     return _COMPILED[name]
-
-
-def _address(module, part):
-    """Address of the compiled part of a module, as 0.5's C++ takes it."""
-    return module.ffi.cast("uintptr_t", module.ffi.addressof(part))
 
 
 def cell_nodes(space: "FunctionSpace") -> np.ndarray:

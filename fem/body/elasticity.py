@@ -34,7 +34,7 @@ from scipy.sparse import csr_matrix
 from analytic.material import Material
 from fem import compat
 from fem.body.coating import Coating, coated_triangles, relative_constants
-from fem.body.nodes import Nodes, at_points, conditions_of, domain_of, nodes_of, own_numbers
+from fem.body.nodes import Nodes, at_points, conditions_of, nodes_of, space_on
 from fem.body.support import Support, held_components
 from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
 from fem.body.triangle import Locator
@@ -42,7 +42,6 @@ from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
 from fem.solver.mumps import FemError, SymmetricFactor
 from meshes.block import BlockMesh, real_points
-from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     import ufl
@@ -229,14 +228,10 @@ def elastic_body(
 
     numbering = nodes_of(mesh, degree)
     held = held_components(numbering.flat, support, boundary_points(numbering.flat, mesh.spec))
-    folded = (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any(axis=1)
-    if folded.any():
-        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are inverted")
     coated = coated_triangles(mesh, coating)
     curved = bool(np.any(mesh.shift))
-    domain, number = domain_of(communicator(), mesh, 2 if curved else 1)
-    space = compiled(lambda: compat.displacement_space(domain, degree))
-    cell, node = own_numbers(mesh, domain, number, space, numbering)
+    space, cell, node = space_on(mesh, numbering, (2,), communicator())
+    domain = space.mesh
 
     # compiled once for all plain bodies and once for all coated ones
     constants = relative_constants(material, coating, coated)

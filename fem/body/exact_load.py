@@ -1,6 +1,6 @@
 """Nodal forces of exact stress fields, for the method of manufactured solutions.
 
-Loops over nodes and a quadrature of its own: independent of the surface loads that it tests.
+By a quadrature of its own on the boundary: independent of the surface loads that it tests.
 """
 
 from collections.abc import Callable
@@ -8,16 +8,14 @@ from collections.abc import Callable
 import numpy as np
 
 from fem.body.nodes import nodes_of
-from fem.body.triangle import edge_shapes, jacobians, shapes
+from fem.body.sums import nodal_sums
+from fem.body.triangle import collapsed_gauss, edge_shapes, edge_slopes, jacobians, shapes
 from meshes.block import BlockMesh, double_areas, real_points
 
-# Degree 8 on the square, collapsed onto the triangle: far more than what is tested.
+# Degree 8: far more than what is tested.
 LINE, LINE_WEIGHT = np.polynomial.legendre.leggauss(5)
 LINE, LINE_WEIGHT = 0.5 * (1.0 + LINE), 0.5 * LINE_WEIGHT
-AREA = np.array([[r, s * (1.0 - r)] for r in LINE for s in LINE])
-AREA_WEIGHT = np.array(
-    [w * v * (1.0 - r) for r, w in zip(LINE, LINE_WEIGHT, strict=True) for v in LINE_WEIGHT]
-)
+AREA, AREA_WEIGHT = collapsed_gauss(5)
 
 
 def forces_of(
@@ -31,27 +29,24 @@ def forces_of(
     elements = nodes_of(mesh, degree).elements
     points = real_points(mesh)
     turn = np.sign(double_areas(points, mesh.triangles))
-    load = np.zeros((elements.max() + 1, 2))
+    count = elements.max() + 1
     inner = [range(3 + k * (degree - 1), 3 + (k + 1) * (degree - 1)) for k in range(3)]
     own = elements[:, [[k, *inner[k], (k + 1) % 3] for k in range(3)]].reshape(-1, degree + 1)
     edges = mesh.triangles[:, [[0, 3, 1], [1, 4, 2], [2, 5, 0]]].reshape(-1, 3)
     turn = np.repeat(turn, 3)
     outer = np.bincount(edges[:, 1], minlength=len(points))[edges[:, 1]] == 1
     edges, own, turn = edges[outer], own[outer], turn[outer]
-    shape = np.stack([(1 - LINE) * (1 - 2 * LINE), 4 * LINE * (1 - LINE), LINE * (2 * LINE - 1)])
-    slope = np.stack([4 * LINE - 3, 4 - 8 * LINE, 4 * LINE - 1])
-    place = np.einsum("eac,aq->eqc", points[edges], shape)
-    tangent = np.einsum("eac,aq->eqc", points[edges], slope) * turn[:, None, None]
+    place = edge_shapes(LINE) @ points[edges]
+    tangent = edge_slopes(LINE) @ points[edges] * turn[:, None, None]
     sx, sz, txz = np.broadcast_arrays(*stress(place[..., 0], place[..., 1]))
     along, down = tangent[..., 1], -tangent[..., 0]
     traction = np.stack([sx * along + txz * down, txz * along + sz * down], axis=-1)
-    for node, shape in enumerate(edge_shapes(LINE, degree).T):
-        np.add.at(load, own[:, node], np.einsum("eqc,q->ec", traction, LINE_WEIGHT * shape))
+    shape = LINE_WEIGHT[:, None] * edge_shapes(LINE, degree)
+    load = nodal_sums(own, shape.T @ traction, count)
     if body_force is not None:
         nodes = points[mesh.triangles]
         place = np.einsum("mac,qa->mqc", nodes, shapes(AREA))
         volume = np.abs(np.linalg.det(jacobians(nodes, AREA))) * AREA_WEIGHT
-        force = np.stack(body_force(place[..., 0], place[..., 1]), axis=-1)
-        for node, shape in enumerate(shapes(AREA, degree).T):
-            np.add.at(load, elements[:, node], np.einsum("mqc,mq->mc", force, volume * shape))
+        force = np.stack(body_force(place[..., 0], place[..., 1]), axis=-1) * volume[..., None]
+        load += nodal_sums(elements, shapes(AREA, degree).T @ force, count)
     return load

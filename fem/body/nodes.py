@@ -12,11 +12,13 @@ import numpy as np
 
 from fem import compat
 from fem.body.triangle import lattice, reference_nodes, shapes
+from fem.solver.compilation import compiled
+from fem.solver.mumps import FemError
 from meshes.block import EDGES, BlockMesh, real_points
+from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     from dolfinx.fem import DirichletBC, FunctionSpace
-    from dolfinx.mesh import Mesh
     from mpi4py.MPI import Comm
 
 # dolfinx lists the edge opposite to vertex 0 first, gmsh the edge between vertices 0 and 1.
@@ -91,31 +93,31 @@ def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray
     return place[base[vertices] @ order.T]
 
 
-def domain_of(comm: "Comm", mesh: BlockMesh, degree: int) -> tuple["Mesh", np.ndarray]:
-    """dolfinx mesh, and the number of our mesh point (k,) for each of its input points.
+def space_on(
+    mesh: BlockMesh, numbering: Nodes, shape: tuple | None, comm: "Comm"
+) -> tuple["FunctionSpace", np.ndarray, np.ndarray]:
+    """dolfinx space of values of a `shape` (2,), or None of scalars, on the mesh; our triangle of
+    each of its cells, and our node of each of its nodes (owned, then ghosts).
 
-    `degree` 1, from the vertices alone, or 2 is that of the elements' edges. The first process has
-    the whole mesh; dolfinx distributes it.
+    The first process has the whole mesh; dolfinx distributes it. Matched by topology, not by
+    coordinates: dolfinx gives each cell's input number, and the order of its vertices among ours
+    gives that of its nodes. Raises FemError if an element is inverted.
     """
-    if degree == 2:
-        cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(mesh.points))
+    points = real_points(mesh)
+    folded = (corner_jacobians(points, mesh.triangles) <= 0.0).any(axis=1)
+    if folded.any():
+        raise FemError(f"{np.count_nonzero(folded)} elements of the mesh are inverted")
+    if curved := bool(np.any(mesh.shift)):
+        cells, number = mesh.triangles[:, GMSH_TO_DOLFINX], np.arange(len(points))
     else:
         number, cells = np.unique(mesh.triangles[:, :3], return_inverse=True)
         cells = cells.reshape(-1, 3)
-    points = real_points(mesh)[number]
+    points = points[number]
     if comm.rank > 0:
         cells, points = cells[:0], points[:0]
-    return compat.triangle_mesh(comm, cells, points, degree), number
+    domain = compat.triangle_mesh(comm, cells, points, 2 if curved else 1)
+    space = compiled(lambda: compat.continuous_space(domain, numbering.degree, shape))
 
-
-def own_numbers(
-    mesh: BlockMesh, domain: "Mesh", number: np.ndarray, space: "FunctionSpace", numbering: Nodes
-) -> tuple[np.ndarray, np.ndarray]:
-    """Our triangle of each of dolfinx's cells, our node of each of its nodes (owned, then ghosts).
-
-    By topology, not by coordinates: dolfinx gives each cell's input number, and the order of its
-    vertices among ours gives that of its nodes.
-    """
     cell = compat.input_cells(domain)
     corner = number[compat.input_points(domain)[compat.cell_points(domain)[:, :3]]]
     vertices = np.argmax(corner[:, :, None] == mesh.triangles[cell, None, :3], axis=2)
@@ -124,7 +126,7 @@ def own_numbers(
     index_map = space.dofmap.index_map
     node = np.full(index_map.size_local + index_map.num_ghosts, -1, dtype=np.int64)
     node[compat.cell_nodes(space)] = np.take_along_axis(numbering.elements[cell], order, axis=1)
-    return cell, node
+    return space, cell, node
 
 
 def conditions_of(space: "FunctionSpace", held: np.ndarray) -> list["DirichletBC"]:

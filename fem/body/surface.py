@@ -16,6 +16,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.body.nodes import Nodes
+from fem.body.sums import matrix_of
 from fem.body.triangle import edge_shapes
 from meshes.block import BlockMesh, BlockSpec
 
@@ -161,11 +162,10 @@ def hat_forces(
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece
     value = np.einsum("aeg,cheg->ache", points.shape * points.weight, along[:, None] * points.hat)
-    row = 2 * points.node[:, None, None, :] + np.arange(2)[None, :, None, None]
-    row, column = np.broadcast_arrays(row, points.column[None, None, :, :])
-    inside = (column >= 0) & (column < count) & (value != 0.0)
-    place = (row[inside], column[inside])
-    return csr_matrix((value[inside], place), shape=(2 * len(surface.x), count))
+    row = 2 * points.node[:, None, None, :] + np.arange(2)[:, None, None]
+    forces = matrix_of(value, row, points.column + 1, (2 * len(surface.x), count + 2))[:, 1:-1]
+    forces.eliminate_zeros()
+    return forces
 
 
 def _ordered(flat: np.ndarray, spec: BlockSpec) -> np.ndarray:

@@ -63,6 +63,13 @@ def edge_shapes(t: np.ndarray, degree: int = 2) -> np.ndarray:
     return factor[..., 0, degree - i] * factor[..., 1, i]
 
 
+def edge_slopes(at: np.ndarray, degree: int = 2) -> np.ndarray:
+    """d shape / dt (q, degree + 1) of an edge's nodes in turn, at places t (q,) from 0 to 1."""
+    power = np.arange(degree + 1)
+    slope = power * at[:, None] ** np.maximum(power - 1, 0)
+    return slope @ np.linalg.inv((power[:, None] / degree) ** power)
+
+
 def jacobians(nodes: np.ndarray, at: np.ndarray) -> np.ndarray:
     """J (m, q, 2, 2) of elements with node coordinates (m, k, 2) at reference points (q, 2)."""
     return np.einsum("mac,qad->mqcd", nodes, slopes(at, DEGREE[nodes.shape[1]]), optimize=True)
@@ -152,7 +159,7 @@ class Locator:
         at = self._reference(element, where)
         lost = np.flatnonzero(_outside(at) > ROUNDING)
         for _ in range(WALK_STEPS):
-            behind = np.argmin(_vertex_weights(at[lost]), axis=1)
+            behind = np.argmin(_barycentric(at[lost]), axis=1)
             element_next = self._neighbours[element[lost], behind]
             lost, element_next = lost[element_next >= 0], element_next[element_next >= 0]
             if len(lost) == 0:
@@ -180,10 +187,6 @@ class Locator:
         return at
 
 
-def _vertex_weights(at: np.ndarray) -> np.ndarray:
-    return np.column_stack([1.0 - at[:, 0] - at[:, 1], at[:, 0], at[:, 1]])
-
-
 def _outside(at: np.ndarray) -> np.ndarray:
     """Distance (k,) of points from the reference triangle, in barycentric coordinates."""
-    return -np.minimum(_vertex_weights(at).min(axis=1), 0.0)
+    return -np.minimum(_barycentric(at).min(axis=1), 0.0)

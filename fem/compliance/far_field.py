@@ -27,6 +27,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from fem.body.elasticity import ElasticBody
+from fem.body.sums import matrix_of
 from fem.body.triangle import collapsed_gauss, jacobians, slopes
 
 # First neglected power of reach over distance of the boundary. The compliance's error is 3e-8 for
@@ -150,13 +151,6 @@ def coupling(body: ElasticBody, held: np.ndarray) -> csr_matrix:
     shear, lame = body.material.shear_modulus, body.lame[0]
     stiffness = lame * product + shear * (product.swapaxes(2, 4) + same_component)
 
-    def whole(number: np.ndarray) -> np.ndarray:
-        return np.broadcast_to(number, stiffness.shape)
-
-    component = 2 * element[..., None] + np.arange(2)
-    place = 2 * (np.cumsum(held) - 1)[element][..., None] + np.arange(2)
-    of_held = whole(held[element][:, None, None, :, None])
-    row, column = whole(component[..., None, None]), whole(place[:, None, None])
-    place = (row[of_held], column[of_held])
-    shape = (2 * len(held), 2 * np.count_nonzero(held))
-    return csr_matrix((stiffness[of_held], place), shape=shape)
+    component, count = 2 * element[..., None] + np.arange(2), 2 * len(held)
+    place = component[..., None, None], component[:, None, None]
+    return matrix_of(stiffness, *place, (count, count))[:, np.repeat(held, 2)]

@@ -29,8 +29,9 @@ import numpy as np
 from scipy.sparse import block_diag, csr_matrix, diags
 
 from fem.body.elasticity import ElasticBody
+from fem.body.sums import matrix_of
 from fem.body.surface import along_edges, hat_points, place_on
-from fem.body.triangle import edge_shapes
+from fem.body.triangle import edge_shapes, edge_slopes
 from fem.contact.rigid_roller import HatsOnSurface
 from fem.contact.terms import ContactTerms, Response
 from fem.solver.mumps import FemError
@@ -158,7 +159,7 @@ class PairContact:
             sliding = along.T @ weighted - down.T @ diags(slope) @ weighted
             force = (gradient + self._friction * sliding).tocsr()
 
-        value = np.column_stack([4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0])
+        value = edge_slopes(t)
         value /= (value * surface.x[node]).sum(axis=1)[:, None]  # dM/dx
         turn_x, turn_z = self._of_roller(node, value)
         load = diags(on.weight * (on.hats @ pressure))
@@ -193,9 +194,5 @@ class PairContact:
         """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,
         3) with factors (q, 3)."""
         number = self._first + self._roller.surface.point[node]
-        row = np.repeat(np.arange(len(node)), 3)
-        shape = (len(node), 2 * self._count)
-        return [
-            csr_matrix((value.ravel(), (row, (2 * number + axis).ravel())), shape=shape)
-            for axis in (0, 1)
-        ]
+        row, shape = np.arange(len(node))[:, None], (len(node), 2 * self._count)
+        return [matrix_of(value, row, 2 * number + axis, shape) for axis in (0, 1)]

@@ -14,9 +14,10 @@ above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape 
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.sparse import csr_matrix, diags
+from scipy.sparse import diags
 
 from fem.body.elasticity import ElasticBody
+from fem.body.sums import matrix_of
 from fem.body.surface import hat_points
 from fem.contact.terms import ContactTerms
 
@@ -72,20 +73,11 @@ class HatsOnSurface:
         points, count = hat_points(body.surface, hats, cuts), len(hats) - 2
         self.weight = points.weight.ravel()
         number = np.arange(points.x.size).reshape(points.x.shape)
-        node = np.broadcast_to(body.surface.point[points.node][..., None], points.shape.shape)
-        row = np.broadcast_to(number, points.shape.shape)
-        size = (number.size, 2 * (nodes or len(body.nodes)))
-
-        def of_component(axis: int) -> csr_matrix:
-            place = (row.ravel(), 2 * node.ravel() + axis)
-            return csr_matrix((points.shape.ravel(), place), size)
-
-        self.x, self.z = of_component(0), of_component(1)
-        column = np.broadcast_to(points.column[..., None], points.hat.shape)
-        at = np.broadcast_to(number, points.hat.shape)
-        among = (column >= 0) & (column < count)
-        place = (at[among], column[among])
-        self.hats = csr_matrix((points.hat[among], place), (number.size, count))
+        node = body.surface.point[points.node][..., None]
+        size = number.size, 2 * (nodes or len(body.nodes))
+        self.x, self.z = (matrix_of(points.shape, number, 2 * node + c, size) for c in (0, 1))
+        column = points.column[..., None] + 1
+        self.hats = matrix_of(points.hat, number, column, (number.size, count + 2))[:, 1:-1]
         self.weighted = diags(self.weight) @ self.hats
 
 

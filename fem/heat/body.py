@@ -19,14 +19,12 @@ from analytic.material import ThermalMaterial
 from fem import compat
 from fem.body.coating import Coating, coated_triangles
 from fem.body.elasticity import quadrature_degree
-from fem.body.nodes import Nodes, domain_of, nodes_of, own_numbers
+from fem.body.nodes import Nodes, nodes_of, space_on
 from fem.body.surface import Surface, surface_of
 from fem.body.triangle import Locator, shapes
 from fem.solver.communicator import communicator, each_alone
 from fem.solver.compilation import compiled, load_dolfinx
-from fem.solver.mumps import FemError
 from meshes.block import BlockMesh, real_points
-from meshes.quality import corner_jacobians
 
 if TYPE_CHECKING:
     import ufl
@@ -89,18 +87,14 @@ def thermal_body(
     Raises FemError if an element is inverted, ValueError if one crosses the coating's lower side.
     """
     load_dolfinx()
-    if (corner_jacobians(real_points(mesh), mesh.triangles) <= 0.0).any():
-        raise FemError("elements of the mesh are inverted")
     numbering, coated = nodes_of(mesh, degree), coated_triangles(mesh, coating)
     layer = coating.material if coating else material
     curved = bool(np.any(mesh.shift))
     with each_alone():
-        domain, number = domain_of(communicator(), mesh, 2 if curved else 1)
-        space = compiled(lambda: compat.temperature_space(domain, degree))
-    cell, node = own_numbers(mesh, domain, number, space, numbering)
+        space, cell, node = space_on(mesh, numbering, None, communicator())
 
     def of_cells(surface: float, below: float):
-        return compat.cell_values(domain, np.where(coated[cell], surface, below))
+        return compat.cell_values(space.mesh, np.where(coated[cell], surface, below))
 
     heat = of_cells(layer.density * layer.specific_heat, material.density * material.specific_heat)
     conductivity = of_cells(layer.conductivity, material.conductivity)

@@ -31,6 +31,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.special import k0e, k1e
 
+from fem.body.sums import matrix_of
 from fem.body.surface import boundary_points
 from fem.body.triangle import edge_shapes
 from fem.heat.body import ThermalBody
@@ -122,9 +123,7 @@ class Conduction:
         outwards = normal * place[..., 1 - axis] / r
         h = material.conductivity * (decay * outwards - rate * normal * axis)
         value = np.einsum("eg,g,e,ga,gb->eab", h, 0.5 * WEIGHTS, length, shape, shape)
-        row, column = np.broadcast_arrays(edge[:, :, None], edge[:, None, :])
-        place = (row.ravel(), column.ravel())
-        return csr_matrix((value.ravel(), place), shape=self.body.conduction.shape)
+        return matrix_of(value, edge[:, :, None], edge[:, None, :], self.body.conduction.shape)
 
     @cached_property
     def _factor(self) -> Factor:

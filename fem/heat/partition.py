@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import block_diag, bmat, csr_matrix
 
+from fem.body.sums import matrix_of
 from fem.body.surface import Surface, hat_points
 from fem.heat.body import ThermalBody
 from fem.heat.conduction import Conduction
@@ -136,6 +137,4 @@ def hat_integrals(body: ThermalBody, x: np.ndarray, contact: np.ndarray) -> csr_
     weight = points.weight * contact[column[0]][:, None]
     value = np.einsum("aeg,eg,heg->ahe", points.shape, weight, points.hat)
     row = body.surface.point[points.node][:, None, :]
-    row, column = np.broadcast_arrays(row, column[None])
-    place = (row.ravel(), column.ravel())
-    return csr_matrix((value.ravel(), place), shape=(len(body.nodes), len(x)))
+    return matrix_of(value, row, column, (len(body.nodes), len(x)))

@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from fem.body.sums import matrix_of, nodal_sums
 from fem.body.surface import Surface, hat_points, place_on
 from fem.body.triangle import edge_shapes
 from fem.heat.body import ThermalBody
@@ -21,17 +22,13 @@ def flux_load(
     piece of an edge). Raises ValueError if x does not ascend or leaves the surface."""
     points = hat_points(body.surface, x)
     value = flux(points.x) if callable(flux) else np.interp(points.x, x, flux)
-    heat = points.shape * points.weight * value
-    node = np.broadcast_to(body.surface.point[points.node][..., None], heat.shape)
-    return np.bincount(node.ravel(), heat.ravel(), len(body.nodes))
+    heat = (points.shape * (points.weight * value)).sum(axis=-1)
+    return nodal_sums(body.surface.point[points.node], heat, len(body.nodes))
 
 
 def values_at(surface: Surface, x: np.ndarray) -> csr_matrix:
     """Matrix (m, k) that gives values at x (m,) [m] from those at the surface's nodes (k,)."""
-    vertex = np.append(surface.edges[:, 0], surface.edges[-1, 2])
-    edge = np.clip(np.searchsorted(vertex, x) - 1, 0, len(vertex) - 2)
+    edge = np.searchsorted(surface.edges[1:, 0], x)
     shape = edge_shapes(place_on(surface.edges[edge], x), surface.degree)
     column = surface.degree * edge[:, None] + np.arange(surface.degree + 1)
-    row = np.broadcast_to(np.arange(len(x))[:, None], column.shape)
-    place = (row.ravel(), column.ravel())
-    return csr_matrix((shape.ravel(), place), shape=(len(x), len(surface.x)))
+    return matrix_of(shape, np.arange(len(x))[:, None], column, (len(x), len(surface.x)))

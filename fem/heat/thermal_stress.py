@@ -13,6 +13,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from fem.body.elasticity import ElasticBody, MeshedBody
+from fem.body.sums import nodal_sums
 from fem.body.triangle import collapsed_gauss, jacobians, shapes, slopes
 from fem.stress.recovery import recovered_stress, stress_nodes
 from fem.stress.stress import NodalStress
@@ -51,12 +52,7 @@ def thermal_load(
     slope = slopes(at, body.degree) @ np.linalg.inv(jacobian)
     pressure = _beta(body, expansion)[:, None] * (temperature[body.mesh.triangles] @ shapes(at).T)
     force = np.einsum("mq,mqac->mac", area * pressure, slope, optimize=True)
-    return np.column_stack(
-        [
-            np.bincount(body.elements.ravel(), force[..., axis].ravel(), len(body.nodes))
-            for axis in (0, 1)
-        ]
-    )
+    return nodal_sums(body.elements, force, len(body.nodes))
 
 
 def _beta(body: MeshedBody, expansion: float | np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ from scipy.sparse import csr_matrix
 
 from fem import compat
 from fem.body.elasticity import ElasticBody, quadrature_degree
+from fem.body.sums import nodal_sums
 from fem.body.triangle import gradients, jacobians, reference_nodes, slopes
 from fem.nonlinear.laws import cauchy_stress, energy
 from fem.solver.compilation import compiled
@@ -174,11 +175,8 @@ class _MatchedLoad(SurfaceLoad):
 
 def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
     """Means (k, c) at the mesh points of values (m, 6, c) of the elements around them."""
-    point = body.mesh.triangles.ravel()
-    number = np.bincount(point, minlength=len(body.points))
-    values = value.reshape(len(point), -1).T
-    columns = [np.bincount(point, column, len(body.points)) for column in values]
-    return np.column_stack(columns) / number[:, None]
+    point, count = body.mesh.triangles, len(body.points)
+    return nodal_sums(point, value, count) / np.bincount(point.ravel(), minlength=count)[:, None]
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:

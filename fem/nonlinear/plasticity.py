@@ -29,6 +29,7 @@ from scipy.sparse import csr_matrix
 
 from analytic.material import Material
 from fem.body.elasticity import ElasticBody
+from fem.body.sums import matrix_of, nodal_sums
 from fem.body.triangle import GAUSS, jacobians, shapes, slopes
 
 # Maps (exx, ezz, gxz) to the deviator (exx', ezz', exz).
@@ -195,9 +196,7 @@ class PlasticBody:
         s = stress.reshape(-1, 3, 3)[element] * self.areas[element][..., None]
         tensor = s[..., [[0, 2], [2, 1]]]
         nodal = (self._slopes[element] @ tensor).sum(axis=1)
-        force = np.zeros(self.body.nodes.shape)
-        np.add.at(force, self.body.elements[element], nodal)
-        return force
+        return nodal_sums(self.body.elements[element], nodal, len(self.body.nodes))
 
     def _softening(self, step: PlasticStep) -> csr_matrix:
         """Elastic minus consistent tangent (2n, 2n) [Pa], zero on held components."""
@@ -216,5 +215,5 @@ class PlasticBody:
         block = strain.reshape(-1, 9, 12).transpose(0, 2, 1) @ rows
         nodes = self.body.elements[element]
         component = (2 * nodes[:, :, None] + np.arange(2)).reshape(-1, 12)
-        place = (np.repeat(component, 12, axis=1).ravel(), np.tile(component, (1, 12)).ravel())
-        return csr_matrix((block.ravel(), place), shape=self._stiffness.shape)
+        place = component[:, :, None], component[:, None, :]
+        return matrix_of(block, *place, self._stiffness.shape)

@@ -28,6 +28,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 
 from analytic.stress_state import StressState, von_mises
+from fem.body.sums import nodal_sums
 from fem.body.triangle import GAUSS, reference_nodes
 from fem.compliance.operator import FiniteElementCompliance
 from fem.contact.nonlinear import ContactState, solve_nonlinear_contact
@@ -362,12 +363,9 @@ def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     """
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
-    elements, areas = body.body.elements, body.areas.sum(axis=1)
-    values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[:, None, None]
-
-    def summed(weights: np.ndarray) -> np.ndarray:
-        return np.bincount(elements.ravel(), weights, minlength=len(body.body.nodes))
-
-    total = summed(np.repeat(areas, 6))
-    sx, sz, txz, sy, strain = (summed(v.ravel()) / total for v in values.T.swapaxes(1, 2))
+    elements, count = body.body.elements, len(body.body.nodes)
+    areas = np.repeat(body.areas.sum(axis=1), 6).reshape(elements.shape)
+    values = EXTRAPOLATION @ sampled.reshape(len(elements), 3, -1) * areas[..., None]
+    total = nodal_sums(elements, areas, count)
+    sx, sz, txz, sy, strain = nodal_sums(elements, values, count).T / total
     return PlasticFields(StressState(sx, sz, txz), sy, np.maximum(strain, 0.0))

@@ -18,8 +18,10 @@ The difference between recovered and element stresses estimates the error of the
 source), in the energy norm E^2 = integral (s* - s) : strain of (s* - s).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, wraps
+from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -27,13 +29,8 @@ from scipy.sparse import csr_matrix, diags
 
 from analytic.stress_state import StressState
 from fem.body.elasticity import MeshedBody
-from fem.body.triangle import (
-    GAUSS,
-    edge_shapes,
-    gradients,
-    reference_nodes,
-    shapes,
-)
+from fem.body.sums import matrix_of
+from fem.body.triangle import GAUSS, edge_shapes, edge_slopes, gradients, reference_nodes, shapes
 from fem.stress.kinks import Kinks, Weights, runs
 from fem.stress.surface_load import SurfaceLoad, from_surface, to_surface
 from meshes.block import EDGES
@@ -82,11 +79,9 @@ class StressNodes:
     @cached_property
     def touch(self) -> csr_matrix:
         """Which triangle touches which node that is a vertex (k, m)."""
-        node = self.triangles[:, :3].ravel()
-        triangle = np.repeat(np.arange(len(self.triangles)), 3)
-        return csr_matrix(
-            (np.ones(len(node)), (node, triangle)), (len(self.point), triangle[-1] + 1)
-        )
+        count = len(self.triangles)
+        triangle = np.arange(count)[:, None]
+        return matrix_of(np.ones(1), self.triangles[:, :3], triangle, (len(self.point), count))
 
     def around(self, inner: np.ndarray) -> np.ndarray:
         """Triangles that touch some inner ones, these included."""
@@ -100,19 +95,26 @@ class MaterialStress(StressState):
     poissons_ratio: np.ndarray
 
 
-# Of the bodies in use: loads, friction coefficients and what lies in the gap share them.
-_NODES: WeakKeyDictionary[MeshedBody, StressNodes] = WeakKeyDictionary()
+Found = TypeVar("Found")
 
 
+def _once(make: Callable[[MeshedBody], Found]) -> Callable[[MeshedBody], Found]:
+    """`make`, but once for a body: loads, friction coefficients and what lies in the gap share what
+    it returns."""
+    known: WeakKeyDictionary[MeshedBody, Found] = WeakKeyDictionary()
+
+    @wraps(make)
+    def kept(body: MeshedBody) -> Found:
+        if body not in known:
+            known[body] = make(body)
+        return known[body]
+
+    return kept
+
+
+@_once
 def stress_nodes(body: MeshedBody) -> StressNodes:
-    """The mesh's points in their order; with a coating the body's first, then the coating's. Made
-    once for a body, like its `patches_of`."""
-    if body not in _NODES:
-        _NODES[body] = _stress_nodes(body)
-    return _NODES[body]
-
-
-def _stress_nodes(body: MeshedBody) -> StressNodes:
+    """The mesh's points in their order; with a coating the body's first, then the coating's."""
     if not body.coated.any():
         return StressNodes(np.arange(len(body.points)), body.mesh.triangles)
     count = len(body.points)
@@ -162,17 +164,10 @@ class Patches:
         )
 
 
-_PATCHES: WeakKeyDictionary[MeshedBody, Patches] = WeakKeyDictionary()
-
-
-def patches_of(body: MeshedBody, nodes: StressNodes) -> Patches:
-    """The patches of a body, made once."""
-    if body not in _PATCHES:
-        _PATCHES[body] = _all_patches(body, nodes)
-    return _PATCHES[body]
-
-
-def _all_patches(body: MeshedBody, nodes: StressNodes) -> Patches:
+@_once
+def patches_of(body: MeshedBody) -> Patches:
+    """All of a body."""
+    nodes = stress_nodes(body)
     vertex = np.unique(nodes.triangles[:, :3])
     position = np.zeros(len(nodes.point), dtype=np.int64)
     position[vertex] = np.arange(len(vertex))
@@ -266,7 +261,7 @@ class Recovery:
         for piece in range(0, len(new), PIECE):
             wanted = np.zeros(len(self.known), dtype=bool)
             wanted[new[piece : piece + PIECE]] = True
-            self._recover(patches_of(self.body, self.nodes).of(wanted))
+            self._recover(patches_of(self.body).of(wanted))
         return self._stress[node]
 
     def _recover(self, patches: Patches) -> None:
@@ -345,9 +340,9 @@ class _NearKinks:
         at, _ = np.polynomial.legendre.leggauss(body.degree)
         at = 0.5 * (1.0 + at)
         place = edge_shapes(at, 2) @ body.points[point]
-        longer = _edge_slopes(at, 2) @ body.points[point]
+        longer = edge_slopes(at, 2) @ body.points[point]
         moved = displacement[node] - self._displacement(patch, node)
-        stretch = np.einsum("qk,sk...->sq...", _edge_slopes(at, body.degree), moved)
+        stretch = np.einsum("qk,sk...->sq...", edge_slopes(at, body.degree), moved)
         number = np.arange(place[..., 0].size).reshape(place.shape[:2])
         own = self.kinks.stress(self.weights, patch, place.reshape(-1, 2), number)
 
@@ -375,13 +370,6 @@ class _NearKinks:
         nu, shear = body.surface_material.poissons_ratio, body.surface_material.shear_modulus
         moved = self.kinks.displacement(self.weights, patch, body.nodes, point[:, None], nu)
         return moved[which.reshape(node.shape), 0] / shear
-
-
-def _edge_slopes(at: np.ndarray, degree: int) -> np.ndarray:
-    """d shape / dt (q, degree + 1) of an edge's nodes in turn, at places t (q,) from 0 to 1."""
-    power = np.arange(degree + 1)
-    slope = power * at[:, None] ** np.maximum(power - 1, 0)
-    return slope @ np.linalg.inv((power[:, None] / degree) ** power)
 
 
 def _stress(body: MeshedBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray) -> np.ndarray:

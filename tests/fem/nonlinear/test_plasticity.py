@@ -128,7 +128,7 @@ def assembled_by_dolfinx(body, points, stress, tangent):
     domain = compat.triangle_mesh(
         MPI.COMM_SELF, corner.reshape(-1, 3), body.mesh.points[vertices], 1
     )
-    space = compat.displacement_space(domain, 2)
+    space = compat.continuous_space(domain, 2, (2,))
     places, _ = basix.make_quadrature(basix.CellType.triangle, 2)
     shape = np.column_stack([1.0 - places.sum(axis=1), places])
     at = shape @ domain.geometry.x[compat.cell_points(domain)][..., :2]
