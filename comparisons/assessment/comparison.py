@@ -15,7 +15,7 @@ from comparisons.assessment.uncertainty import (
     relative_resolution,
 )
 from comparisons.assessment.verdict import Comparison, judge
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import MODELS, QUANTITIES
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.problem import Problem
 from comparisons.models.window import Window
@@ -211,27 +211,20 @@ def discretisations(
 def compared(
     problem: Problem, runs: dict[str, ModelRun], window: Window | None
 ) -> tuple[Comparison, ...]:
-    """Every quantity at every friction coefficient, of finished runs of both models."""
-    frictions = problem.scene.friction
-    return tuple(row for mu in frictions for row in _compared(problem, runs, mu, window))
-
-
-def _compared(
-    problem: Problem, runs: dict[str, ModelRun], friction: float, window: Window | None
-) -> list[Comparison]:
-    """At one friction coefficient, in the order of QUANTITIES."""
-    pair = runs["half_plane"], runs["finite_element"]
-    one, other = (figures(run.finest, problem, friction) for run in pair)
-    history = pair_history(*pair, problem, friction, window)
-    listed = []
-    for name, difference in history.differences[-1].items():
-        uncertainty = history.uncertainties[name].total
-        tolerance = problem.scene.tolerance.get(name)
-        verdict = judge(difference, uncertainty, tolerance) if tolerance else None
-        known = uncertainty if np.isfinite(uncertainty) else None
-        values = one.get(name), other.get(name)
-        listed.append(Comparison(name, friction, *values, difference, known, tolerance, verdict))
-    return listed
+    """Every quantity at every friction coefficient, of finished runs of both models; at each in the
+    order of QUANTITIES."""
+    rows = []
+    for pair in pair_histories(problem, runs, window):
+        friction = pair.friction
+        found = [figures(runs[model].finest, problem, friction) for model in MODELS]
+        for name, difference in pair.differences[-1].items():
+            uncertainty = pair.uncertainties[name].total
+            tolerance = problem.scene.tolerance.get(name)
+            verdict = judge(difference, uncertainty, tolerance) if tolerance else None
+            known = uncertainty if np.isfinite(uncertainty) else None
+            values = (of_model.get(name) for of_model in found)
+            rows.append(Comparison(name, friction, *values, difference, known, tolerance, verdict))
+    return tuple(rows)
 
 
 def relative_l2(

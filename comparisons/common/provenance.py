@@ -79,11 +79,12 @@ def _processor() -> str | None:
 
 @cache
 def program_code(*places: str) -> str:
-    """Hash of the code in folders and files of the project."""
+    """Hash of the code in folders and files of the project, tables in TOML among it."""
     total = hashlib.sha256()
     for place in places:
         path = PROJECT / place
-        for source in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
+        sources = [*path.rglob("*.py"), *path.rglob("*.toml")] if path.is_dir() else [path]
+        for source in sorted(sources):
             with open(source, "rb", buffering=0) as file:
                 total.update(file.read())
     return total.hexdigest()

@@ -7,8 +7,6 @@ computes the other model's field.
 
 import base64
 import json
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,26 +15,15 @@ from comparisons.common.quantities import LABELS
 from comparisons.report.figures.fields import COMPONENTS, Component
 from comparisons.results.outcome import Outcome
 
-if TYPE_CHECKING:
-    from markupsafe import Markup
-
 MOST_ROWS, MOST_COLUMNS = 48, 480  # of points in the page
 WHOLE = 32767  # the largest of two bytes
 NOTHING = -32768  # where a field has no value
 DIGITS = 6  # of a place
 
 
-@dataclass(frozen=True)
-class FieldExplorer:
-    """What the page needs: choices of the reader, and the numbers as JSON."""
-
-    components: tuple[tuple[str, str], ...]  # symbol and words
-    frictions: tuple[str, ...]  # coefficients in words
-    fields: "Markup"
-
-
-def field_explorer(outcome: Outcome) -> FieldExplorer | None:
-    """None without fields."""
+def field_explorer(outcome: Outcome) -> dict[str, object] | None:
+    """What the page needs: `components` (symbol and words) and `frictions` that the reader may
+    choose, and the `fields` as JSON. None without fields."""
     if outcome.window is None:
         return None
     from markupsafe import Markup
@@ -58,11 +45,11 @@ def field_explorer(outcome: Outcome) -> FieldExplorer | None:
             for component in COMPONENTS
         ],
     }
-    return FieldExplorer(
-        components=tuple((component.symbol, component.words) for component in COMPONENTS),
-        frictions=tuple(map(plain, frictions)),
-        fields=Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),
-    )
+    return {
+        "components": [(component.symbol, component.words) for component in COMPONENTS],
+        "frictions": list(map(plain, frictions)),
+        "fields": Markup(json.dumps(content, separators=(",", ":")).replace("<", "\\u003c")),
+    }
 
 
 def _spread(count: int, most: int) -> np.ndarray:

@@ -19,6 +19,7 @@ from comparisons.report.tables.problem import in_mm
 from comparisons.report.tables.quiescent_zone import zone_line
 from comparisons.report.tables.scatter import scatter_lines
 from comparisons.report.tables.statistics import statistics_lines
+from comparisons.report.tables.text import wording
 from comparisons.results.outcome import Outcome
 from comparisons.scenes.scene import ProfileInfo
 
@@ -27,18 +28,7 @@ if TYPE_CHECKING:
     from rich.table import Table
     from rich.text import Text
 
-# Short enough for 80 columns; the report says them in full.
-SHORT = {
-    "peak_pressure": "peak pressure",
-    "contact_length": "contact length",
-    "contact_ratio": "contact ratio",
-    "pressure_l2": "pressure, L2",
-    "tau1_max": "tau1 max",
-    "tau1_max_depth": "tau1 max depth",
-    "txz_max_abs": "|txz| max",
-    "tau1_field_near": "tau1 near, L2",
-    "tau1_field_deep": "tau1 deep, L2",
-}
+SHORT = wording()["short"]  # names of quantities
 STYLES = {"agree": "cyan", "inconclusive": "yellow", "holds": "bold cyan"}
 STYLES |= dict.fromkeys(("differ", "fails", "not converged"), "bold red")
 LISTED = 2  # effects in the terminal; the report has them all

@@ -30,20 +30,15 @@ DIGITS = 9  # of a figure: enough to see what moved by more than rounding
 
 @dataclass(frozen=True)
 class Repetition:
-    """A repeated run.
-
-    movement  of its figures
-    levels    of each model, recorded and repeated
-    other     versions and properties of the machine that are not the recorded ones, both
-    bits      whether every recorded hash came out again: pressures equal to the last bit
-    """
+    """A repeated run."""
 
     record: Record
     outcome: Outcome
-    movement: Movement
-    levels: tuple[int, int]
+    movement: Movement  # of its figures
+    levels: tuple[int, int]  # of each model, recorded and repeated
+    # versions and properties of the machine that are not the recorded ones, both
     other: dict[str, Pair]
-    bits: bool
+    bits: bool  # whether every recorded hash came out again: pressures equal to the last bit
 
     @property
     def exit_status(self) -> ExitStatus:

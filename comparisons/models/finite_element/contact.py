@@ -34,12 +34,12 @@ class Part:
     friction: float  # sliding traction over pressure, towards +x
 
 
+@dataclass(frozen=True)
 class MutualCompliance:
     """Weighted displacements of both surfaces (n,) [m^2] under pressures (n,) [Pa], and under the
     sliding traction that they drag along where friction is `coupled`."""
 
-    def __init__(self, parts: tuple[Part, ...]) -> None:
-        self.parts = parts
+    parts: tuple[Part, ...]
 
     @property
     def rough(self) -> FiniteElementCompliance:

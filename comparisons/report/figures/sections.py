@@ -25,9 +25,7 @@ BULGE = {"color": "#222222", "marker": "_", "linewidth": 0.8}
 
 def section_pictures(outcome: Outcome) -> list[style.Picture]:
     """Through the highest pressure and through the edge of the smooth contact; none without field.
-
-    The verticals are the columns of the common window that lie nearest.
-    """
+    The verticals are the columns of the common window that lie nearest."""
     if outcome.window is None:
         return []
     wanted = {

@@ -43,22 +43,16 @@ class CostTask:
 
 @dataclass(frozen=True)
 class MeasuredRun:
-    """Solution and cost of a setting: medians over the `repeats` that were counted.
-
-    seconds   processor time by stage         total   of all stages
-    wall      wall time                       spread  smallest and largest total
-    memory    largest of the process so far [bytes]; settings come from coarse to fine
-    spent     seconds that measuring took in all
-    """
+    """Solution and cost of a setting: medians over the `repeats` that were counted."""
 
     solved: SolvedContact
-    seconds: dict[str, float]
-    total: float
-    wall: float
-    spread: tuple[float, float]
+    seconds: dict[str, float]  # processor time by stage
+    total: float  # of all stages
+    wall: float  # wall time
+    spread: tuple[float, float]  # smallest and largest total
     repeats: int
-    memory: int
-    spent: float
+    memory: int  # largest of the process so far [bytes]; settings come from coarse to fine
+    spent: float  # seconds that measuring took in all
 
 
 @dataclass(frozen=True)

@@ -38,30 +38,21 @@ FORMAL_ORDERS = {"mean_gap": 2.0}  # of figures that are not compared in scenes
 
 @dataclass(frozen=True)
 class OperatorContact:
-    """A contact on an operator of the library.
-
-    kind    wave | punch | layer | rough
-    model   half_plane | layer
-    make    operator of a grid's count and pitch [m]
-    gap     g0(x) [m], smooth but for `knots` [m]
-    span    (2,) ends of the grid [m]; a period's where it is periodic
-    scale   [m] of which the pitch is a part: half of the contact, or its rounded corner
-    patches of contact, a period's
-    """
+    """A contact on an operator of the library."""
 
     name: str
     source: str
-    kind: str
-    model: str
-    make: Callable[[int, float], ModelOperator]
-    gap: Callable[[np.ndarray], np.ndarray]
+    kind: str  # wave | punch | layer | rough
+    model: str  # half_plane | layer
+    make: Callable[[int, float], ModelOperator]  # operator of a grid's count and pitch [m]
+    gap: Callable[[np.ndarray], np.ndarray]  # g0(x) [m], smooth but for `knots` [m]
     knots: tuple[float, ...]
     load: float
-    span: tuple[float, float]
-    scale: float
+    span: tuple[float, float]  # (2,) ends of the grid [m]; a period's where it is periodic
+    scale: float  # [m] of which the pitch is a part: half of the contact, or its rounded corner
     exact: dict[str, float]
     periodic: bool = False
-    patches: int = 1
+    patches: int = 1  # of contact, a period's
 
 
 def operator_contacts() -> tuple[OperatorContact, ...]:

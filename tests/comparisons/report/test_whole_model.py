@@ -98,7 +98,7 @@ def test_fields_are_those_of_the_whole_at_its_friction(outcome: Outcome):
 
 
 def test_the_pages_values_are_those_of_the_pictures(outcome: Outcome):
-    content = json.loads(str(field_explorer(outcome).fields))
+    content = json.loads(str(field_explorer(outcome)["fields"]))
     plain, sliding = content["components"][1]["fields"]  # txz
     assert plain["models"] == ["half-plane", "finite elements"]
     assert sliding["models"] == ["half-plane", "whole model"]

@@ -38,17 +38,13 @@ EDGE = 0.9  # a: farther out the elements' error at the edge of the contact show
 
 @dataclass(frozen=True)
 class LevelView:
-    """What a number is read off: lengths in a, stresses in p0.
+    """What a number is read off: lengths in a, stresses in p0."""
 
-    model  half_plane | finite_element
-    every  n-th row and column of the window is read, x = 0 among them
-    """
-
-    model: str
+    model: str  # half_plane | finite_element
     problem: Problem
     level: Level
     window: Window
-    every: int = 1
+    every: int = 1  # n: each n-th row and column of the window is read, x = 0 among them
 
     @property
     def columns(self) -> slice:
