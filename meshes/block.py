@@ -18,43 +18,33 @@ class MeshError(RuntimeError):
 
 @dataclass(frozen=True)
 class BlockSpec:
-    """What to mesh. Lengths in m.
-
-    intervals       (k, 2) ranges of the surface to refine, ascending and disjoint
-    surface_size    edge of the elements on them; each end and each multiple of it is a vertex
-    growth          size = surface_size + growth * distance to the nearest refined range
-    window          (x0, x1, z1, size): no element within x0 <= x <= x1, z <= z1 is larger than size
-    interface       depth of a line across the block that element edges follow: the lower side of a
-                    coating
-    vertices        (k,) ascending x of the vertices from the start of the first refined range to
-                    the end of the last, in place of equal edges; sizes below follow these edges
-    """
+    """What to mesh. Lengths in m."""
 
     half_width: float
     depth: float
-    intervals: np.ndarray
+    intervals: np.ndarray  # (k, 2) ranges of the surface to refine, ascending and disjoint
+    # edge of the elements on them; each end and each multiple of it is a vertex
     surface_size: float
-    growth: float = 0.2
+    growth: float = 0.2  # size = surface_size + growth * distance to the nearest refined range
+    # (x0, x1, z1, size): no element within x0 <= x <= x1, z <= z1 is larger than size
     window: tuple[float, float, float, float] | None = None
+    # depth of a line across the block that element edges follow: the lower side of a coating
     interface: float | None = None
+    # (k,) ascending x of the vertices from the start of the first refined range to the end of the
+    # last, in place of equal edges; sizes below follow these edges
     vertices: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
 class BlockMesh:
-    """Second-order triangles of the flat block, and how far the real body's points are from them.
+    """Second-order triangles of the flat block, and how far the real body is from them."""
 
-    points     (n, 2) x and z [m] of vertices and edge midpoints of the flat block
-    triangles  (m, 6) in gmsh's order: 3 vertices, then midpoints of edges (0,1), (1,2), (2,0)
-    shift      (n, 2) [m] from the flat block to the real body, rough or bent
-    quality    figures of `meshes.quality`
-    """
-
-    points: np.ndarray
+    points: np.ndarray  # (n, 2) x and z [m] of vertices and edge midpoints of the flat block
+    # (m, 6) in gmsh's order: 3 vertices, then midpoints of edges (0,1), (1,2), (2,0)
     triangles: np.ndarray
-    shift: np.ndarray
+    shift: np.ndarray  # (n, 2) [m] from the flat block to the real body, rough or bent
     spec: BlockSpec
-    quality: dict = field(default_factory=dict)
+    quality: dict = field(default_factory=dict)  # figures of `meshes.quality`
 
 
 def unique_edges(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -56,7 +56,6 @@ HORIZONTAL_BALANCE = 1e-6
 class MeshedBody:
     """A body before it is assembled. Make one by `meshed_body`.
 
-    coated     (m,) whether a triangle belongs to the coating
     degree     of the displacement's polynomials
     nodes      (n, 2) [m] of the displacement, in the real body
     elements   (m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`
@@ -67,7 +66,7 @@ class MeshedBody:
     mesh: BlockMesh
     material: Material
     coating: Coating | None
-    coated: np.ndarray
+    coated: np.ndarray  # (m,) whether a triangle belongs to the coating
     numbering: Nodes
 
     def __post_init__(self) -> None:
@@ -129,16 +128,13 @@ class MeshedBody:
 
 @dataclass(eq=False)
 class ElasticBody(MeshedBody):
-    """A body of finite elements; factored at the first solution. Make one by `elastic_body`.
-
-    held       (n, 2) components that the support holds
-    owned      our number of each node of `space`, of displacements, that this process owns
-    assemble   gives PETSc's stiffness for Young's modulus 1; held rows are those of the identity
-    """
+    """A body of finite elements; factored at the first solution. Make one by `elastic_body`."""
 
     support: Support
-    held: np.ndarray
+    held: np.ndarray  # (n, 2) components that the support holds
+    # our number of each node of `space`, of displacements, that this process owns
     owned: np.ndarray
+    # gives PETSc's stiffness for Young's modulus 1; held rows are those of the identity
     assemble: Callable[[], "Mat"]
     space: "FunctionSpace"
 

@@ -15,11 +15,6 @@ Sides = Literal["free", "rollers", "fixed"]
 class Support:
     """How the block is held.
 
-    base    "bonded": no displacement at the bottom; "frictionless": no vertical displacement
-    sides   "free"; "rollers": no horizontal displacement; "fixed": no displacement
-    within  (x, z) [m]: points with |x| or z beyond are fixed, which makes a smaller body of the
-            same mesh
-
     Of square blocks in place of a half-plane the one bonded and fixed all round is the best:
     Hertz's largest shear stress is 0.22 % high at a depth of 400 half-widths and 0.9 % at 100; with
     rollers 0.38 and 1.5 %, with free sides 0.41 and 1.6 %. The pressure changes by 1e-4.
@@ -28,8 +23,10 @@ class Support:
     horizontally; a load with a horizontal resultant has no equilibrium then.
     """
 
+    # "bonded": no displacement at the bottom; "frictionless": no vertical displacement
     base: Base = "bonded"
-    sides: Sides = "free"
+    sides: Sides = "free"  # "free"; "rollers": no horizontal displacement; "fixed": no displacement
+    # (x, z) [m]: points with |x| or z beyond are fixed, which makes a smaller body of the same mesh
     within: tuple[float, float] = (np.inf, np.inf)
 
     def __post_init__(self) -> None:

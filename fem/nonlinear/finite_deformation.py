@@ -55,22 +55,20 @@ ASIDE, MOST_SETTINGS = 1e-3, 6
 class FiniteDeformation:
     """A body in contact with a roller, in its deformed state.
 
-    roller         as pressed by; of an elastic one its deformed surface
     pressure       (count,) [Pa] vertical force per undeformed length of x, as in the linear theory
     displacement   (n, 2) [m] at the body's nodes
     roller_displacement  (m, 2) [m] at those of an elastic roller, in its own frame; else empty
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
     gap            (count,) [m] mean opening under each hat, along z
-    initial_gap    (count,) [m] that of the undeformed bodies, the approach apart
     """
 
     body: ElasticBody
     hats: np.ndarray
-    roller: Roller
+    roller: Roller  # as pressed by; of an elastic one its deformed surface
     friction: float
     solution: NonlinearSolution
-    initial_gap: np.ndarray
+    initial_gap: np.ndarray  # (count,) [m] that of the undeformed bodies, the approach apart
 
     def __post_init__(self) -> None:
         state = self.solution.state

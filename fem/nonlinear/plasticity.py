@@ -39,14 +39,12 @@ GAUSS_WEIGHT = 1.0 / 6.0  # of each of the three points on the reference triangl
 
 @dataclass(frozen=True)
 class ElasticPlastic:
-    """A metal: `elastic` until its equivalent stress reaches `yield_stress` [Pa] > 0.
-
-    hardening_modulus   derivative of the yield stress by the equivalent plastic strain [Pa] >= 0;
-                        a bar in tension has the tangent modulus E H / (E + H)
-    """
+    """A metal: `elastic` until its equivalent stress reaches `yield_stress` [Pa] > 0."""
 
     elastic: Material
     yield_stress: float
+    # derivative of the yield stress by the equivalent plastic strain [Pa] >= 0; a bar in tension
+    # has the tangent modulus E H / (E + H)
     hardening_modulus: float = 0.0
 
     def __post_init__(self) -> None:
@@ -71,16 +69,12 @@ class PlasticState:
 
 @dataclass(frozen=True)
 class PlasticStep:
-    """One step at k points, from a state to the next.
+    """One step at k points, from a state to the next."""
 
-    state      at the end
-    yields     (k,) whether the point flows in this step
-    softening  (points that flow, 3, 3) [Pa] elastic minus consistent tangent C - C_ep, of sx, sz,
-               txz by exx, ezz, gxz; symmetric
-    """
-
-    state: PlasticState
-    yields: np.ndarray
+    state: PlasticState  # at the end
+    yields: np.ndarray  # (k,) whether the point flows in this step
+    # (points that flow, 3, 3) [Pa] elastic minus consistent tangent C - C_ep, of sx, sz, txz by
+    # exx, ezz, gxz; symmetric
     softening: np.ndarray
 
 

@@ -155,22 +155,14 @@ def _length(
 
 @dataclass(frozen=True)
 class PlasticContact:
-    """Equilibrium under one load of the history.
+    """Equilibrium under one load of the history."""
 
-    load           P [N/m]; 0: the roller is removed
-    pressure       (count,) [Pa]
-    approach       d [m]; without the roller that of the last contact
-    displacement   (n, 2) [m] of the body's nodes
-    state          of the metal at the body's 3m points
-    iterations     linear contacts solved since the load before
-    """
-
-    load: float
-    pressure: np.ndarray
-    approach: float
-    displacement: np.ndarray
-    state: PlasticState
-    iterations: int
+    load: float  # P [N/m]; 0: the roller is removed
+    pressure: np.ndarray  # (count,) [Pa]
+    approach: float  # d [m]; without the roller that of the last contact
+    displacement: np.ndarray  # (n, 2) [m] of the body's nodes
+    state: PlasticState  # of the metal at the body's 3m points
+    iterations: int  # linear contacts solved since the load before
 
 
 def press_plastically(

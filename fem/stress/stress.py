@@ -47,24 +47,19 @@ class FurtherStress:
 class NodalStress:
     """Stresses at the nodes of a body, and what interpolates them; or c of them, which adds an axis
     before the components.
-
-    nodes           their mesh points, and the nodes of each triangle
-    poissons_ratio  (k,) at the nodes
-    at              sx, sz, txz (q, 3) [Pa] at nodes (q,); computed where they are first asked for
-    estimate        sx, sz, txz (k, 3) [Pa] at all nodes, cheap and rough: where to ask
-    kinks           of the pressure; None: stresses are quadratic in every element
-    further         that the nodes have already
-    together        with those of other friction coefficients, and which of them this is
-    displacement    (n, c, 2) [m] that they are recovered from, where they are known together
     """
 
-    nodes: StressNodes
-    poissons_ratio: np.ndarray
+    nodes: StressNodes  # their mesh points, and the nodes of each triangle
+    poissons_ratio: np.ndarray  # (k,) at the nodes
+    # sx, sz, txz (q, 3) [Pa] at nodes (q,); computed where they are first asked for
     at: Callable[[np.ndarray], np.ndarray]
+    # sx, sz, txz (k, 3) [Pa] at all nodes, cheap and rough: where to ask
     estimate: Callable[[], np.ndarray]
-    kinks: Kinks | None = None
-    further: FurtherStress | None = None
+    kinks: Kinks | None = None  # of the pressure; None: stresses are quadratic in every element
+    further: FurtherStress | None = None  # that the nodes have already
+    # with those of other friction coefficients, and which of them this is
     together: tuple["NodalStress", int] | None = None
+    # (n, c, 2) [m] that they are recovered from, where they are known together
     displacement: np.ndarray | None = None
 
     @cached_property
