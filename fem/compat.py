@@ -31,13 +31,11 @@ def quiet_compiler() -> None:
 
 
 def triangle_mesh(comm: "Comm", cells: np.ndarray, points: np.ndarray, degree: int) -> "Mesh":
-    """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2.
-
-    `cells` (m, 3 or 6) in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a
-    basix element. On 0.5 the first compiled form rewrites the element as equispaced; unless it is
-    declared so, later processes compile again. An adjacency list of cells avoids 0.5's slow
-    conversion from an array.
-    """
+    """dolfinx mesh of triangles with coordinates of polynomial `degree` 1 or 2. `cells` (m, 3 or 6)
+    in dolfinx node order, `points` (n, 2). 0.5 takes a UFL mesh, later ones a basix element. On 0.5
+    the first compiled form rewrites the element as equispaced; unless it is declared so, later
+    processes compile again. An adjacency list of cells avoids 0.5's slow conversion from an
+    array."""
     from dolfinx.mesh import create_mesh
 
     quiet_compiler()
@@ -65,10 +63,8 @@ def _equispaced(degree: int, shape: tuple | None = (2,)):
 
 def continuous_space(mesh: "Mesh", degree: int, shape: tuple | None) -> "FunctionSpace":
     """Continuous space of evenly spaced nodes: of vectors with a `shape` (2,), of scalars without.
-
-    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by
-    default. 0.5 looks up the compiled element on disk each time; here once a process.
-    """
+    0.5 takes a UFL element, later ones a basix element; both space cubic nodes unevenly by default.
+    0.5 looks up the compiled element on disk each time; here once a process."""
     from dolfinx import fem
 
     if not hasattr(fem, "VectorFunctionSpace"):
@@ -160,15 +156,13 @@ def compile_bilinear(
     name: tuple, make: Callable[[], "ufl.Form"], space: "FunctionSpace", values: list
 ) -> "Form":
     """The compiled form that `make` gives, on a space; a name stands for one form on any mesh.
-
     `values` are all its constants, or all its functions, in the order in which they were made. 0.5
-    processes the whole form to find it on disk; here once a process.
-    """
+    processes the whole form to find it on disk; here once a process."""
     from dolfinx import fem
 
-    quiet_compiler()
     if not hasattr(fem, "VectorFunctionSpace"):
-        return fem.form(make())
+        return compile_form(make())
+    quiet_compiler()
     from dolfinx import cpp
     from dolfinx.fem.forms import FormMetaClass
     from petsc4py import PETSc

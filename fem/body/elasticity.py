@@ -34,10 +34,10 @@ from scipy.sparse import csr_matrix
 from analytic.material import Material
 from fem import compat
 from fem.body.coating import Coating, coated_triangles, relative_constants
-from fem.body.nodes import Nodes, at_points, conditions_of, nodes_of, space_on
+from fem.body.nodes import Nodes, conditions_of, nodes_of, space_on
 from fem.body.support import Support, held_components
 from fem.body.surface import BoundaryPoints, Surface, boundary_points, surface_of
-from fem.body.triangle import Locator
+from fem.body.triangle import Locator, reference_nodes, shapes
 from fem.solver.communicator import communicator
 from fem.solver.compilation import compiled, load_dolfinx
 from fem.solver.mumps import FemError, SymmetricFactor
@@ -123,7 +123,12 @@ class MeshedBody:
 
     def at_points(self, displacement: np.ndarray) -> np.ndarray:
         """Displacement (..., k, 2) [m] at the mesh's points from that (..., n, 2) at the nodes."""
-        return at_points(self.numbering, self.mesh, displacement)
+        if self.degree == 2:
+            return displacement
+        result = np.empty((*displacement.shape[:-2], *self.mesh.points.shape))
+        own, share = displacement[..., self.elements, :], shapes(reference_nodes(2), self.degree)
+        result[..., self.mesh.triangles, :] = np.einsum("...mac,qa->...mqc", own, share)
+        return result
 
 
 @dataclass(eq=False)
@@ -156,11 +161,9 @@ class ElasticBody(MeshedBody):
         return self.space.mesh.comm.size
 
     def solve(self, load: np.ndarray) -> np.ndarray:
-        """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once.
-
-        The support bears forces on held components. Raises ValueError if the body can slide and
-        the load has a horizontal resultant, FemError if the factorisation fails.
-        """
+        """Displacement [m] for nodal forces [N/m]; both (n, 2), or (m, n, 2) for m at once. The
+        support bears forces on held components. Raises ValueError if the body can slide and the
+        load has a horizontal resultant, FemError if the factorisation fails."""
         if self.support.can_slide:
             net = np.abs(load[..., 0].sum(axis=-1))
             if np.any(net > HORIZONTAL_BALANCE * np.abs(load).sum(axis=(-1, -2))):
@@ -214,11 +217,9 @@ def elastic_body(
     degree: int = 2,
     coating: Coating | None = None,
 ) -> ElasticBody:
-    """A block as an elastic body, with displacements of `degree` 1, 2 or 3.
-
-    Elements of a mesh with a `shift` have quadratic edges. Edges must follow the lower side of a
-    `coating`. Raises FemError if an element is inverted, ValueError if one crosses the interface.
-    """
+    """A block as an elastic body, with displacements of `degree` 1, 2 or 3. Elements of a mesh with
+    a `shift` have quadratic edges. Edges must follow the lower side of a `coating`. Raises FemError
+    if an element is inverted, ValueError if one crosses the interface."""
     load_dolfinx()
     from dolfinx import fem
 
@@ -259,9 +260,7 @@ def _work(space: "FunctionSpace", shear, lame, quadrature: int) -> "ufl.Form":
 
 
 def quadrature_degree(degree: int, curved: bool) -> int:
-    """Degree of the polynomials that the stiffness's quadrature integrates exactly.
-
-    Exact on straight triangles; on curved ones for a constant stress, and of the same order. Two
-    degrees less keep the order, but add 1 to 5 % of error where the boundary has slope 0.8.
-    """
+    """Degree of the polynomials that the stiffness's quadrature integrates exactly. Exact on
+    straight triangles; on curved ones for a constant stress, and of the same order. Two degrees
+    less keep the order, but add 1 to 5 % of error where the boundary has slope 0.8."""
     return max(1, 2 * degree if curved else 2 * degree - 2)

@@ -70,17 +70,6 @@ def _cubic(corner: np.ndarray, vertices: int, middle: np.ndarray) -> np.ndarray:
     return np.column_stack([corner, along, inside])
 
 
-def at_points(nodes: Nodes, mesh: BlockMesh, value: np.ndarray) -> np.ndarray:
-    """Values (..., points, 2) at the mesh's points from those at the nodes (..., n, 2)."""
-    if nodes.degree == 2:
-        return value
-    result = np.empty((*value.shape[:-2], *mesh.points.shape))
-    share = shapes(reference_nodes(2), nodes.degree)
-    own = value[..., nodes.elements, :]
-    result[..., mesh.triangles, :] = np.einsum("...mac,qa->...mqc", own, share)
-    return result
-
-
 def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray:
     """Places (m, k) of another program's nodes of each triangle among ours.
 
@@ -97,12 +86,10 @@ def space_on(
     mesh: BlockMesh, numbering: Nodes, shape: tuple | None, comm: "Comm"
 ) -> tuple["FunctionSpace", np.ndarray, np.ndarray]:
     """dolfinx space of values of a `shape` (2,), or None of scalars, on the mesh; our triangle of
-    each of its cells, and our node of each of its nodes (owned, then ghosts).
-
-    The first process has the whole mesh; dolfinx distributes it. Matched by topology, not by
-    coordinates: dolfinx gives each cell's input number, and the order of its vertices among ours
-    gives that of its nodes. Raises FemError if an element is inverted.
-    """
+    each of its cells, and our node of each of its nodes (owned, then ghosts). The first process has
+    the whole mesh; dolfinx distributes it. Matched by topology, not by coordinates: dolfinx gives
+    each cell's input number, and the order of its vertices among ours gives that of its nodes.
+    Raises FemError if an element is inverted."""
     points = real_points(mesh)
     folded = (corner_jacobians(points, mesh.triangles) <= 0.0).any(axis=1)
     if folded.any():

@@ -119,7 +119,7 @@ def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -
     if hats.ndim != 1 or len(hats) < 3 or not np.all(np.diff(hats) > 0.0):
         raise ValueError("the hats' nodes must be three or more numbers that ascend")
     vertex = np.append(surface.edges[:, 0], surface.edges[-1, 2])
-    count, pitch = len(hats) - 2, np.diff(hats)
+    pitch = np.diff(hats)
     low, high = SAME_POINT * pitch[[0, -1]]
     if hats[0] < vertex[0] - low or hats[-1] > vertex[-1] + high:
         raise ValueError(
@@ -129,8 +129,7 @@ def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -
     inner = np.union1d(vertex, cuts)
     cut = np.union1d(hats, inner[(inner > hats[0]) & (inner < hats[-1])])
     middle = 0.5 * (cut[:-1] + cut[1:])
-    element = np.clip(np.searchsorted(vertex, middle) - 1, 0, len(vertex) - 2)
-    interval = np.clip(np.searchsorted(hats, middle) - 1, 0, count)
+    element, interval = (np.searchsorted(ends[1:-1], middle) for ends in (vertex, hats))
 
     edge = surface.edges[element]
     begin, end = place_on(edge, cut[:-1]), place_on(edge, cut[1:])
@@ -151,13 +150,10 @@ def hat_points(surface: Surface, hats: np.ndarray, cuts: Sequence[float] = ()) -
 def hat_forces(
     surface: Surface, hats: np.ndarray, direction: Direction = straight_down
 ) -> csr_matrix:
-    """Nodal forces B (2k, count) [m] of unit hat pressures.
-
-    `hats` (count + 2,) [m] are the hats' nodes, ascending, with the outer feet. A pressure is a
-    force per length of x, not of arc. Rows 2a and 2a+1 are the x and z force at surface node a.
-    Exact for a `direction` linear on each piece between vertices and hat nodes. Errors as of
-    `hat_points`.
-    """
+    """Nodal forces B (2k, count) [m] of unit hat pressures. `hats` (count + 2,) [m] are the hats'
+    nodes, ascending, with the outer feet. A pressure is a force per length of x, not of arc. Rows
+    2a and 2a+1 are the x and z force at surface node a. Exact for a `direction` linear on each
+    piece between vertices and hat nodes. Errors as of `hat_points`."""
     points, count = hat_points(surface, hats), len(hats) - 2
     along = np.stack(np.broadcast_arrays(*direction(points.x)))
     # value[a, c, h, piece]: shape function, component, hat, piece

@@ -93,11 +93,9 @@ class FarField:
         return moved
 
     def symmetric(self, force: np.ndarray) -> np.ndarray:
-        """Surface displacement (2k, …) [m] that the boundary adds under forces (2k, …) [N/m].
-
-        Valid in the range of the tractions only, and along x only under forces along x, whose
-        moments take half of the back-substitutions.
-        """
+        """Surface displacement (2k, …) [m] that the boundary adds under forces (2k, …) [N/m]. Valid
+        in the range of the tractions only, and along x only under forces along x, whose moments
+        take half of the back-substitutions."""
         if np.any(force[0::2]):
             moments, lifted = self.moments, self.lifted
         else:
@@ -121,11 +119,9 @@ class FarField:
 
 
 def multipoles(s: np.ndarray, terms: int, datum: float, poissons_ratio: float) -> np.ndarray:
-    """2 G u (2 terms, n, 2) at places s (n,) under unit moments: of q in turn, then of p.
-
-    `datum` in units of the reach, as s. On this branch of the logarithm a pressure moves the points
-    below it straight down.
-    """
+    """2 G u (2 terms, n, 2) at places s (n,) under unit moments: of q in turn, then of p. `datum`
+    in units of the reach, as s. On this branch of the logarithm a pressure moves the points below
+    it straight down."""
     kappa = 3.0 - 4.0 * poissons_ratio
     mirrored, log = s.conj(), np.log(s / (1j * datum))
     k = np.arange(1, terms)[:, None]

@@ -71,10 +71,8 @@ class TwoBodies:
 
 
 class DeformedSurface:
-    """The current surface of a body whose displacements are quadratic.
-
-    Raises FemError where x no longer ascends along it, and for places x beyond its ends.
-    """
+    """The current surface of a body whose displacements are quadratic. Raises FemError where x no
+    longer ascends along it, and for places x beyond its ends."""
 
     def __init__(self, body: ElasticBody, displacement: np.ndarray) -> None:
         self.x, self.z = (body.nodes + displacement)[body.surface.point].T
@@ -88,8 +86,7 @@ class DeformedSurface:
         """Numbers (k,) of the edges below places x (k,) [m], and where on them, 0 to 1."""
         if np.any((x < self.x[0]) | (x > self.x[-1])):
             raise FemError("the contact reaches beyond the end of a body's surface")
-        vertex = self.x[::2]
-        edge = np.clip(np.searchsorted(vertex, x) - 1, 0, len(vertex) - 2)
+        edge = np.searchsorted(self.x[2:-1:2], x)
         return edge, place_on(self.edges[edge], x)
 
     def __call__(

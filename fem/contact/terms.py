@@ -30,10 +30,8 @@ class Response(Protocol):
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal nodal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa] from the accepted state.
-
         Rows of held components are not used. Raises FemError if the body cannot deform so, for
-        example if an element is inverted; the solver then tries a shorter step.
-        """
+        example if an element is inverted; the solver then tries a shorter step."""
 
     def force(self, displacement: np.ndarray) -> np.ndarray:
         """The forces of `linearised` alone."""

@@ -111,13 +111,11 @@ def solve_variational_inequality(
 
 
 def _scaled_system(bodies, softness: np.ndarray, weights: np.ndarray, pitch: float) -> csr_matrix:
-    """Matrix of the whole system in (u_1, ..., p, d), all of them of order one.
-
-    `softness` (bodies,) is each body's part of the compliance, in which its displacement is scaled.
-    B'(K u - B p), zero at the solution, is subtracted from the gap: where a Newton step set a
-    negative pressure to zero, the gap would otherwise be rounding of either sign; so it is positive
-    and the hat leaves the contact.
-    """
+    """Matrix of the whole system in (u_1, ..., p, d), all of them of order one. `softness`
+    (bodies,) is each body's part of the compliance, in which its displacement is scaled. B'(K u - B
+    p), zero at the solution, is subtracted from the gap: where a Newton step set a negative
+    pressure to zero, the gap would otherwise be rounding of either sign; so it is positive and the
+    hat leaves the contact."""
     size = len(bodies) + 2
     rows = [[None] * size for _ in range(size)]
     rows[-2][-2] = csr_matrix((len(weights), len(weights)))

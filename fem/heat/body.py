@@ -82,10 +82,8 @@ def thermal_body(
     radius: float = np.inf,
 ) -> ThermalBody:
     """A block with temperatures of `degree` 1, 2 or 3; of the mesh of a disc's sector with its
-    `radius` [m]. Every process has all of it.
-
-    Raises FemError if an element is inverted, ValueError if one crosses the coating's lower side.
-    """
+    `radius` [m]. Every process has all of it. Raises FemError if an element is inverted, ValueError
+    if one crosses the coating's lower side."""
     load_dolfinx()
     numbering, coated = nodes_of(mesh, degree), coated_triangles(mesh, coating)
     layer = coating.material if coating else material

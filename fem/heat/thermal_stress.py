@@ -28,10 +28,8 @@ def thermal_stress(
     triangle. Raises FemError if the body cannot be factored."""
     moved = body.solve(thermal_load(body, expansion, temperature))
     nodes, values = stress_nodes(body), recovered_stress(body, moved)
-    hydrostatic, nu = np.empty(len(nodes.point)), np.empty(len(nodes.point))
-    hydrostatic[nodes.triangles] = _beta(body, expansion)[:, None]
-    nu[nodes.triangles] = body.poissons_ratio[:, None]
-    hydrostatic *= temperature[nodes.point]
+    nu = nodes.of_triangles(body.poissons_ratio)
+    hydrostatic = nodes.of_triangles(_beta(body, expansion)) * temperature[nodes.point]
     values[:, :2] -= hydrostatic[:, None]
     top = nodes.at_surface(body.top.point)
     t = tangent_on(CubicSpline(body.top.x, body.points[body.top.point, 1]), body.top.x)

@@ -45,10 +45,8 @@ def march(
     symmetric: bool = False,
 ) -> Iterator[np.ndarray]:
     """Temperatures (n,) [K] at each of the ascending `times` (k,) [s], the `start` (n,) first.
-
     `load` gives the nodal heat (n,) [W/m] at a time; `held` (n,) components keep their start.
-    Raises ValueError if the times do not ascend, FemError if the system cannot be factored.
-    """
+    Raises ValueError if the times do not ascend, FemError if the system cannot be factored."""
     if not np.all(np.diff(times) > 0.0):
         raise ValueError("times must ascend")
     free, state = ~held, np.array(start, dtype=float)

@@ -32,13 +32,8 @@ from fem.contact.nonlinear import (
 )
 from fem.contact.rigid_roller import CurrentContact, Roller
 from fem.contact.terms import Contact, LinearContact, LinearResponse, Response
-from fem.nonlinear.hyperelastic import (
-    CauchyRecovery,
-    HyperelasticBody,
-    along_surface,
-)
+from fem.nonlinear.hyperelastic import CauchyRecovery, HyperelasticBody, along_surface
 from fem.solver.mumps import FemError
-from fem.stress.stress import NodalStress
 from fem.stress.surface_load import SurfaceLoad
 
 # Of `FiniteCompliance`: forces left over the contact's, at least and at most, and as a part of the
@@ -87,19 +82,10 @@ class FiniteDeformation:
         """(count,) [Pa] force per deformed area, at `place`."""
         return self._on_deformed(self.hats[1:-1], self.pressure)
 
-    @property
-    def stress(self) -> NodalStress:
-        """Cauchy's stresses at the deformed mesh points. The stress across the plane is
-        `stress_across`, nu (sx + sz) for small strains only."""
-        return self._cauchy.nodal
-
-    @property
-    def stress_across(self) -> np.ndarray:
-        """Cauchy's stress across the plane (k,) [Pa] at the mesh points."""
-        return self._cauchy.across
-
     @cached_property
-    def _cauchy(self) -> CauchyRecovery:
+    def cauchy(self) -> CauchyRecovery:
+        """Cauchy's stresses at the deformed mesh points; `across` is nu (sx + sz) for small strains
+        only."""
 
         def direction(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             now = x + np.interp(x, self.body.top.x, self._moved[:, 0])

@@ -180,11 +180,9 @@ def _averaged(body: ElasticBody, value: np.ndarray) -> np.ndarray:
 
 
 def along_surface(x: np.ndarray, value: np.ndarray) -> np.ndarray:
-    """d value / dx (t, c) of `value` (t, c) at points x (t,) of quadratic edges, a vertex first.
-
-    At midpoints the chord's slope, more accurate than the quadratic's slope at its ends; at
-    vertices the line through the slopes at the two nearest midpoints.
-    """
+    """d value / dx (t, c) of `value` (t, c) at points x (t,) of quadratic edges, a vertex first. At
+    midpoints the chord's slope, more accurate than the quadratic's slope at its ends; at vertices
+    the line through the slopes at the two nearest midpoints."""
     vertex, middle = x[::2], 0.5 * (x[:-2:2] + x[2::2])
     chord = np.diff(value[::2], axis=0) / np.diff(vertex)[:, None]
     after = np.clip(np.arange(len(vertex)), 1, len(middle) - 1)

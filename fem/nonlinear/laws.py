@@ -16,6 +16,7 @@ Hencky's tr (ln U)^2 = (ln J)^2 / 2 + artanh^2(sqrt y) / 2, y = 1 - J^2/t^2, t =
 singular derivative at equal stretches, where y = 0, as a series in y.
 """
 
+from functools import reduce
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -99,7 +100,4 @@ def _times(scalar: np.ndarray, tensor: np.ndarray) -> np.ndarray:
 
 def _sum(coefficients: tuple[float, ...], y):
     """The polynomial in y."""
-    total = coefficients[-1]
-    for coefficient in coefficients[-2::-1]:
-        total = coefficient + y * total
-    return total
+    return reduce(lambda total, coefficient: coefficient + y * total, reversed(coefficients))

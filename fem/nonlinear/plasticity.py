@@ -154,10 +154,8 @@ class PlasticBody:
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
         """Internal force (n, 2) [N/m] and its derivative (2n, 2n) [Pa] at a displacement (n, 2).
-
         For the step from the accepted state. Rows and columns of held components are as in
-        `ElasticBody.stiffness`.
-        """
+        `ElasticBody.stiffness`."""
         step = self.step(displacement)
         return self._force(displacement, step), self._stiffness - self._softening(step)
 

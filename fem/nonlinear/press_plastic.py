@@ -85,12 +85,9 @@ def newton_by_contacts(
     residual: float = RESIDUAL,
 ) -> tuple[ContactState, list[float]]:
     """Equilibrium under a `load` P [N/m] > 0 or at an `approach` d [m], and the residuals, the last
-    one at most the given `residual`.
-
-    The approach works near the limit load too. The caller accepts the displacements into the
-    bodies' histories. Other arguments as of `solve_nonlinear_contact`. Raises FemError if it does
-    not converge.
-    """
+    one at most the given `residual`. The approach works near the limit load too. The caller accepts
+    the displacements into the bodies' histories. Other arguments as of `solve_nonlinear_contact`.
+    Raises FemError if it does not converge."""
     state, history = start, []
     free = [~body.held for body, _ in bodies]
     while len(history) < MOST_LINEAR_CONTACTS:
@@ -347,12 +344,10 @@ class PlasticFields:
 
 
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
-    """Stresses and plastic strain of a body under a contact of its history.
-
-    Area-weighted means of the linear fields through the three points of each element around a mesh
-    point. Patches of higher degree (`fem.stress.recovery`) would overshoot at the kinks on the
-    boundary of the plastic zone.
-    """
+    """Stresses and plastic strain of a body under a contact of its history. Area-weighted means of
+    the linear fields through the three points of each element around a mesh point. Patches of
+    higher degree (`fem.stress.recovery`) would overshoot at the kinks on the boundary of the
+    plastic zone."""
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
     elements, count = body.body.elements, len(body.body.nodes)

@@ -26,11 +26,9 @@ MOST_WAITS = 7
 
 @contextmanager
 def uninterrupted() -> Iterator[None]:
-    """Delay Ctrl-C until the end, for this process and those that it starts.
-
-    Compiled modules abort the process when their import is interrupted; an interrupted C compiler
-    leaves an incomplete file. Other threads than the first get no interrupt: nothing to do.
-    """
+    """Delay Ctrl-C until the end, for this process and those that it starts. Compiled modules abort
+    the process when their import is interrupted; an interrupted C compiler leaves an incomplete
+    file. Other threads than the first get no interrupt: nothing to do."""
     before = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or before is None:
         yield

@@ -44,11 +44,9 @@ class FemError(RuntimeError):
 
 
 def release_with(owner: object, *objects: "Object") -> None:
-    """Free PETSc's objects when Python frees their owner.
-
-    From 3.18 on PETSc keeps them until all processes of the communicator destroy them in the same
-    order. Several processes do not free owners in the same order: there nothing is freed.
-    """
+    """Free PETSc's objects when Python frees their owner. From 3.18 on PETSc keeps them until all
+    processes of the communicator destroy them in the same order. Several processes do not free
+    owners in the same order: there nothing is freed."""
     for each in objects:
         if each.comm.size == 1:
             weakref.finalize(owner, each.destroy).atexit = False
@@ -149,10 +147,8 @@ def _attempt(matrix: "Mat", symmetric: bool, spare: int) -> "tuple[KSP, Mat, int
 
 
 class Factor:
-    """LU of a scipy matrix, on one process; of a `symmetric` one, definite or not, LDL^T.
-
-    Raises FemError if MUMPS cannot factor it.
-    """
+    """LU of a scipy matrix, on one process; of a `symmetric` one, definite or not, LDL^T. Raises
+    FemError if MUMPS cannot factor it."""
 
     def __init__(self, matrix: csr_matrix, symmetric: bool = False) -> None:
         from petsc4py import PETSc

@@ -121,55 +121,46 @@ def _weighted(
 ) -> list[np.ndarray]:
     """Sums (r, q, …) over the kinks of a field's values at `place`[point], weighted by patch. The
     field is computed once for each pair of a place and a kink."""
-    if point.shape[1] * len(point) == len(place):  # no place is shared
-        sums = _at_each(field, weights, np.repeat(patch, point.shape[1]), place, point.ravel())
-        return [total.reshape(*point.shape, *total.shape[1:]) for total in sums]
+    shape, alone = point.shape, point.size == len(place)  # whether no place is shared
+    if alone:
+        patch, point = np.repeat(patch, shape[1]), point.reshape(-1, 1)
     near = np.flatnonzero(weights.count[patch])
     first, count = weights.first[patch[near]], weights.count[patch[near]]
     point, start = point[near], weights.start[patch[near]]
-    # range of kinks at each place: those near any of its patches
-    low, high = np.full(len(place), np.iinfo(int).max), np.zeros(len(place), dtype=int)
+    where = place @ [1.0, 1j]
+    if not alone:
+        values, begin = _tables(field, where, point, first, count)
+    sums: list[np.ndarray] = []
+    for part in _parts(count):
+        row, number = runs(count[part])
+        if alone:
+            found = field(first[part][row] + number, where[point[part, 0]][row])
+            shares = [value[:, None] for value in found]
+        else:
+            shares = [value[begin[part][row] + number[:, None]] for value in values]
+        weight, begins = weights.value[start[part][row] + number], np.flatnonzero(number == 0)
+        if not sums:
+            sums = [np.zeros((len(patch), *v.shape[1:]), dtype=v.dtype) for v in shares]
+        for total, share in zip(sums, shares, strict=True):
+            share *= weight.reshape(-1, *(1,) * (share.ndim - 1))
+            total[near[part]] = np.add.reduceat(share, begins)
+    return [total.reshape(*shape, *total.shape[2:]) for total in sums]
+
+
+def _tables(
+    field: Field, where: np.ndarray, point: np.ndarray, first: np.ndarray, count: np.ndarray
+) -> tuple[list[np.ndarray], np.ndarray]:
+    """Values of a field of all kinks near each of the places (n,), and where among them those of
+    the patches (r,) begin at their points (r, q)."""
+    low, high = np.full(len(where), np.iinfo(int).max), np.zeros(len(where), dtype=int)
     np.minimum.at(low, point, first[:, None])
     np.maximum.at(high, point, (first + count)[:, None])
-    span = np.maximum(high - low, 0)
-    where, tables = place[:, 0] + 1j * place[:, 1], []
+    span, tables = np.maximum(high - low, 0), []
     for part in _parts(span):
         row, number = runs(span[part])
         tables.append(field(low[part][row] + number, where[part][row]))
     values = [np.concatenate(each) for each in zip(*tables, strict=True)]
-    begin = (np.cumsum(span) - span)[point] + first[:, None] - low[point]
-
-    sums = [np.zeros((len(patch), point.shape[1], *v.shape[1:]), dtype=v.dtype) for v in values]
-    for part in _parts(count):
-        row, number = runs(count[part])
-        weight = weights.value[start[part][row] + number]
-        begins = np.flatnonzero(number == 0)
-        for total, value in zip(sums, values, strict=True):
-            share = value[begin[part][row] + number[:, None]]
-            share *= weight.reshape(-1, *(1,) * (share.ndim - 1))
-            total[near[part]] = np.add.reduceat(share, begins)
-    return sums
-
-
-def _at_each(
-    field: Field, weights: Weights, patch: np.ndarray, place: np.ndarray, point: np.ndarray
-) -> list[np.ndarray]:
-    """`_weighted` (r, …) where each patch (r,) has one point (r,)."""
-    near = np.flatnonzero(weights.count[patch])
-    first, count = weights.first[patch[near]], weights.count[patch[near]]
-    where, start, sums = (place @ [1.0, 1j])[point[near]], weights.start[patch[near]], []
-    for part in _parts(count):
-        row, number = runs(count[part])
-        values = field(first[part][row] + number, where[part][row])
-        weight = weights.value[start[part][row] + number]
-        for value in values:
-            value *= weight.reshape(-1, *(1,) * (value.ndim - 1))
-        begins = np.flatnonzero(number == 0)
-        if not sums:
-            sums = [np.zeros((len(patch), *v.shape[1:]), dtype=v.dtype) for v in values]
-        for total, value in zip(sums, values, strict=True):
-            total[near[part]] = np.add.reduceat(value, begins)
-    return sums
+    return values, (np.cumsum(span) - span)[point] + first[:, None] - low[point]
 
 
 def _parts(count: np.ndarray) -> list[np.ndarray]:

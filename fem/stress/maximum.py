@@ -70,10 +70,8 @@ def maximum(
     samples: Samples | None = None,
 ) -> Extremum:
     """Largest value of a `quantity` made of the stresses (and Poisson's ratio) point by point.
-
     `window` (x0, x1, z1) [m] limits the search to x0 <= x <= x1 and z <= z1; `samples` are of the
-    same stresses. Raises ValueError if no sample lies in the window.
-    """
+    same stresses. Raises ValueError if no sample lies in the window."""
     rough = quantity(MaterialStress(*nodal.estimate().T, nodal.poissons_ratio))
     samples = samples or Samples(body, nodal)
     (found,) = _between_nodes(body, nodal, quantity, rough, [window], samples)
@@ -153,11 +151,8 @@ def _between_nodes(
 
     def sampled(elements: list[np.ndarray], count: int) -> list[tuple[np.ndarray, np.ndarray]]:
         """Values (r, q), -inf outside, and places (r, q, 2) in the elements (r,) of each window."""
-        at, (held, which) = (
-            _lattice(count),
-            np.unique(np.concatenate(elements), return_inverse=True),
-        )
-        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(at))
+        held, which = np.unique(np.concatenate(elements), return_inverse=True)
+        place = np.einsum("mac,qa->mqc", points[triangles[held]], shapes(_lattice(count)))
         stress = np.moveaxis(samples.of(held, count), -1, 0)
         nu = np.broadcast_to(body.poissons_ratio[held, None], stress.shape[1:])
         value = quantity(MaterialStress(*stress, nu))
@@ -169,15 +164,12 @@ def _between_nodes(
 
     promising, best = _promising(points, triangles, rough, windows), []
     for elements, (value, _) in zip(promising, sampled(promising, COARSE), strict=True):
-        highest, lowest = (
-            value.max(axis=1),
-            value.min(axis=1, where=value > -np.inf, initial=np.inf),
-        )
-        highest_of_all = highest.max()
+        highest = value.max(axis=1)
+        lowest = value.min(axis=1, where=value > -np.inf, initial=np.inf)
         able = np.argsort(highest)[-BEST:]
-        if highest_of_all > -np.inf:
+        if highest.max() > -np.inf:
             rise = RISE * (highest - lowest)[able]
-            able = able[~(highest[able] + rise < highest_of_all)]
+            able = able[~(highest[able] + rise < highest.max())]
         best.append(np.sort(elements[able]))
     fine = sampled(best, FINE)
     on_surface = np.zeros(len(body.points), dtype=bool)

@@ -83,6 +83,12 @@ class StressNodes:
         triangle = np.arange(count)[:, None]
         return matrix_of(np.ones(1), self.triangles[:, :3], triangle, (len(self.point), count))
 
+    def of_triangles(self, value: np.ndarray) -> np.ndarray:
+        """(k,) of values (m,) of the triangles, which those around a node share."""
+        found = np.empty(len(self.point))
+        found[self.triangles] = value[:, None]
+        return found
+
     def around(self, inner: np.ndarray) -> np.ndarray:
         """Triangles that touch some inner ones, these included."""
         return np.unique(self.touch[np.unique(self.triangles[inner, :3])].indices)
@@ -124,11 +130,9 @@ def stress_nodes(body: MeshedBody) -> StressNodes:
 
 @dataclass(frozen=True)
 class Patches:
-    """The elements around each vertex, and the edges between vertices.
-
-    An end of an edge on a side of the block, with half a patch, has no share of the stress in the
-    middle if the other end has a whole one.
-    """
+    """The elements around each vertex, and the edges between vertices. An end of an edge on a side
+    of the block, with half a patch, has no share of the stress in the middle if the other end has a
+    whole one."""
 
     vertex: np.ndarray  # (v,) the stress node in the middle of each patch
     coated: np.ndarray  # (v,) whether it belongs to the coating
@@ -201,11 +205,6 @@ def _around(touch: csr_matrix) -> tuple[np.ndarray, np.ndarray]:
     patch.eliminate_zeros()
     patch.sort_indices()
     return patch.indptr, patch.indices
-
-
-def element_stress(body: MeshedBody, displacement: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """sx, sz, txz (m, q, …, 3) [Pa] of a displacement (n, …, 2) at reference points (q, 2)."""
-    return _stress(body, np.arange(len(body.elements)), displacement[body.elements], at)
 
 
 def averaged_stress(body: MeshedBody, displacement: np.ndarray) -> np.ndarray:

@@ -100,8 +100,8 @@ def nodal_stresses(
     """`nodal_stress` for each of c friction coefficients of a load, with displacements (n, c, 2)
     [m]: together they cost little more than one."""
     further = beside and FurtherStress(load.surface, tuple(beside))
-    recovery, nu = _LoadedRecovery(displacement, load, further), _poissons_ratio(load.body)
-    shape = recovery.nodes, nu
+    recovery = _LoadedRecovery(displacement, load, further)
+    shape = recovery.nodes, recovery.nodes.of_triangles(load.body.poissons_ratio)
     every = NodalStress(
         *shape,
         recovery.at,
@@ -158,7 +158,8 @@ def at_mesh_points(body: MeshedBody, stress: StressState) -> NodalStress:
     if body.coated.any():
         raise ValueError("a coated body has two stresses at the points of its interface")
     values = np.column_stack([stress.sx, stress.sz, stress.txz])
-    nodes, nu = stress_nodes(body), _poissons_ratio(body)
+    nodes = stress_nodes(body)
+    nu = nodes.of_triangles(body.poissons_ratio)
     return NodalStress(nodes, nu, values.__getitem__, lambda: values)
 
 
@@ -187,10 +188,8 @@ def evaluate_all(
 
 def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.ndarray) -> np.ndarray:
     """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) at reference points `at` (q, 2) or (r, q, 2).
-
     Quadratic between the nodes, plus the difference between the stress of the kinks near the
-    element, and of what is further, and its quadratic interpolation.
-    """
+    element, and of what is further, and its quadratic interpolation."""
     share = np.broadcast_to(shapes(at), (len(element), at.shape[-2], 6))
     held, which = np.unique(element, return_inverse=True)
     value = nodal.at(nodal.nodes.triangles[held].ravel())
@@ -215,11 +214,3 @@ def within(body: MeshedBody, nodal: NodalStress, element: np.ndarray, at: np.nda
     if nodal.further is not None:
         found += nodal.further.at(place).reshape(found.shape)
     return found
-
-
-def _poissons_ratio(body: MeshedBody) -> np.ndarray:
-    """Of the material at each of the body's stress nodes."""
-    nodes = stress_nodes(body)
-    nu = np.empty(len(nodes.point))
-    nu[nodes.triangles] = body.poissons_ratio[:, None]
-    return nu

@@ -72,14 +72,14 @@ def pressed_finitely(
     top = rough.body.top
     down = rough.body.at_points(found.displacement)[top.point, 1]
     depth = np.interp(x, top.x, down)
-    nodal = found.stress
+    nodal = found.cauchy.nodal
     loaded = LoadedBody(
         rough.body,
         solution,
         depth * weights,
         lambda frictions: (nodal,) * len(frictions),
         patches,
-        found.stress_across,
+        found.cauchy.across,
         moved=found.displacement,
     )
     return on_undeformed_grid(problem, grid, found.place, depth, loaded)

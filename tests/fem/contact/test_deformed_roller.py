@@ -226,7 +226,7 @@ class Pressed:
     @property
     def tau1(self):
         highest = maximum(
-            self.rough, self.found.stress, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
+            self.rough, self.found.cauchy.nodal, lambda stress: stress.tau1, (-1.2, 1.2, 2.0)
         )
         return highest.value / self.peak
 

@@ -88,7 +88,7 @@ def test_small_loads_are_the_linear_theorys(body):
         start, found = pressed(body, curvature)
         stress = nodal_stress(body, start.displacements[0], HATS, start.pressure).stress
         deep = (body.points[:, 1] > 0.3) & (body.points[:, 1] < 2.0)
-        off = np.abs(found.stress.stress.tau1 - stress.tau1)[deep].max()
+        off = np.abs(found.cauchy.nodal.stress.tau1 - stress.tau1)[deep].max()
         peaks = found.pressure.max() - start.pressure.max()
         cauchy = found.cauchy_pressure.max() - start.pressure.max()
         left.append(np.abs([peaks, cauchy, off]) / peak(curvature))
@@ -153,7 +153,7 @@ def test_stress_at_the_surface_is_the_pressures(body):
     chord = place[2::2] - place[:-2:2]
     t = chord / np.linalg.norm(chord, axis=1)[:, None]
     n = np.column_stack([t[:, 1], -t[:, 0]])
-    stress = found.stress.stress
+    stress = found.cauchy.nodal.stress
     sx, sz, txz = (value[top][1::2] for value in (stress.sx, stress.sz, stress.txz))
     across = sx * n[:, 0] ** 2 + sz * n[:, 1] ** 2 + 2.0 * txz * n[:, 0] * n[:, 1]
     shear = sx * n[:, 0] * t[:, 0] + sz * n[:, 1] * t[:, 1]
@@ -167,17 +167,19 @@ def test_stress_at_the_surface_is_the_pressures(body):
 def test_stresses_at_some_points_are_those_of_all(body):
     """On the surface and below it; the largest von Mises stress is looked for where it is high."""
     _, found = pressed(body, 0.2, friction=0.2)
-    whole, across = found.stress.stress, found.stress_across
+    whole, across = found.cauchy.nodal.stress, found.cauchy.across
     _, again = pressed(body, 0.2, friction=0.2)
     some = np.concatenate([body.top.point[::7], np.arange(0, len(body.points), 11)])
-    np.testing.assert_allclose(again.stress.at(some), found.stress.values[some], rtol=1e-9)
+    np.testing.assert_allclose(
+        again.cauchy.nodal.at(some), found.cauchy.nodal.values[some], rtol=1e-9
+    )
     window = (-1.0, 1.0, 1.0)
-    top = highest_node(body, again.stress, again.stress_across, window)
+    top = highest_node(body, again.cauchy.nodal, again.cauchy.across, window)
     x, z = body.points.T
     mises = np.where((np.abs(x) <= 1.0) & (z <= 1.0), von_mises(whole, across), 0.0)
     assert top.value == pytest.approx(mises.max(), rel=1e-9)
     assert [top.x, top.z] == list(body.points[np.argmax(mises)])
-    assert again._cauchy.known.mean() < 0.6
+    assert again.cauchy.known.mean() < 0.6
 
 
 def test_friction_moves_the_contact_as_in_the_linear_theory(body):

@@ -6,8 +6,8 @@ from blocks import hooke
 
 from analytic.material import Material
 from fem.body.elasticity import Coating, Support, elastic_body
-from fem.body.triangle import GAUSS, jacobians, reference_nodes, slopes
-from fem.stress.recovery import Recovery, element_stress, recovered_stress, stress_nodes
+from fem.body.triangle import GAUSS, gradients, jacobians, reference_nodes, slopes
+from fem.stress.recovery import Recovery, linear_stress, recovered_stress, stress_nodes
 from fem.stress.surface_load import SurfaceLoad
 
 MATERIAL = Material(3.0, 0.3)
@@ -17,6 +17,12 @@ def body_of(structured_block, cells, seed=5):
     line = np.linspace(-1, 1, cells + 1)
     mesh = structured_block(line, np.linspace(0, 1, cells // 2 + 1), seed=seed)
     return elastic_body(mesh, MATERIAL, Support())
+
+
+def element_stress(body, moved, at):
+    """sx, sz, txz (m, q, 3) of the elements' own displacements."""
+    slope = gradients(body.points[body.mesh.triangles], moved[body.elements], at)
+    return linear_stress(slope, body.shear_modulus[:, None], body.lame[:, None])
 
 
 def stress_of(*strain):
