@@ -16,9 +16,7 @@ STEEPEST = 2.0 / np.sqrt(5.0)
 @dataclass(frozen=True)
 class HatGrid:
     """Hats at x_i = i * pitch for first <= i <= last, whole numbers: grids of halved pitch nest.
-
-    pitch [m]; `x` (n,) [m]; `weights` (n,) [m], the area under each hat of height 1.
-    """
+    pitch [m]; `x` (n,) [m]; `weights` (n,) [m], the area under each hat of height 1."""
 
     pitch: float
     first: int
@@ -62,9 +60,7 @@ def hat_integrals(
     knots: np.ndarray | None = None,
 ) -> np.ndarray:
     """Integrals of phi_i f dx (n,) over hats with nodes and outer feet (n + 2,) [m] of any spacing.
-
-    Exact for polynomials f of degree 6 between `knots`.
-    """
+    Exact for polynomials f of degree 6 between `knots`."""
     breaks = nodes
     if knots is not None:
         inside = knots[(knots > nodes[0]) & (knots < nodes[-1])]

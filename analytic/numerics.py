@@ -32,9 +32,7 @@ def runs_of(marks: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def for_each(work: Callable[[slice], None], pieces: Iterable[slice]) -> None:
     """Call `work` on every piece, on OMP_NUM_THREADS threads, or one a core without such a number.
-
-    Pieces write to places of their own: threads change no result.
-    """
+    Pieces write to places of their own: threads change no result."""
     pieces = list(pieces)
     asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
     threads = max(1, int(asked)) if asked.isdecimal() else os.cpu_count() or 1

@@ -63,11 +63,9 @@ class Profile:
 
 
 def surface(profile: Profile) -> Surface:
-    """The profile's spline as a callable that refuses to leave the samples.
-
-    The result takes x [m] of any shape and `derivative` (0 height, 1 slope, 2 curvature), and
-    raises ValueError where x lies outside the profile by more than rounding. It can be pickled.
-    """
+    """The profile's spline as a callable that refuses to leave the samples. The result takes x [m]
+    of any shape and `derivative` (0 height, 1 slope, 2 curvature), and raises ValueError where x
+    lies outside the profile by more than rounding. It can be pickled."""
     return partial(_within, profile.spline(), ROUNDING * profile.spacing)
 
 

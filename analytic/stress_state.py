@@ -39,11 +39,9 @@ class StressState:
 
     @property
     def tau1(self) -> np.ndarray:
-        """Principal shear in the plane [Pa], sqrt(((sx - sz)/2)^2 + txz^2) >= 0.
-
-        sy is sometimes an extreme principal stress near the surface; the largest shear over
-        all directions can then exceed tau1.
-        """
+        """Principal shear in the plane [Pa], sqrt(((sx - sz)/2)^2 + txz^2) >= 0. sy is sometimes an
+        extreme principal stress near the surface; the largest shear over all directions can then
+        exceed tau1."""
         return np.hypot(0.5 * (self.sx - self.sz), self.txz)
 
     def von_mises(self, poissons_ratio: float) -> np.ndarray:

@@ -132,10 +132,8 @@ def start_worker() -> None:
 
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:
     """Vertices (n, 2) and triangles (m, 3) by `meshes.gmsh_worker.fill` with the arguments `task`.
-
     Raises MeshError if the process fails, crashes, or takes longer than timeout [s]. The process
-    waits for further tasks, but ends where this one fails or is interrupted.
-    """
+    waits for further tasks, but ends where this one fails or is interrupted."""
     environment = _environment()
     worker = idle.pop() if idle else GmshWorker(environment)
     try:

@@ -49,11 +49,9 @@ def stretched(mesh: BlockMesh) -> np.ndarray:
 def with_layers(
     vertices: np.ndarray, triangles: np.ndarray, interface: float | None, beside: tuple
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 2) [m] and triangles (m, 3) with the stretched layers added.
-
-    `beside` are the x [m] of the layers' columns, from the core outwards; their nodes on the
-    `interface` [m] and at the end of the core must be among the vertices, else MeshError is raised.
-    """
+    """Vertices (n, 2) [m] and triangles (m, 3) with the stretched layers added. `beside` are the x
+    [m] of the layers' columns, from the core outwards; their nodes on the `interface` [m] and at
+    the end of the core must be among the vertices, else MeshError is raised."""
     for x in beside:
         columns, depths = np.meshgrid(x, np.linspace(0.0, interface, LAYERS + 1), indexing="ij")
         number = np.full(columns.shape, -1, dtype=np.int64)

@@ -63,10 +63,8 @@ def append_comment(path: str | Path, notes: Mapping[str, str]) -> None:
 
 
 def read_msh(path: str | Path) -> BlockMesh:
-    """The mesh that write_msh saved, with points of the flat block to rounding.
-
-    Files of former versions have a shift of one component, z. Raises MeshError for other files.
-    """
+    """The mesh that write_msh saved, with points of the flat block to rounding. Files of former
+    versions have a shift of one component, z. Raises MeshError for other files."""
     from meshio import gmsh  # meshio's own `read` ends the process where it cannot
 
     path = Path(path)

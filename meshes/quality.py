@@ -32,11 +32,9 @@ def corner_tangents(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarr
 
 
 def corner_jacobians(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Determinant (m, 3) [m^2] of each element's map at its corners.
-
-    Where only heights move and x stays affine in the element, the determinant is linear in the
-    reference coordinates: if positive at the corners, it is positive everywhere.
-    """
+    """Determinant (m, 3) [m^2] of each element's map at its corners. Where only heights move and x
+    stays affine in the element, the determinant is linear in the reference coordinates: if positive
+    at the corners, it is positive everywhere."""
     return cross(*corner_tangents(points, triangles))
 
 

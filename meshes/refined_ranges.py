@@ -69,11 +69,9 @@ def last_grid_point(edges_to_side: float) -> float:
 
 
 def unrefined_contact(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:
-    """Ranges (k, 2) [m] that are in contact but not refined.
-
-    active (n,) [m] are the places in contact, each of which loads the surface up to reach [m] on
-    both sides (the pitch of hat pressures). intervals (m, 2) [m] are the refined ranges.
-    """
+    """Ranges (k, 2) [m] that are in contact but not refined. active (n,) [m] are the places in
+    contact, each of which loads the surface up to reach [m] on both sides (the pitch of hat
+    pressures). intervals (m, 2) [m] are the refined ranges."""
     intervals = merge(intervals)
     active = np.unique(np.asarray(active, dtype=float))
     loaded = active[:, None] + reach * np.array([-1.0, 1.0])

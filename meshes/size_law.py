@@ -170,11 +170,9 @@ MOST_BOXES = 2_000_000  # at once; each holds several elements
 
 
 def estimate_unknowns(spec: BlockSpec) -> int:
-    """Number of displacements, before any is fixed, of the second-order mesh of spec.
-
-    From the integral of the size law, within 25 % of `meshes.build.build_block`. Raises MeshError
-    if spec cannot be meshed. Known ones are looked up: forecasts, tasks and levels ask again.
-    """
+    """Number of displacements, before any is fixed, of the second-order mesh of spec. From the
+    integral of the size law, within 25 % of `meshes.build.build_block`. Raises MeshError if spec
+    cannot be meshed. Known ones are looked up: forecasts, tasks and levels ask again."""
     check_spec(spec)
     return _estimated(pickle.dumps(spec))
 
@@ -202,10 +200,8 @@ def _estimated(pickled: bytes) -> int:
 
 def integral_of_power(spec: BlockSpec, box: list[float], power: float) -> float:
     """Integral of wanted_size ** power over a box x0, x1, z0, z1 [m], or a side without extent.
-
     Boxes are bisected across their longer extent until the law, whose slope is at most the growth,
-    is nearly constant in each or capped throughout; then three Gauss points each way.
-    """
+    is nearly constant in each or capped throughout; then three Gauss points each way."""
     nodes, weights = np.polynomial.legendre.leggauss(3)
     boxes = np.array([box], dtype=float)
     cap = largest_size(spec)

@@ -47,10 +47,8 @@ class CoupledEquilibrium(EquilibriumProblem):
     that its symmetric part is positive definite."""
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
-        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
-
-        The error of the pressures falls to `reduction` of what it is at the start, or to TIGHT.
-        """
+        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa]. The error
+        of the pressures falls to `reduction` of what it is at the start, or to TIGHT."""
         state = super().equilibrium(start, active, reduction)
         if not self.by_load:
             return state
@@ -85,11 +83,8 @@ class CoupledEquilibrium(EquilibriumProblem):
 
 
 def krylov_step(apply: _Vectors, target: np.ndarray, goal: float) -> tuple[np.ndarray, float]:
-    """y (m,) with the least |target - A y| in the Krylov space of A, until that is `goal`; and
-    what it is.
-
-    One call of `apply` a direction, SPAN directions at most.
-    """
+    """y (m,) with the least |target - A y| in the Krylov space of A, until that is `goal`; and what
+    it is. One call of `apply` a direction, SPAN directions at most."""
     size = float(np.linalg.norm(target))
     if size <= goal:
         return np.zeros(len(target)), size

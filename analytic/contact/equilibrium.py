@@ -244,10 +244,8 @@ class EquilibriumProblem:
         return feasible
 
     def with_a_free_node(self, active: ActiveSet) -> ActiveSet:
-        """The set itself, or with one node freed where none would balance a prescribed load.
-
-        Of a load too small, that is the node that is reached first, of one too large the last.
-        """
+        """The set itself, or with one node freed where none would balance a prescribed load. Of a
+        load too small, that is the node that is reached first, of one too large the last."""
         if not self.by_load or active.free.any():
             return active
         reach = self.weighted_gap / self.weights
@@ -260,11 +258,9 @@ class EquilibriumProblem:
         return ActiveSet(lower, upper)
 
     def balanced(self, state: Equilibrium) -> ActiveSet:
-        """The active set of the same load on independent springs.
-
-        Where nearly all that touches is at the hardness, exchanges by signs would only move the
-        approach from one of the few free nodes to the next.
-        """
+        """The active set of the same load on independent springs. Where nearly all that touches is
+        at the hardness, exchanges by signs would only move the approach from one of the few free
+        nodes to the next."""
         if self._own_compliance is None:
             one = np.zeros_like(self.weighted_gap)
             one[len(one) // 2] = 1.0
@@ -289,10 +285,8 @@ class EquilibriumProblem:
         )
 
     def equilibrium(self, start: np.ndarray, active: ActiveSet, reduction: float) -> Equilibrium:
-        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa].
-
-        The residual falls to `reduction` of what it is at the start, or to `tight`.
-        """
+        """Equilibrium on the free nodes, H and 0 on the others, from `start` (n,) [Pa]. The
+        residual falls to `reduction` of what it is at the start, or to `tight`."""
         self.spent["exchanges"] += 1
         nodes = np.flatnonzero(active.free)
         pressure = np.zeros_like(start)

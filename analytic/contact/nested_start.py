@@ -44,11 +44,9 @@ def coarse_start(
 
 
 def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
-    """Pressures (n,) [Pa] on independent springs in place of the body.
-
-    Under a prescribed load the springs sink, on the average over the grid, by FOUNDATION times
-    what the body does under an even pressure of that load.
-    """
+    """Pressures (n,) [Pa] on independent springs in place of the body. Under a prescribed load the
+    springs sink, on the average over the grid, by FOUNDATION times what the body does under an even
+    pressure of that load."""
     weights, constraints = problem.weights, problem.constraints
     height, count = problem.weighted_gap / weights, len(weights)
     softness = FOUNDATION * np.mean(np.abs(problem.apply(np.ones(count)) / weights))
@@ -66,10 +64,8 @@ def foundation_start(problem: EquilibriumProblem) -> np.ndarray:
 
 def prolonged(pressure: np.ndarray, count: int, periodic: bool) -> np.ndarray:
     """Pressures on the fine grid (count,) from those on the coarse one, >= 0; edges between nodes.
-
     A fine node between a touching and an open coarse node is open where the pressures' squares,
-    continued straight, vanish before they reach it.
-    """
+    continued straight, vanish before they reach it."""
     outer = pressure[[-1, 0]] if periodic else np.zeros(2)
     padded = np.concatenate((outer[:1], pressure, outer[1:]))
     between = 0.5 * (padded[:-1] + padded[1:])

@@ -34,11 +34,9 @@ class ContactError(ArithmeticError):
 
 @dataclass(frozen=True)
 class Residuals:
-    """How well the contact conditions hold; all dimensionless, zero when exact.
-
-    The displacement scale is the range of Cp/w over all nodes, or EVEN of its largest amount
-    where the surface moves as a whole; with the approach prescribed it is the largest amount.
-    """
+    """How well the contact conditions hold; all dimensionless, zero when exact. The displacement
+    scale is the range of Cp/w over all nodes, or EVEN of its largest amount where the surface moves
+    as a whole; with the approach prescribed it is the largest amount."""
 
     load_balance: float  # |w'p - P| / P (zero when the approach is prescribed)
     # p'|g| over the nodes below the hardness and p'g over those at it that are open / (P times the
@@ -151,10 +149,8 @@ def check_load(constraints: Constraints, weights: np.ndarray) -> None:
 def common_gap(
     weighted_gap: np.ndarray, weights: np.ndarray, constraints: Constraints
 ) -> tuple[float, Constraints]:
-    """The part of the gap [m] that the approach absorbs, and the constraints without it.
-
-    Far larger than what a light load closes, it would drown that in rounding.
-    """
+    """The part of the gap [m] that the approach absorbs, and the constraints without it. Far larger
+    than what a light load closes, it would drown that in rounding."""
     if constraints.approach is None:
         return float(np.min(weighted_gap / weights)), constraints
     return constraints.approach, replace(constraints, approach=0.0)

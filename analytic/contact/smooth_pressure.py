@@ -53,10 +53,8 @@ def contact_ends(
 
 
 def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
-    """Values (n,) [Pa] at the nodes of the parabola that has the mean of p_h over each hat.
-
-    Its slope and curvature are those of the parabola through the node and its neighbours.
-    """
+    """Values (n,) [Pa] at the nodes of the parabola that has the mean of p_h over each hat. Its
+    slope and curvature are those of the parabola through the node and its neighbours."""
     before, after = np.diff(hats)[:-1], np.diff(hats)[1:]
     whole = np.concatenate([[0.0], pressure, [0.0]])
     width = before + after

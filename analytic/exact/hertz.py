@@ -71,10 +71,8 @@ class HertzExtremes:
 
 
 def hertz_from_load(load_per_length: float, radius: float, combined_modulus: float) -> HertzContact:
-    """Contact under P [N/m] with R [m] and E* [Pa]: a^2 = 4 P R/(pi E*), p0 = 2 P/(pi a).
-
-    Raises ValueError unless all three are positive.
-    """
+    """Contact under P [N/m] with R [m] and E* [Pa]: a^2 = 4 P R/(pi E*), p0 = 2 P/(pi a). Raises
+    ValueError unless all three are positive."""
     check_positive(
         load_per_length=load_per_length, radius=radius, combined_modulus=combined_modulus
     )
@@ -86,10 +84,8 @@ def hertz_from_load(load_per_length: float, radius: float, combined_modulus: flo
 def hertz_from_peak_pressure(
     peak_pressure: float, radius: float, combined_modulus: float
 ) -> HertzContact:
-    """Contact with p0 [Pa], R [m] and E* [Pa]: a = 2 R p0/E*, P = pi a p0/2.
-
-    Raises ValueError unless all three are positive.
-    """
+    """Contact with p0 [Pa], R [m] and E* [Pa]: a = 2 R p0/E*, P = pi a p0/2. Raises ValueError
+    unless all three are positive."""
     check_positive(peak_pressure=peak_pressure, radius=radius, combined_modulus=combined_modulus)
     half_width = 2.0 * radius * peak_pressure / combined_modulus
     load = 0.5 * np.pi * half_width * peak_pressure
@@ -151,10 +147,8 @@ def hertz_extremes(hertz: HertzContact, friction: float = 0.0) -> HertzExtremes:
 
 
 def _highest(friction: float, value: _OfShear, slope: _OfSlope) -> tuple[float, float, float]:
-    """Largest `value` of the shear, and x, z [a] of it: best of a grid, then zero gradient.
-
-    With much friction the positive peak of txz moves down like mu, and the grid with it.
-    """
+    """Largest `value` of the shear, and x, z [a] of it: best of a grid, then zero gradient. With
+    much friction the positive peak of txz moves down like mu, and the grid with it."""
     depth = np.geomspace(1e-3, 10.0 * (1.0 + abs(friction)), 300)[:, None]
     x = np.linspace(-3.0, 3.0, 241)[None, :]
     heights = value(_shear(x, depth, friction)[0])

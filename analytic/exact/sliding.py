@@ -95,9 +95,7 @@ def sliding_from_load(
     dundurs_beta: float,
 ) -> SlidingContact:
     """Contact under P [N/m] with R [m], E* [Pa], mu and beta, either of the latter of any sign.
-
-    Raises ValueError unless P, R and E* are positive and mu and beta finite.
-    """
+    Raises ValueError unless P, R and E* are positive and mu and beta finite."""
     check_positive(
         load_per_length=load_per_length, radius=radius, combined_modulus=combined_modulus
     )

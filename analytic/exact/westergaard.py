@@ -88,9 +88,7 @@ def westergaard_from_mean_pressure(
     mean_pressure: float, wavelength: float, amplitude: float, combined_modulus: float
 ) -> WestergaardContact:
     """Contact under pm [Pa] of a wave of lambda [m] and A [m] with E* [Pa]; full from pm = p* on.
-
-    Raises ValueError unless all four are positive.
-    """
+    Raises ValueError unless all four are positive."""
     check_positive(mean_pressure=mean_pressure, wavelength=wavelength)
     check_positive(amplitude=amplitude, combined_modulus=combined_modulus)
     closing = np.pi * combined_modulus * amplitude / wavelength

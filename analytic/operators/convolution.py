@@ -98,19 +98,15 @@ class Convolution:
         return irfft(spectrum, self._length)[: self.count]
 
     def precondition(self, weighted_displacement: np.ndarray) -> np.ndarray:
-        """Approximate inverse of `apply`, positive definite: division by the symbol.
-
-        Of displacements on the ring, or on as many of its nodes as are given.
-        """
+        """Approximate inverse of `apply`, positive definite: division by the symbol. Of
+        displacements on the ring, or on as many of its nodes as are given."""
         spectrum = rfft(weighted_displacement, self.ring)
         spectrum *= self.inverse_symbol
         return irfft(spectrum, self.ring)[: len(weighted_displacement)]
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
-
-        None where there are so many that iterating is faster.
-        """
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k). None where
+        there are so many that iterating is faster."""
         count = len(nodes)
         if LEVINSON <= count <= DIRECT_IN_A_ROW and self.symmetric:
             start = self._start_of_row(nodes)
@@ -123,10 +119,8 @@ class Convolution:
         return cholesky_solve(self.block(nodes), right)
 
     def cropped(self, span: int) -> "Convolution | None":
-        """The same on a shorter stretch of the line that holds `span` nodes; cached.
-
-        None where it would not be much shorter, and on a periodic line.
-        """
+        """The same on a shorter stretch of the line that holds `span` nodes; cached. None where it
+        would not be much shorter, and on a periodic line."""
         length = -(-CROPS * span // self.count) * self.count // CROPS
         length = max(length, span)
         if self.periodic or self.count < CROPPED_FROM or length > 0.75 * self.count:
@@ -155,9 +149,7 @@ class Convolution:
 
 
 def cholesky_solve(matrix: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-    """Solution (m, k), or None where the symmetric matrix is not positive definite.
-
-    Straight from LAPACK: around small matrices checks take longer than the work.
-    """
+    """Solution (m, k), or None where the symmetric matrix is not positive definite. Straight from
+    LAPACK: around small matrices checks take longer than the work."""
     _, solution, failed = dposv(matrix, right, overwrite_a=True)
     return None if failed else solution

@@ -190,8 +190,6 @@ class DenseCompliance(DenseMatrix):
         return scipy.linalg.cho_solve(self._factor, weighted_displacement)
 
     def solve(self, nodes: np.ndarray, right: np.ndarray) -> np.ndarray | None:
-        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k).
-
-        None where hats finer than a body's elements leave nothing to factor.
-        """
+        """Pressures (m, k) of these nodes alone under which they sink by `right` (m, k). None where
+        hats finer than a body's elements leave nothing to factor."""
         return cholesky_solve(self.block(nodes), right)

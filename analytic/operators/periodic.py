@@ -57,10 +57,8 @@ _FARTHER = 2.0 * binom(_EVEN, 4.0) * zeta(_EVEN + 1.0, 2)
 
 
 def hat_aliases(cycles: np.ndarray) -> np.ndarray:
-    """sum over j of sinc^4(c + j) / |c + j|, any shape, for 0 < c <= 1/2.
-
-    A hat's transform is sinc^2 and stands twice, in the pressure and in the average.
-    """
+    """sum over j of sinc^4(c + j) / |c + j|, any shape, for 0 < c <= 1/2. A hat's transform is
+    sinc^2 and stands twice, in the pressure and in the average."""
     total = polyval(cycles**2, _FARTHER) + _fifth(cycles)
     total = total + _fifth(1.0 + cycles)
     total = total + _fifth(1.0 - cycles)

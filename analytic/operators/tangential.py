@@ -47,10 +47,8 @@ class CoupledOperator(ModelOperator, Protocol):
 
 def hat_sign(offset: ArrayLike) -> np.ndarray:
     """The sign of the distance of two hats, averaged over both, `offset` pitches apart, any shape.
-
     int int (1-|s|) (1-|t|) sign(offset + t - s) ds dt: odd, 11/12 at 1 and exactly 1 from 2 on;
-    between them the integral of the cubic spline that two hats make.
-    """
+    between them the integral of the cubic spline that two hats make."""
     offset = np.asarray(offset, dtype=float)
     x = np.abs(offset)
     near = x * (4.0 / 3.0 + x**2 * (x / 4.0 - 2.0 / 3.0))

@@ -86,11 +86,8 @@ def smooth_contact(shape: Shape, load: float) -> tuple[float, float]:
 
 
 def rough_contact(shape: Shape, load: float, bearing: float) -> RoughContact:
-    """Solve for T = `load` and m = `bearing`.
-
-    Raises ValueError unless both are positive and the smooth contact is at most WIDEST, and
-    ArithmeticError where Newton's method fails.
-    """
+    """Solve for T = `load` and m = `bearing`. Raises ValueError unless both are positive and the
+    smooth contact is at most WIDEST, and ArithmeticError where Newton's method fails."""
     check_positive(load=load, bearing=bearing)
     a, peak = smooth_contact(shape, load)
     if a > WIDEST:

@@ -82,9 +82,7 @@ def counted_peaks(profile: Profile) -> Summits:
 def summits_of_peaks(counted: Summits, found: SpectralMoments) -> Summits:
     """Summits of an isotropic surface with a profile's counted peaks: density, curvature, variance
     and mean height are carried over by the ratios, and the differences, that a Gaussian one has.
-
-    Raises ValueError where the peaks are hardly of different height.
-    """
+    Raises ValueError where the peaks are hardly of different height."""
     peaks_expected, expected = found.peaks(), found.summits()
     spread = counted.deviation**2 - peaks_expected.deviation**2 + expected.deviation**2
     if not spread > 0.0:

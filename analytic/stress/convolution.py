@@ -61,10 +61,8 @@ def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray
 def half_line(
     depths: np.ndarray, reach: int, subdivisions: int, element: Element
 ) -> Callable[[slice], np.ndarray]:
-    """Re I, Im I, z Re I', z Im I' of a unit element at the offsets 0 … reach, by levels.
-
-    (4, levels, reach + 1).
-    """
+    """Re I, Im I, z Re I', z Im I' of a unit element at the offsets 0 … reach, by levels. (4,
+    levels, reach + 1)."""
     x = np.arange(reach + 1) / subdivisions
     # Next to the element stand few points, with the slowest formulas: all such levels at once.
     shallow = int(np.searchsorted(depths, NEAREST_FAR))
@@ -99,10 +97,8 @@ def half_line(
 
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
     """Spectra of an element's stresses, those of txz under p and of sx under q over i, on a closed
-    line of `size` >= 2 reach points.
-
-    From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on its right.
-    """
+    line of `size` >= 2 reach points. From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on
+    its right."""
     _, levels, count = halves.shape
     whole = np.empty((2, levels, size))
     whole[:, :, count : size - count + 1] = 0.0

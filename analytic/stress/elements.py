@@ -90,9 +90,7 @@ def strip_between(
 
 def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
     """Under unit p and q at 0 that fall linearly to zero at -1 and 1, by x and z >= 0 in pitches.
-
-    Finite everywhere, the surface included.
-    """
+    Finite everywhere, the surface included."""
     parts = np.empty((4, *x.shape))
     near = np.hypot(x, z) < NEAREST_FAR
     parts[:, near] = _hat_closed(x[near], z[near])
@@ -189,10 +187,8 @@ def from_nearest(
     nodes: np.ndarray, pitch: float, x: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Places x (m,) [m] and nodes (n,) [m], ascending, by whole pitches, which rounding spares.
-
     Whole pitches (n,) from the first node to each; those to the node nearest to each place (m,),
-    and the pitches from there to the place (m,), 0 at a node as it was given.
-    """
+    and the pitches from there to the place (m,), 0 at a node as it was given."""
     whole = np.rint((nodes - nodes[0]) / pitch).astype(int)
     nearest = np.searchsorted(0.5 * (nodes[1:] + nodes[:-1]), x)
     return whole, whole[nearest], (x - nodes[nearest]) / pitch

@@ -103,12 +103,9 @@ def stress_maxima(
 
 
 def _local_maxima(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rows and columns of the highest points that no neighbour exceeds, highest first.
-
-    A point is passed over if its peak cannot reach the highest value: between the points it
-    rises at most by a quarter of the fall to its lowest neighbour, twice what a parabola along
-    that line would.
-    """
+    """Rows and columns of the highest points that no neighbour exceeds, highest first. A point is
+    passed over if its peak cannot reach the highest value: between the points it rises at most by a
+    quarter of the fall to its lowest neighbour, twice what a parabola along that line would."""
     highest = values == maximum_filter(values, size=3, mode="nearest")
     fall = values - minimum_filter(values, size=3, mode="nearest")
     place = np.flatnonzero(highest & (values + 0.25 * fall >= values.max()))
@@ -125,11 +122,8 @@ def _climb(
     bounds: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Highest values (k,) that are met uphill from points of the grid, and their x, z (k, 2), each
-    between its own `bounds` (k, 2) of x [m].
-
-    A climb ends early when a quarter of what its last nine points differ by does not lift it to
-    the top of another one of the same owner.
-    """
+    between its own `bounds` (k, 2) of x [m]. A climb ends early when a quarter of what its last
+    nine points differ by does not lift it to the top of another one of the same owner."""
     grids, indices = (field.x, field.z), (columns, rows)
     centre = np.column_stack([g[i] for g, i in zip(grids, indices, strict=True)])
     width = np.column_stack([_cells(g, i) for g, i in zip(grids, indices, strict=True)])

@@ -105,10 +105,8 @@ def _from_far(sources: np.ndarray, box: np.ndarray, right: int) -> np.ndarray:
 
 @cache
 def _far_boxes(right: int) -> tuple[np.ndarray, np.ndarray]:
-    """Distances [boxes] to the halves of the parent's near boxes that are not near themselves.
-
-    And the matrix (ORDER, distances * ORDER) that takes their outer coefficients to inner ones.
-    """
+    """Distances [boxes] to the halves of the parent's near boxes that are not near themselves. And
+    the matrix (ORDER, distances * ORDER) that takes their outer coefficients to inner ones."""
     away = np.arange(-2 * NEIGHBOURS - right, 2 * NEIGHBOURS + 2 - right)
     away = away[np.abs(away) > NEIGHBOURS]
     return away, np.hstack([outer_to_inner(int(boxes)) for boxes in away])
@@ -150,10 +148,8 @@ def near_stress(
     line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, z: np.ndarray, box: np.ndarray
 ) -> np.ndarray:
     """The four stresses (4, points) of the elements in each point's near boxes on the finest level.
-
     At places (points,) `rest` from the node of number `nearest`, and z below, in pitches. Elements
-    beyond the line's ends carry nothing.
-    """
+    beyond the line's ends carry nothing."""
     unique, which = np.unique((box - NEIGHBOURS) * LEAF, return_inverse=True)
     index = unique[:, None] + np.arange(-1, (2 * NEIGHBOURS + 1) * LEAF + 1)
     loaded = (index >= 0) & (index < len(line.load))
@@ -259,10 +255,8 @@ _TREE_ELEMENTS, _TREE_PAIRS = 64, 20_000
 
 
 def line_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m].
-
-    Idle nodes at the ends cost nothing.
-    """
+    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m]. Idle
+    nodes at the ends cost nothing."""
     loaded = np.flatnonzero(line.load)
     if len(loaded) == 0:
         return np.zeros((4, len(x)))

@@ -50,10 +50,8 @@ class RemovedForm:
 
 
 def remove_form(profile: Profile, form: str) -> tuple[Profile, RemovedForm]:
-    """The profile without its `form` (none | mean | line | arc), and what that form was.
-
-    x stays as it is. Raises ValueError for another form, or if no arc fits the trace.
-    """
+    """The profile without its `form` (none | mean | line | arc), and what that form was. x stays as
+    it is. Raises ValueError for another form, or if no arc fits the trace."""
     if form not in FORMS:
         raise ValueError(f"form is {form!r}; allowed: {', '.join(FORMS)}")
     if form == "none":

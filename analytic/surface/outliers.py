@@ -23,10 +23,8 @@ class Spikes:
 
 def spikes(profile: Profile) -> Spikes | None:
     """Samples that stand out of the running median of WINDOW samples, neighbours as one spike.
-
     Beyond BEYOND times the 95th percentile of that distance, and LEAST of the rms height about a
-    line. None where there are none.
-    """
+    line. None where there are none."""
     x, height = profile.x, profile.height
     apart = height - median_filter(height, WINDOW, mode="nearest")
     along = x - x.mean()

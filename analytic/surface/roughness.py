@@ -56,9 +56,7 @@ def moments(profile: Profile) -> tuple[float, float, float]:
 
 def figures_of(curve: PPoly, level: float | None = None) -> Roughness:
     """Roughness figures of a piecewise cubic height [m], counted from `level` [m] (None: its mean).
-
-    Rounding shows where the curve's offset is large against its heights.
-    """
+    Rounding shows where the curve's offset is large against its heights."""
     points, weights = _gauss_points(curve.x)
     heights = curve(points)
     mean = float(np.sum(weights * heights))
@@ -132,11 +130,9 @@ def shortest_wavelength(profile: Profile) -> float:
 
 
 def power_spectrum(profile: Profile) -> tuple[np.ndarray, np.ndarray]:
-    """Wavenumbers (m,) [1/m] above 0 and the one-sided power spectral density (m,) [m^3] there.
-
-    Of the spline at even places, about its mean, under a Hann window. The density's integral over
-    the wavenumber is the mean square height, but for the window.
-    """
+    """Wavenumbers (m,) [1/m] above 0 and the one-sided power spectral density (m,) [m^3] there. Of
+    the spline at even places, about its mean, under a Hann window. The density's integral over the
+    wavenumber is the mean square height, but for the window."""
     count = next_fast_len(min(len(profile.x), MAX_RESAMPLED), real=True)
     middles = (np.arange(count) + 0.5) / count
     height = profile.spline()(profile.x[0] + profile.length * middles)

@@ -93,11 +93,9 @@ def standard_roughness(
 
 
 def standard_cutoff(profile: Profile) -> float:
-    """The cut-off [m] that ISO 4288:1996, table 1 gives by Ra.
-
-    Raises ValueError where the trace is too short for the cut-off that its Ra asks for, too
-    coarse for any, or rougher than the table.
-    """
+    """The cut-off [m] that ISO 4288:1996, table 1 gives by Ra. Raises ValueError where the trace is
+    too short for the cut-off that its Ra asks for, too coarse for any, or rougher than the
+    table."""
     for most, cutoff, _ in CLASSES:
         if cutoff < SHORTEST_CUTOFF * profile.spacing:
             continue
@@ -115,10 +113,8 @@ def standard_cutoff(profile: Profile) -> float:
 
 
 def standard_short_cutoff(profile: Profile, cutoff: float) -> float | None:
-    """lambda_s [m] that belongs to `cutoff` [m] (ISO 3274:1996, table 1).
-
-    None where the samples are too far apart for it: they are what limits the short waves then.
-    """
+    """lambda_s [m] that belongs to `cutoff` [m] (ISO 3274:1996, table 1). None where the samples
+    are too far apart for it: they are what limits the short waves then."""
     fitting = (short for _, given, short in CLASSES if given >= cutoff * (1.0 - 1e-9))
     short = next(fitting, CLASSES[-1][2])
     if short >= cutoff:
@@ -132,10 +128,8 @@ def standard_short_cutoff(profile: Profile, cutoff: float) -> float | None:
 
 def _mean_width(curve: PPoly, height: float) -> float | None:
     """Mean width [m] of whole elements, from one upward crossing of the mean line to the next.
-
     Hills lower than `height` [m], and dales that are shallower, are taken as part of what lies
-    beside them; so are the stretches before the first and after the last crossing.
-    """
+    beside them; so are the stretches before the first and after the last crossing."""
     places = crossings(curve)
     if len(places) < 3:
         return None

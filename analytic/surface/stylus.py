@@ -31,11 +31,9 @@ def with_noise(
 
 
 def opened(profile: Profile, radius: float) -> Profile:
-    """The profile opened by a circle of `radius` [m] from below: no crest is sharper than it.
-
-    A tip of that radius records no sharper crest; one in a trace is noise, or a trace's of a
-    sharper tip. Morphological opening on the trace's samples; of uneven ones, on as many even ones.
-    """
+    """The profile opened by a circle of `radius` [m] from below: no crest is sharper than it. A tip
+    of that radius records no sharper crest; one in a trace is noise, or a trace's of a sharper tip.
+    Morphological opening on the trace's samples; of uneven ones, on as many even ones."""
     even = np.linspace(profile.x[0], profile.x[-1], len(profile.x))
     step = even[1] - even[0]
     heights = np.interp(even, profile.x, profile.height)

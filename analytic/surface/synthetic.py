@@ -34,9 +34,7 @@ def sinusoid(
     samples_per_wavelength: int = SAMPLES_PER_WAVELENGTH,
 ) -> Profile:
     """height = amplitude cos(2 pi x / wavelength): a crest at x = 0, 2 amplitude peak to valley.
-
-    The trace covers at least `length`, rounded up so that its ends lie as far left as right.
-    """
+    The trace covers at least `length`, rounded up so that its ends lie as far left as right."""
     check_positive(wavelength=wavelength, amplitude=amplitude, length=length)
     if samples_per_wavelength < MIN_SAMPLES:
         raise ValueError(

@@ -28,9 +28,7 @@ def read_arrays(
     path: Path, max_bytes: int, columns: Sequence[str | int] | None, channel: str | None
 ) -> ProfileTable | Topography:
     """What is in the file, of `max_bytes` at most; `channel` is the name of one array of several.
-
-    Raises ProfileError, one line, for anything else than arrays of real numbers.
-    """
+    Raises ProfileError, one line, for anything else than arrays of real numbers."""
     raw = contents(path, max_bytes)
     kind = "npy" if raw.startswith(NPY) else "npz" if raw.startswith(ZIP) else "mat"
     try:

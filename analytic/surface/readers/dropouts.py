@@ -82,11 +82,9 @@ class Gap:
 
 
 def gaps(x: np.ndarray) -> list[Gap]:
-    """Where samples are missing in x (n,) [m], strictly ascending.
-
-    A step is a gap above GAP medians of an even trace (nine steps in ten are near the median),
-    above UNEVEN_GAP times what nine steps in ten do not exceed of any other.
-    """
+    """Where samples are missing in x (n,) [m], strictly ascending. A step is a gap above GAP
+    medians of an even trace (nine steps in ten are near the median), above UNEVEN_GAP times what
+    nine steps in ten do not exceed of any other."""
     steps = np.diff(x)
     usual = float(np.median(steps))
     even = np.mean((steps >= EVEN[0] * usual) & (steps <= EVEN[1] * usual)) >= 0.9

@@ -106,10 +106,8 @@ def is_spreadsheet(path: str) -> bool:
 
 
 def spreadsheet(path: str, target: str, wanted: str | None) -> dict:
-    """The longest run of rows of numbers on a sheet, the first or `wanted`, in its columns.
-
-    A cell without a number is a dropout; columns without any, and the rows above, are left out.
-    """
+    """The longest run of rows of numbers on a sheet, the first or `wanted`, in its columns. A cell
+    without a number is a dropout; columns without any, and the rows above, are left out."""
     try:
         from openpyxl import load_workbook
     except ImportError as error:

@@ -261,10 +261,8 @@ def _fast_numbers(rows: list[str], separator: str, decimal: str) -> np.ndarray |
 
 
 def _careful_numbers(table: ProfileTable, columns: Sequence[str | int] | None) -> np.ndarray:
-    """The numbers row by row, dropouts as NaN; `table` has everything but its numbers.
-
-    What columns hold that are not chosen, or are yet to be, is NaN where it is no number.
-    """
+    """The numbers row by row, dropouts as NaN; `table` has everything but its numbers. What columns
+    hold that are not chosen, or are yet to be, is NaN where it is no number."""
     cells = _split(table.text, table.separator)
     width = Counter(map(len, cells)).most_common(1)[0][0]
     numbers = np.empty((len(cells), width))

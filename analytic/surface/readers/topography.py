@@ -188,10 +188,8 @@ def is_sdf(head: bytes) -> bool:
 
 
 def read_sdf(path: Path, max_bytes: int = MAX_BYTES) -> Topography:
-    """The heights of a surface data file; one of a single profile is a line scan.
-
-    Raises ProfileError, one line, for a file that is cut short, compressed or damaged.
-    """
+    """The heights of a surface data file; one of a single profile is a line scan. Raises
+    ProfileError, one line, for a file that is cut short, compressed or damaged."""
     content = contents(path, max_bytes)
     read = _read_text if content.startswith(MAGIC_TEXT) else _read_binary
     scales, heights, kind = read(path, content)
