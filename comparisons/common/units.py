@@ -40,8 +40,14 @@ PRESSURE = Dimension("a pressure", "Pa", "207 GPa")
 LOAD = Dimension("a load per length", "N/m", "3.85 N/um")
 TIME = Dimension("a time", "s", "300 s")
 MEMORY = Dimension("an amount of memory", "byte", "8 GB")
+SPEED = Dimension("a speed", "m/s", "1 m/s")
+TEMPERATURE = Dimension("a temperature", "K", "293 K")
+CONDUCTIVITY = Dimension("a thermal conductivity", "W/m/K", "46 W/m/K")
+DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
+SPECIFIC_HEAT = Dimension("a specific heat", "J/kg/K", "460 J/kg/K")
 DIMENSIONLESS = Dimension("a number without unit", "", "0.3")
-DIMENSIONS = (LENGTH, PRESSURE, LOAD, TIME, MEMORY, DIMENSIONLESS)
+OF_HEAT = (SPEED, TEMPERATURE, CONDUCTIVITY, DENSITY, SPECIFIC_HEAT)
+DIMENSIONS = (LENGTH, PRESSURE, LOAD, TIME, MEMORY, *OF_HEAT, DIMENSIONLESS)
 
 COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
     unit: (dimension, Decimal(factor))
@@ -52,6 +58,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
         (LOAD, {"N/m": "1", "N/mm": "1e3", "kN/m": "1e3", "kN/mm": "1e6", "N/um": "1e6"}),
         (TIME, {"s": "1", "min": "60", "h": "3600"}),
         (MEMORY, {"byte": "1", "MB": "1e6", "GB": "1e9", "MiB": "1048576", "GiB": "1073741824"}),
+        *((each, {each.si_unit: "1"}) for each in OF_HEAT),
         (DIMENSIONLESS, {"%": "1e-2"}),
     )
     for unit, factor in units.items()

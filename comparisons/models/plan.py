@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from comparisons.common.quantities import MODELS
 from comparisons.models.assumptions import assumptions_of
 from comparisons.models.finite_element.compliance_check import no_check
+from comparisons.models.heat import check_heat
 from comparisons.models.problem import Problem
 from comparisons.scenes.scene import ResolvedScene
 
@@ -39,8 +40,13 @@ class Plan:
 
 
 def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
-    """The plan that computes what the scene asks for and nothing else."""
+    """The plan that computes what the scene asks for and nothing else.
+
+    Raises SceneError for a sliding speed that no temperature can be computed for.
+    """
     scene = problem.scene
+    if scene.heat is not None:
+        check_heat(problem)
     finite_elements = "finite_element" in models
     stress = scene.stress is not None
     shared = finite_elements and _shares_factor(scene)
@@ -59,6 +65,7 @@ def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
 
     slides = any(scene.friction)
     skip(scene.profile is None, "refinement under asperities", "the surface is smooth")
+    skip(scene.heat is None, "frictional heat", "the scene has no [heat]")
     skip(not stress, "subsurface stresses", "the scene has no [stress]")
     skip(stress and not slides, "stresses of the sliding traction", "there is no friction")
     why = "they take the half-plane" if scene.statistics else "the scene has no [statistics]"

@@ -139,7 +139,7 @@ def rows_of(result: Mapping, run: str) -> list[Row]:
         **result["groups"],
     }
     rows = _compared(result) if result.get("comparison") else _of_one_model(result)
-    every = [*rows, *_of_answers(result)]
+    every = [*rows, *_of_heat(result.get("heat")), *_of_answers(result)]
     return [{name: (common | row).get(name) for name in COLUMNS} for row in every]
 
 
@@ -177,6 +177,16 @@ def _compared(result: Mapping) -> Iterable[Row]:
                 "interaction": sign * error["interaction"],
                 "jump": error["jump"],
             }
+
+
+def _of_heat(heat: Mapping | None) -> Iterable[Row]:
+    """Temperatures [K] and the part of the heat that enters the body; both models as half_plane and
+    finite_element."""
+    for name, row in heat["figures"].items() if heat else ():
+        unit = "" if name == "fraction_into_body" else "K"
+        alone = max(row["own"].values()) if row["uncertainty"] is None else row["uncertainty"]
+        own = {"friction": heat["friction"], "unit": unit, "uncertainty": alone}
+        yield {**row, **row["values"], **own}
 
 
 def _of_answers(result: Mapping) -> Iterable[Row]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from comparisons.answers.answer import ComparedAnswer
 from comparisons.assessment.comparison import PairHistory
 from comparisons.assessment.effects.error_budget import ErrorBudget
+from comparisons.assessment.heat.figures import HeatStudy
 from comparisons.assessment.normal_tangential_coupling import Coupling
 from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.statistics.figures import RoughContactStatistics
@@ -44,6 +45,7 @@ class Outcome:
     statistics: RoughContactStatistics | None = None  # of rough contact, None without [statistics]
     # from outside, beside a model; empty where the scene has none
     answers: tuple[ComparedAnswer, ...] = ()
+    heat: HeatStudy | None = None  # None without [heat]
 
     @cached_property
     def forecast(self) -> Forecast:
@@ -103,6 +105,7 @@ class Outcome:
         if not self.converged:
             return ExitStatus.NOT_CONVERGED
         outside = [row for answer in self.answers for row in answer.rows]
+        outside += self.heat.figures if self.heat else ()
         verdicts = {r.verdict for r in (*self.comparisons, *self.tolerance_checks, *outside)}
         flows = self.budget is not None and self.flow.beyond_doubt
         if flows or verdicts & {"differ", "fails"}:

@@ -170,6 +170,12 @@ def solve(
         compared_answers = compare_answers(*given)
         result["answers"] = {each.name: each.as_dict() for each in compared_answers}
         hashes |= {f"answer_{n}": [each.sha256 for each in a] for n, a in answers.items()}
+    heat = None
+    if problem.scene.heat is not None:
+        from comparisons.assessment.heat.study import heat_study
+
+        heat = heat_study(problem, runs, told)
+        result["heat"] = heat.as_dict()
     outcome = Outcome(
         problem=problem,
         plan=plan,
@@ -185,6 +191,7 @@ def solve(
         scatter=scatter,
         statistics=statistics,
         answers=compared_answers,
+        heat=heat,
     )
     try:
         if out is not None:

@@ -11,6 +11,7 @@ from comparisons.common.mpi import is_first
 from comparisons.common.processes import side_by_side
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
+from comparisons.models.heat import HeatedContact
 from comparisons.models.level import Level, deformed_height
 from comparisons.results.field_files import AUTOMATIC, field_of, scene_text, write_field
 from comparisons.results.outcome import Outcome
@@ -35,6 +36,8 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
         for name, level in _written(outcome).items():
             (folder / name).mkdir()
             works.append(partial(_write_level, folder / name, outcome, level, fields))
+        for name, contact in outcome.heat.contacts.items() if outcome.heat else ():
+            write_temperatures(folder / name / "temperature.csv", contact)
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
@@ -83,6 +86,13 @@ def write_contact(path: Path, outcome: Outcome, level: Level) -> None:
     head = f"# {program}: {one_line(problem.scene.title)}\n# scene: {scene_text(problem.scene)}\n"
     head += "x [m],pressure [Pa],gap [m],deformed height [m]"
     _write_csv(path, head, *columns, deformed_height(problem, level))
+
+
+def write_temperatures(path: Path, contact: HeatedContact) -> None:
+    """temperature.csv: a row for each pressure element."""
+    head = "x [m],heat [W/m^2],into the body [W/m^2],rise of the body [K],rise of the roller [K]"
+    columns = contact.x, contact.heat, contact.into_body, contact.body, contact.roller
+    _write_csv(path, head, *columns)
 
 
 def write_run_in_profile(path: Path, scene: ResolvedScene) -> None:

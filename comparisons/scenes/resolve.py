@@ -24,6 +24,7 @@ from comparisons.scenes.scene import (
 )
 from comparisons.scenes.schema.answers import answer_sources
 from comparisons.scenes.schema.finite_element import settings_of
+from comparisons.scenes.schema.heat import heat_of
 from comparisons.scenes.schema.running_in import running_in_of
 from comparisons.scenes.schema.scatter import scatter_of
 from comparisons.scenes.schema.scene import (
@@ -154,6 +155,7 @@ def resolve_tables(
         scatter=scene.scatter and scatter_of(scene.scatter),
         statistics=scene.statistics and RoughnessStatistics(**dict(scene.statistics)),
         answers=answer_sources(scene.answers, folder),
+        heat=scene.heat and heat_of(scene.heat, scene.roller.radius),
     )
 
 

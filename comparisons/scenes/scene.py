@@ -9,7 +9,7 @@ import math
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
-from analytic.material import Material
+from analytic.material import Material, ThermalMaterial
 from analytic.profile import Profile
 from analytic.running_in import RunIn
 from analytic.surface.form import RemovedForm
@@ -224,6 +224,30 @@ class RoughnessStatistics:
 
 
 @dataclass(frozen=True)
+class Heat:
+    """Sliding that heats both bodies."""
+
+    speed: float  # [m/s] of sliding, above 0
+    # speed over the mean of both surfaces' speeds past the contact, from -2 (the contact stays on
+    # the body) to 2 (it stays on the roller), not 0
+    slide_to_roll: float
+    body: ThermalMaterial
+    roller: ThermalMaterial
+    coating: ThermalMaterial | None  # None without one
+    bulk_temperature: float  # [K] of both bodies
+    base: str  # of a body with thickness: held at that temperature | insulated
+    reach: float  # [m] from the contact to where a body that it stays on has that temperature
+    tolerance: float  # relative, of temperatures
+
+    @property
+    def velocities(self) -> tuple[float, float]:
+        """[m/s] of the body's and the roller's surface past the contact, towards +x. Their
+        difference is minus the speed: the roller drags the body towards +x."""
+        mean = -self.speed / self.slide_to_roll
+        return mean - 0.5 * self.speed, mean + 0.5 * self.speed
+
+
+@dataclass(frozen=True)
 class ResolvedScene:
     """Everything one run needs."""
 
@@ -260,6 +284,7 @@ class ResolvedScene:
     # are those after it
     run_in: RunIn | None = field(default=None, compare=False, repr=False)
     answers: tuple[AnswerSource, ...] = ()  # from outside, beside those of the models
+    heat: Heat | None = None  # None: no temperature is asked for
 
     @property
     def as_measured(self) -> Profile | None:

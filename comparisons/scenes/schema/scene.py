@@ -32,6 +32,7 @@ from comparisons.scenes.schema.fields import (
     allowed,
 )
 from comparisons.scenes.schema.finite_element import SEVERAL_FRICTIONS, FiniteElementSection
+from comparisons.scenes.schema.heat import HeatSection
 from comparisons.scenes.schema.profile import ProfileSection
 from comparisons.scenes.schema.running_in import RunningInSection
 from comparisons.scenes.schema.scatter import ScatterSection
@@ -170,6 +171,7 @@ class SceneFile(SceneSection):
     budget: BudgetSection = BudgetSection()
     scatter: ScatterSection | None = None
     statistics: StatisticsSection | None = None
+    heat: HeatSection | None = None
     answers: dict[str, AnswerSection] | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
@@ -194,6 +196,8 @@ class SceneFile(SceneSection):
             yield from self.scatter.misfits(self)
         if self.statistics is not None and self.profile is None:
             yield "statistics", "is given for a smooth surface; allowed only with [profile]"
+        if self.heat is not None:
+            yield from self.heat.misfits(self)
         if coating and body.thickness is not None and coating.thickness >= body.thickness:
             given = f"is {coating.thickness:g} m on a body of {body.thickness:g} m"
             yield "coating.thickness", f"{given}; allowed is less, the body's thickness contains it"

@@ -134,7 +134,7 @@ def scatter(points: Iterable[dict], over_friction: bool) -> list[dict]:
             "largest": max(each),
         }
         for (quantity, friction, figure), each in sorted(
-            values.items(), key=lambda item: (order[item[0][0]], item[0][1] or 0.0)
+            values.items(), key=lambda item: (order.get(item[0][0], len(order)), item[0][1] or 0.0)
         )
     ]
 

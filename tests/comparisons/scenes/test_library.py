@@ -184,6 +184,7 @@ def test_every_scene_is_named_here():
     assert set(scene_names()) == {
         "coated",
         "finite-strain",
+        "frictional-heat",
         "layer",
         "yielding",
         "ground-polished",

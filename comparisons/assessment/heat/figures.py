@@ -1,0 +1,52 @@
+"""What friction heats a scene's bodies by, as a run keeps it."""
+
+from dataclasses import asdict, dataclass, field
+
+import numpy as np
+
+from comparisons.assessment.verdict import Verdict
+from comparisons.models.heat import HeatedContact
+
+
+@dataclass(frozen=True)
+class HeatFigure:
+    """A figure of one or both models; all but their values relative."""
+
+    quantity: str
+    values: dict[str, float]
+    own: dict[str, float]  # numerical uncertainty of each model's value
+    # (half-plane - finite elements) / finite elements; None for one model
+    difference: float | None = None
+    # the part of it that the half-plane finds under the finite elements' pressures
+    by_pressure: float | None = None
+    uncertainty: float | None = None  # of the difference, numerical
+    tolerance: float | None = None
+    verdict: Verdict | None = None
+
+
+@dataclass(frozen=True)
+class HeatStudy:
+    """Temperatures of a scene at its largest friction coefficient."""
+
+    friction: float
+    peclet: dict[str, float]
+    contacts: dict[str, HeatedContact]  # by model, on the finest level
+    figures: tuple[HeatFigure, ...]
+    # part of the heat into the body that older rules give the whole contact, and the flash
+    # temperature [K] by each
+    rules: dict[str, dict[str, float]]
+    contains: tuple[str, ...]  # what the finite elements alone have, in words
+    x: np.ndarray = field(repr=False)  # (n,) [m]
+    z: np.ndarray = field(repr=False)  # (m,) [m]
+    field: np.ndarray = field(repr=False)  # (2, m, n) [K] in body and roller, half-planes
+
+    def as_dict(self) -> dict:
+        """For JSON."""
+        return {
+            "friction": self.friction,
+            "peclet": self.peclet,
+            "models": {name: each.figures for name, each in self.contacts.items()},
+            "figures": {figure.quantity: asdict(figure) for figure in self.figures},
+            "rules": self.rules,
+            "contains": list(self.contains),
+        }

@@ -1,0 +1,118 @@
+"""Flash temperature by both models: figures with uncertainties, their difference, the verdict.
+
+The half-space takes the half-plane's pressures, the finite elements their own, so that the
+difference has what both theories leave out: `by_pressure` is the part of it that the half-space
+finds under the finite elements' pressures. One rule judges it, as everything else.
+"""
+
+import numpy as np
+
+from analytic.heat.partition import layered_fraction, one_fraction
+from comparisons.assessment.convergence import grid_convergence
+from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
+from comparisons.assessment.uncertainty import far_boundary, iteration
+from comparisons.assessment.verdict import judge
+from comparisons.common.progress import ProgressCallback
+from comparisons.models.heat import (
+    HeatedContact,
+    friction_of,
+    half_space_heat,
+    half_spaces,
+    peclet_numbers,
+)
+from comparisons.models.level import ModelRun
+from comparisons.models.problem import Problem
+
+JUDGED = ("flash_temperature", "mean_temperature", "fraction_into_body")
+FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
+DEPTHS, COLUMNS = 60, 600  # of the subsurface field
+
+
+def heat_study(
+    problem: Problem, runs: dict[str, ModelRun], callback: ProgressCallback
+) -> HeatStudy:
+    """Temperatures on every level of every model that was run, and the comparison."""
+    callback("frictional heat")
+    histories, contains, moved = {}, (), {}
+    if "half_plane" in runs:
+        levels = runs["half_plane"].levels
+        histories["half_plane"] = [half_space_heat(problem, level) for level in levels]
+    if "finite_element" in runs:
+        from comparisons.models.finite_element.heat import finite_element_heat, what_it_contains
+
+        levels, contains = runs["finite_element"].levels, what_it_contains(problem)
+        coarse, *_ = own = [finite_element_heat(problem, level) for level in levels]
+        histories["finite_element"] = own
+        smaller = finite_element_heat(problem, levels[0], block=0.5)
+        moved = {
+            name: far_boundary(smaller.figures[name] / coarse.figures[name], 1.0) for name in JUDGED
+        }
+    figures = tuple(_figure(problem, runs, histories, moved, name) for name in JUDGED)
+    finest = {name: history[-1] for name, history in histories.items()}
+    first, peclet = next(iter(finest.values())), peclet_numbers(problem)
+    found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
+    return HeatStudy(*found, *_subsurface(problem, first))
+
+
+def _figure(
+    problem: Problem,
+    runs: dict[str, ModelRun],
+    histories: dict[str, list[HeatedContact]],
+    moved: dict[str, float],
+    name: str,
+) -> HeatFigure:
+    """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
+    is infinite, they discretise it each in its own way."""
+    values = {model: [each.figures[name] for each in h] for model, h in histories.items()}
+    own = {}
+    for model, history in values.items():
+        left = grid_convergence(history, FORMAL_ORDER).uncertainty / abs(history[-1])
+        domain = moved[name] if model == "finite_element" else 0.0
+        own[model] = left + iteration(runs[model].finest) + domain
+    shown = {model: history[-1] for model, history in values.items()}
+    if len(values) < 2:
+        return HeatFigure(name, shown, own)
+    one, other = shown["half_plane"], shown["finite_element"]
+    difference = (one - other) / other
+    uncertainty = abs(1.0 + difference) * own["half_plane"] + own["finite_element"]
+    level = runs["finite_element"].finest
+    under_theirs = half_space_heat(problem, level).figures[name]
+    by_pressure = (one - under_theirs) / other
+    tolerance = problem.scene.heat.tolerance
+    verdict = judge(difference, uncertainty, tolerance)
+    return HeatFigure(name, shown, own, difference, by_pressure, uncertainty, tolerance, verdict)
+
+
+def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:
+    """Older rules on the half-spaces, under the heat of a solved contact."""
+    heat, pitch = contact.heat, float(contact.x[1] - contact.x[0])
+    bodies, own = half_spaces(problem, len(heat), pitch), problem.scene.heat
+    body = own.body.conductivity, (own.coating or own.body).conductivity
+    fractions = {
+        "equal_largest": one_fraction(*bodies, heat, np.max),
+        "equal_mean": one_fraction(*bodies, heat, np.mean),
+        "conductivities": layered_fraction(body, 2 * (own.roller.conductivity,)),
+    }
+    alone = float(bodies[0].rise(heat).max())
+    return {
+        name: {"fraction_into_body": share, "flash_temperature": share * alone}
+        for name, share in fractions.items()
+    }
+
+
+def _subsurface(
+    problem: Problem, contact: HeatedContact
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places, depths and rises in both half-spaces, half as far again as the grid, on every so many
+    of its nodes that a picture shows."""
+    pitch, half_width = float(contact.x[1] - contact.x[0]), problem.hertz.half_width
+    beside = len(contact.x) // 4
+    fluxes = [
+        np.pad(each, beside) for each in (contact.into_body, contact.heat - contact.into_body)
+    ]
+    x = contact.x[0] + pitch * np.arange(-beside, len(contact.x) + beside)
+    z = half_width * np.linspace(0.0, 1.0, DEPTHS) ** 2
+    bodies = half_spaces(problem, len(x), pitch)
+    shown = slice(None, None, max(1, len(x) // COLUMNS))
+    fields = [body.field(flux, z)[:, shown] for body, flux in zip(bodies, fluxes, strict=True)]
+    return x[shown], z, np.array(fields)

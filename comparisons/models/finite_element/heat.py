@@ -1,0 +1,101 @@
+"""The heat of friction in finite bodies: conduction on meshes of their own, and its partition.
+
+A body without a thickness goes on as a half-space beyond its mesh. That of a layer ends where the
+heat has gone into its base or been carried off.
+"""
+
+import numpy as np
+
+from analytic.material import ThermalMaterial
+from analytic.numerics import runs_of
+from comparisons.models.heat import HeatedContact, heat_of_friction
+from comparisons.models.level import Level
+from comparisons.models.problem import Problem
+from fem.body.coating import Coating
+from fem.heat.body import thermal_body
+from fem.heat.conduction import Conduction, Surroundings
+from fem.heat.partition import FrictionalHeat
+from fem.heat.surface_heat import values_at
+from meshes.build import build_block
+from meshes.thermal_layer import thermal_spec
+
+BLOCK = 10.0  # half-width and depth over those of what is heated
+BESIDE = 6.0  # half-width of a layer's block over its thickness, beyond that
+UPSTREAM = 5.0  # the same over kappa/V, of an insulated layer, whose heat goes nowhere else
+LAYERS, GROWTH = 1.0, 0.28  # of `meshes.thermal_layer`, on the coarsest level
+
+
+def finite_element_heat(problem: Problem, level: Level, block: float = 1.0) -> HeatedContact:
+    """As the half-spaces' `comparisons.models.heat.half_space_heat`, under the pressures of a
+    finite-element level; `block` scales the mesh of an unbounded body."""
+    x, heat = level.grid.x, heat_of_friction(problem, level)
+    x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
+    heat = np.pad(heat, 1)
+    contact = (heat[1:] > 0.0) | (heat[:-1] > 0.0)
+    first, after = runs_of(contact)
+    patches = np.column_stack([x[first], x[after]])
+    settings = problem.scene.heat
+    given = zip((settings.body, settings.roller), settings.velocities, (True, False), strict=True)
+    bodies = tuple(
+        _conduction(problem, material, velocity, patches, level.grid.pitch, block, rough)
+        for material, velocity, rough in given
+    )
+    found = FrictionalHeat(bodies, x, contact).steady(heat)
+    into_body = np.zeros_like(heat)
+    into_body[np.searchsorted(x, found.x)] = found.flux[0]
+    rises = [
+        values_at(each.body.surface, x) @ temperature[each.body.surface.point]
+        for each, temperature in zip(bodies, found.temperature, strict=True)
+    ]
+    inner = (values[1:-1] for values in (x, heat, into_body, *rises))
+    return HeatedContact(*inner, found.share)
+
+
+def _conduction(
+    problem: Problem,
+    material: ThermalMaterial,
+    velocity: float,
+    patches: np.ndarray,
+    pitch: float,
+    block: float,
+    rough: bool,
+) -> Conduction:
+    """The rough body or the roller on a mesh of its own, finer on each level in every respect."""
+    scene, settings = problem.scene, problem.scene.heat
+    thickness, coated = (scene.thickness, scene.coating) if rough else (None, None)
+    half_width = block * BLOCK * float(np.abs(patches).max())
+    layer = None if coated is None else Coating(settings.coating, coated.thickness)
+    slower = min(m.diffusivity for m in (material, layer and layer.material) if m)
+    length = slower / velocity if velocity else np.inf
+    if thickness is not None:
+        depth, around = thickness, Surroundings(settings.base, "flow")
+        half_width += block * BESIDE * thickness
+        if settings.base == "insulated":
+            half_width = half_width + UPSTREAM * abs(length) if velocity else settings.reach
+    else:
+        half_width = half_width if velocity else min(half_width, 0.5 * settings.reach)
+        depth, around = half_width, Surroundings("open", "open")
+    finer = problem.pitches[0] / pitch
+    spec = thermal_spec(
+        patches,
+        pitch,
+        half_width=half_width,
+        depth=depth,
+        length=length,
+        layers=LAYERS * finer,
+        growth=GROWTH / np.sqrt(finer),
+        interface=None if layer is None else layer.thickness,
+    )
+    body = thermal_body(build_block(spec), material, coating=layer)
+    return Conduction(body, velocity, around, float(patches.mean()), settings.reach)
+
+
+def what_it_contains(problem: Problem) -> tuple[str, ...]:
+    """What the finite elements have and the half-space has not, in words."""
+    scene, found = problem.scene, []
+    if scene.thickness is not None:
+        how = {"held": "at its bulk temperature", "insulated": "insulated"}[scene.heat.base]
+        found.append(f"the body's thickness, its base {how}")
+    if scene.coating is not None:
+        found.append("the coating")
+    return tuple(found)

@@ -1,0 +1,78 @@
+"""Flash temperatures as a table, and in a sentence."""
+
+from comparisons.assessment.heat.figures import HeatFigure
+from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
+from comparisons.common.quantities import LABELS, MODELS
+from comparisons.report.tables.text import TextTable
+from comparisons.results.outcome import Outcome
+
+WORDS = {
+    "flash_temperature": "largest rise in the contact",
+    "mean_temperature": "mean rise, by heat",
+    "fraction_into_body": "heat that enters the body",
+}
+RULES = {
+    "equal_largest": "one fraction, largest temperatures equal (Blok)",
+    "equal_mean": "one fraction, mean temperatures equal (Jaeger)",
+    "conductivities": "one fraction, by conductivities alone (Seireg)",
+}
+
+
+def heat_table(outcome: Outcome) -> TextTable | None:
+    """A row for each figure, then what older rules say of the first; None without [heat]."""
+    if (study := outcome.heat) is None:
+        return None
+    rows = [(WORDS[figure.quantity], *_cells(figure)) for figure in study.figures]
+    for name, rule in study.rules.items():
+        value = f"{significant(rule['flash_temperature'])} K"
+        share = f"{percent(rule['fraction_into_body'])} enter the body"
+        rows.append((RULES[name], value, "", "", "", "", share))
+    numbers = ("difference", "uncertainty", "tolerance")
+    return TextTable("", ("", *map(LABELS.get, MODELS), *numbers, "verdict"), tuple(rows))
+
+
+def _cells(figure: HeatFigure) -> tuple[str, ...]:
+    unit = "" if figure.quantity == "fraction_into_body" else "K"
+    values = [with_unit(figure.values.get(name), unit) for name in MODELS]
+    if figure.difference is None:
+        return *values, "", percent(*figure.own.values()), "", "not compared"
+    judged = percent(figure.uncertainty), given_percent(figure.tolerance), figure.verdict
+    return *values, _difference(figure, figure.difference), *judged
+
+
+def _difference(figure: HeatFigure, value: float) -> str:
+    return percent(value, signed=True, uncertainty=figure.uncertainty)
+
+
+def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
+    """What moves, what the finite elements have, and where the largest rise stands."""
+    study, heat = outcome.heat, outcome.problem.scene.heat
+    body, roller = (f"{significant(abs(v), 3)} m/s" for v in heat.velocities)
+    numbers = (f"{name} {significant(number, 3)}" for name, number in study.peclet.items())
+    places = (each.figures["flash_position"] for each in study.contacts.values())
+    datum = f"{plain(heat.bulk_temperature)} K, at rest {with_unit(heat.reach, 'm')} away"
+    found = [
+        ("surfaces pass the contact at", f"body {body}, roller {roller}"),
+        ("Peclet number V a / 2κ", ", ".join(numbers)),
+        ("bulk temperature", datum),
+        ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
+        ("the finite elements have", ", ".join(study.contains)),
+    ]
+    first = study.figures[0]
+    if first.by_pressure is not None:
+        share = _difference(first, first.by_pressure)
+        found.append(("of its difference, by other pressures", share))
+    return [fact for fact in found if fact[1]]
+
+
+def heat_line(outcome: Outcome) -> str | None:
+    """The largest rise in a line; None without [heat]."""
+    if outcome.heat is None:
+        return None
+    figure = outcome.heat.figures[0]
+    values = (f"{significant(v)} K ({LABELS[name]})" for name, v in figure.values.items())
+    said = f"flash temperature {', '.join(values)}"
+    if figure.verdict is None:
+        return said
+    difference = _difference(figure, figure.difference)
+    return f"{said}: {difference} ± {percent(figure.uncertainty)}, {figure.verdict}"

@@ -1,0 +1,107 @@
+"""Flash temperatures from the scene to its files: both models, uncertainties, verdict, report."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scenes import PROFILES, STEEL, changed, resolved
+
+from comparisons.common.quantities import MODELS
+from comparisons.report.saved import read_outcome
+from comparisons.report.tables.heat import heat_line, heat_table
+from comparisons.runs.run import run
+
+CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
+TRACE = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "profile": {
+        "file": str(PROFILES / "ground_unrun.csv"),
+        "x_unit": "um",
+        "z_unit": "um",
+        "form": "none",
+    },
+    "load": {"per_length": 0.6e6, "friction": [0.0, 0.1], "position": "1118 um"},
+    "heat": {"speed": 1.0, **EQUAL},
+    "budget": {"effects": False},
+    "resolution": {"pitch": "1.6 um"},
+}
+
+
+@pytest.fixture(scope="module")
+def rough(tmp_path_factory):
+    out = tmp_path_factory.mktemp("heat") / "out"
+    return run(resolved(TRACE), out, MODELS)
+
+
+def test_a_rough_trace_has_one_flash_temperature_by_both_models(rough):
+    """Both solve one problem: their difference is numerical, and within what is stated."""
+    for figure in rough.heat.figures:
+        assert abs(figure.difference) < figure.uncertainty < 0.02
+        assert figure.verdict == "agree"
+        assert abs(figure.by_pressure) < figure.uncertainty
+    assert rough.heat.figures[0].values["half_plane"] > 100.0
+    assert rough.heat.friction == 0.1
+
+
+def test_figures_in_result_json(rough):
+    heat = json.loads((rough.directory / "result.json").read_text())["heat"]
+    flash = heat["figures"]["flash_temperature"]
+    assert flash["verdict"] == "agree"
+    assert flash["values"]["finite_element"] == pytest.approx(
+        flash["values"]["half_plane"], rel=0.02
+    )
+    assert heat["models"]["half_plane"]["flash_position"] < 0.0  # the hot end is behind
+    assert set(heat["rules"]) == {"equal_largest", "equal_mean", "conductivities"}
+
+
+def test_temperatures_as_csv(rough):
+    for model in MODELS:
+        path = Path(rough.directory) / model / "temperature.csv"
+        x, heat, into_body, body, _ = np.loadtxt(path, delimiter=",", skiprows=1).T
+        found = rough.heat.contacts[model]
+        assert x == pytest.approx(found.x, abs=1e-12)
+        assert body == pytest.approx(found.body, rel=1e-9)
+        assert heat.max() == pytest.approx(0.1 * rough.runs[model].finest.solution.pressure.max())
+        assert 0.5 * heat.sum() < into_body.sum() < heat.sum()
+
+
+def test_report_and_terminal(rough):
+    page = (rough.directory / "report.html").read_text()
+    assert "<h2>Frictional heat</h2>" in page
+    assert "Rise of temperature below the surface of the roller" in page
+    assert "agree" in heat_line(rough)
+    again = read_outcome(rough.directory)
+    assert heat_table(again) == heat_table(rough)
+
+
+def test_below_the_surface_it_cools(rough):
+    study = rough.heat
+    for field in study.field:
+        assert field.shape == (len(study.z), len(study.x))
+        assert field.max() == pytest.approx(field[0].max())
+        assert np.all(np.diff(field.max(axis=1)) < 0.0)
+    largest = study.figures[0].values["half_plane"]
+    assert study.field[0].max() == pytest.approx(largest, rel=5e-3)
+
+
+def test_one_model_alone():
+    scene = resolved(changed(TRACE, heat={"slide_to_roll": -2.0}))
+    outcome = run(scene, None, ("half_plane",))
+    figure = outcome.heat.figures[0]
+    assert (figure.difference, figure.verdict) == (None, None)
+    assert 0.0 < figure.own["half_plane"] < 0.05
+    assert outcome.heat.peclet["body"] == 0.0
+
+
+def test_a_slab_is_no_half_space():
+    tables = changed(TRACE, body={"thickness": "60 um"}, heat={"speed": 0.05, "tolerance": 0.02})
+    tables["load"] = {"hertz_peak_pressure": 1e9, "friction": 0.1}
+    del tables["profile"], tables["resolution"]
+    outcome = run(resolved(tables), None, MODELS)
+    figure = outcome.heat.figures[0]
+    assert figure.verdict == "differ"
+    assert outcome.exit_status == 1
+    assert outcome.heat.contains == ("the body's thickness, its base at its bulk temperature",)

@@ -1,0 +1,143 @@
+"""The heat of friction in half-spaces and in finite bodies, against closed forms and transforms."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import STEEL, problem
+
+from analytic.contact.problem import ContactSolution
+from analytic.grid import HatGrid
+from comparisons.common.progress import Stages, no_progress
+from comparisons.models.finite_element.heat import finite_element_heat, what_it_contains
+from comparisons.models.half_plane import half_plane_level
+from comparisons.models.heat import half_space_heat, peclet_numbers
+
+CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+EQUAL = {f"{b}_{name}": value for b in ("body", "roller") for name, value in CONSTANTS.items()}
+INSULATOR = {"roller_conductivity": 1e-6, "roller_density": 2e-4}  # of a diffusivity like steel's
+LAYER = {"conductivity": 2.0, "density": 5000.0, "specific_heat": 500.0}
+SCENE = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
+    "heat": {"speed": 2.0, "slide_to_roll": 0.5, **EQUAL},
+}
+SOFT = {"thickness": 20e-6, "youngs_modulus": 210e9, "poissons_ratio": 0.3}
+
+
+def made(body=None, coating=None, **heat):
+    tables = SCENE | {"body": SCENE["body"] | (body or {}), "heat": SCENE["heat"] | heat}
+    return problem(tables | ({"coating": coating} if coating else {}))
+
+
+def level_of(given):
+    return half_plane_level(given, given.pitches[0], None, Stages(no_progress), fields=False)
+
+
+def through_layers(given, level, held=True):
+    """Rise (n,) [K] of the body's surface under all heat, by transforms on a long line: the surface
+    resistance of a layer (thickness, or coating on a half-space) at each wave number."""
+    heat, grid = given.scene.heat, level.grid
+    flux = 0.1 * heat.speed * level.solution.pressure
+    ring, start = 2**18, 2**17
+    line = np.zeros(ring)
+    line[start : start + grid.count] = flux
+    wave = 2.0 * np.pi * np.fft.rfftfreq(ring, grid.pitch)
+    wave[0] = wave[1]
+
+    def conduction(material):
+        root = np.sqrt(wave**2 + 1j * wave * heat.velocities[0] / material.diffusivity)
+        return material.conductivity * root, root
+
+    below, decay = conduction(heat.body)
+    resistance = 1.0 / below
+    if given.scene.thickness is not None:
+        across = np.tanh(decay * given.scene.thickness)
+        resistance = across / below if held else 1.0 / (below * across)
+    if given.scene.coating is not None:
+        above, decay = conduction(heat.coating)
+        across = np.tanh(decay * given.scene.coating.thickness)
+        ratio = above * resistance
+        resistance = (ratio + across) / (1.0 + ratio * across) / above
+    resistance[0] = 0.0
+    rise = np.fft.irfft(np.fft.rfft(line) * resistance, ring)
+    upstream = rise[start + 3 * grid.count]  # where there is no rise on an endless line
+    return rise[start : start + grid.count] - upstream
+
+
+def test_equal_bodies_that_roll_and_slide_share_nearly_evenly():
+    given = made(slide_to_roll=0.01)
+    found = half_space_heat(given, level_of(given))
+    numbers = peclet_numbers(given)
+    exact = np.sqrt(numbers["body"]) / sum(np.sqrt(each) for each in numbers.values())
+    assert found.fraction == pytest.approx(exact, rel=1e-3)
+    assert found.figures["flash_temperature"] == found.body.max()
+
+
+def test_reversed_roles_mirror():
+    one, other = made(slide_to_roll=2.0), made(slide_to_roll=-2.0)
+    first, second = (half_space_heat(each, level_of(each)) for each in (one, other))
+    assert first.body == pytest.approx(second.roller[::-1], rel=1e-6)
+    assert first.fraction == pytest.approx(1.0 - second.fraction)
+
+
+@pytest.mark.parametrize(
+    ("body", "coating", "base"),
+    [
+        ({}, None, "held"),
+        ({"thickness": 130e-6}, None, "held"),
+        ({"thickness": 60e-6}, None, "insulated"),
+        ({}, SOFT, "held"),
+        ({"thickness": 200e-6}, SOFT, "held"),
+    ],
+)
+def test_finite_bodies_against_transforms(body, coating, base):
+    """With a roller that takes no heat, the body's surface has all of it."""
+    own = dict(INSULATOR)
+    if coating:
+        own |= {f"coating_{name}": value for name, value in LAYER.items()}
+    if base == "insulated":
+        own["base"] = base
+    given = made(body, coating, **own, slide_to_roll=2.0)
+    level = level_of(given)
+    found = finite_element_heat(given, level)
+    assert found.fraction == pytest.approx(1.0, abs=1e-4)
+    exact = through_layers(given, level, base == "held")
+    inside = np.flatnonzero(found.heat)[
+        2:-2
+    ]  # next to the ends of contact the flux is not that of the hats
+    assert found.body[inside] == pytest.approx(exact[inside], abs=2e-3 * exact.max())
+    assert bool(what_it_contains(given)) == bool(body or coating)
+
+
+def test_a_square_at_rest_is_a_half_space_with_its_reach():
+    given = made(slide_to_roll=-2.0, reach=1e-3, **INSULATOR)
+    level = level_of(given)
+    finite, half_space = finite_element_heat(given, level), half_space_heat(given, level)
+    largest = half_space.figures["flash_temperature"]
+    assert finite.figures["flash_temperature"] == pytest.approx(largest, rel=1e-3)
+    assert finite.body[[0, -1]] == pytest.approx(half_space.body[[0, -1]], rel=3e-3)
+    nearer = half_space_heat(made(slide_to_roll=-2.0, reach=9.9e-4, **INSULATOR), level)
+    assert nearer.figures["flash_temperature"] < (1.0 - 2e-3) * largest  # what it could tell
+
+
+def test_largest_temperature_of_a_band():
+    """A band of uniform pressure: Jaeger's, 0.5 % by finite elements."""
+    from analytic.heat.moving_source import band_maximum
+
+    given = made(slide_to_roll=2.0, **INSULATOR)
+    level = level_of(given)
+    half = 100e-6
+    grid = HatGrid.within(-1.3 * half, 1.3 * half, half / 80)
+    pressure = np.where(np.abs(grid.x) < half * (1 + 1e-9), 1e9, 0.0)
+    solution = replace(level.solution, pressure=pressure)
+    assert isinstance(solution, ContactSolution)
+    level = replace(level, grid=grid, solution=solution)
+    material, speed = given.scene.heat.body, given.scene.heat.speed
+    heat = 0.1 * speed * 1e9
+    for contact in (half_space_heat(given, level), finite_element_heat(given, level)):
+        peclet = speed * half / (2.0 * material.diffusivity)
+        exact = band_maximum(peclet)[0] * heat * half / material.conductivity
+        # the flux falls to zero over one more pitch on either side
+        assert contact.figures["flash_temperature"] == pytest.approx(exact, rel=5e-3)
