@@ -11,6 +11,7 @@ from comparisons.report.figures.answers import answer_pictures
 from comparisons.report.figures.convergence import convergence_picture
 from comparisons.report.figures.cost import cost_picture
 from comparisons.report.figures.fields import field_pictures, near_surface_pictures
+from comparisons.report.figures.heat import heat_pictures
 from comparisons.report.figures.mesh import mesh_pictures
 from comparisons.report.figures.model_error import model_error_picture
 from comparisons.report.figures.pressures import close_up_picture, pressure_picture
@@ -26,6 +27,7 @@ from comparisons.report.tables.answers import answer_facts, answer_table, measur
 from comparisons.report.tables.bulge import bulge_table
 from comparisons.report.tables.comparison import comparison_rows, coupling_table, figure_table
 from comparisons.report.tables.convergence import WORDS, judged_table, validation_table
+from comparisons.report.tables.heat import heat_facts, heat_table
 from comparisons.report.tables.model_error import effects_table, model_error_rows
 from comparisons.report.tables.problem import problem_sheet
 from comparisons.report.tables.quiescent_zone import zone_table
@@ -62,6 +64,7 @@ PICTURES: dict[str, Callable[[Outcome], object]] = {
     "cost": cost_picture,
     "answers": answer_pictures,
     "statistics": statistics_pictures,
+    "heat": heat_pictures,
 }
 
 
@@ -90,6 +93,8 @@ def render(outcome: Outcome) -> str:
         coupling=coupling_table(outcome),
         scatter=scatter_table(outcome),
         statistics=statistics_tables(outcome),
+        heat=heat_table(outcome),
+        heat_facts=outcome.heat and heat_facts(outcome),
         model_errors=[r for r in errors if is_shown(outcome, r.quantity)],
         effects=effects_table(outcome),
         flow=flow_table(outcome),
