@@ -188,7 +188,7 @@ def stated_for(path: Path, value: Value | list, recorded: dict) -> Stated:
         case ("bulge", "by_friction", int(entry), "height" | "rise" | "half_plane", *_):
             own = _number(recorded["bulge"]["by_friction"][entry]["uncertainty"])
             return Stated(own, "itself", abs(value) or 1.0)
-        case ("quiescent_zone" | "bulge", *_):
+        case ("quiescent_zone" | "bulge" | "heat" | "statistics", *_):
             return _largest(recorded, abs(value) or 1.0)
         case ("groups", "peak_pressure_over_hardness"):
             return _largest(recorded, abs(value) or 1.0, "peak_pressure")

@@ -114,6 +114,16 @@ class TestFigures:
             assert found.allowed == 3e-9
         assert stated_for(("bulge", "by_friction", 0, "at"), 1e-4, recorded).allowed > 0.0
 
+    def test_what_follows_from_the_pressures_moves_with_them(self, figures):
+        totals = [
+            each["total"]
+            for model in figures["models"].values()
+            for entry in model
+            for each in entry["uncertainty"].values()
+        ]
+        for path in (("heat", "peclet", "body"), ("statistics", "theory", 0)):
+            assert 0.0 < stated_for(path, 3.0, figures).allowed <= 3.0 * max(totals)
+
     def test_a_difference_by_its_own_uncertainty(self, figures):
         row = figures["comparison"]["tau1_max"][0]
         path = ("comparison", "tau1_max", 0, "difference")
