@@ -252,4 +252,5 @@ def test_each_cell_of_x_has_its_own_maxima():
     assert cells[0].argmax() == 2 and cells[0, 1] < 0.5 * cells[0, 2] == 0.5 * found.tau1.value
     assert cells[0, 3] == 0.0 and np.isnan(cells[1:, 3]).all()  # beyond the window
     alone = stress_maxima(nodes, loads, 0.1, field, 0.3)
-    assert alone.tau1 == found.tau1 and alone.cells["tau1"].shape == (3, 1)
+    best, top = ((tau1.value, tau1.x, tau1.z) for tau1 in (alone.tau1, found.tau1))
+    assert best == pytest.approx(top, rel=1e-9) and alone.cells["tau1"].shape == (3, 1)
