@@ -347,15 +347,6 @@ def test_ordinary_user_with_sudo_has_the_missing_packages_installed(checkout):
     ]
 
 
-@pytest.mark.parametrize("may", [True, False])
-def test_the_faster_blas_is_installed_where_that_is_allowed(checkout, may):
-    user, sudo = ordinary_user(checkout), {"SUDO_WORKS": "yes"} if may else {}
-    done = checkout.call("a", before=user, MISSING="libopenblas0-serial", **sudo)
-    assert (done.returncode, done.stdout) == (0, "<a>")
-    install = "apt-get install --yes --no-install-recommends libopenblas0-serial"
-    assert checkout.calls("apt-get") == (["apt-get update", install] if may else [])
-
-
 def test_apt_get_is_tried_again_while_another_one_runs(checkout):
     nap = checkout.base / "tools" / "sleep"
     nap.write_text('#!/bin/bash\necho "sleep $*" >>"$CALLS"\n')
