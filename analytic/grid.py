@@ -55,9 +55,7 @@ class HatGrid:
 
 
 def hat_integrals(
-    nodes: np.ndarray,
-    function: Callable[[np.ndarray], np.ndarray],
-    knots: np.ndarray | None = None,
+    nodes: np.ndarray, function: Callable[[np.ndarray], np.ndarray], knots: np.ndarray | None = None
 ) -> np.ndarray:
     """Integrals of phi_i f dx (n,) over hats with nodes and outer feet (n + 2,) [m] of any spacing.
     Exact for polynomials f of degree 6 between `knots`."""
@@ -94,10 +92,7 @@ def roller_gap(
 
 
 def _roller_gap(
-    radius: float,
-    height: Callable[[np.ndarray], np.ndarray] | None,
-    shape: str,
-    x: np.ndarray,
+    radius: float, height: Callable[[np.ndarray], np.ndarray] | None, shape: str, x: np.ndarray
 ) -> np.ndarray:
     sagitta = x**2 / (2.0 * radius)
     if shape == "circle":

@@ -40,11 +40,7 @@ def stress_at(
 
 
 def friction_stress_at(
-    x_nodes: np.ndarray,
-    pressure: np.ndarray,
-    x: ArrayLike,
-    z: ArrayLike,
-    element: Element = "hat",
+    x_nodes: np.ndarray, pressure: np.ndarray, x: ArrayLike, z: ArrayLike, element: Element = "hat"
 ) -> FrictionStress:
     """`stress_at` under q = friction * p, for every friction at once."""
     pitch = uniform_pitch(x_nodes, pressure)

@@ -15,13 +15,7 @@ import numpy as np
 from scipy.interpolate import PPoly
 
 from analytic.profile import Profile
-from analytic.surface.filters import (
-    LONGEST_CUTOFF,
-    REACH,
-    SHORTEST_CUTOFF,
-    check_cutoff,
-    filtered,
-)
+from analytic.surface.filters import LONGEST_CUTOFF, REACH, SHORTEST_CUTOFF, check_cutoff, filtered
 from analytic.surface.roughness import crossings, figures_of, stretch_of, turning_points
 
 SECTIONS = 5

@@ -80,7 +80,7 @@ def attempt(name: str, program: str, patience: float = PATIENCE) -> Finding:
     try:
         done = subprocess.run(
             command, capture_output=True, text=True, errors="replace", timeout=patience,
-            stdin=subprocess.DEVNULL, env=os.environ | ENVIRONMENT,
+            stdin=subprocess.DEVNULL, env=os.environ | ENVIRONMENT
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         return Finding(name, False, f"does not answer within {patience:g} s")

@@ -22,7 +22,7 @@ from comparisons.common.mpi import from_first, is_first
 
 # What a damaged file raises, by which bit of it is wrong; of an unknown compression, RuntimeError.
 DAMAGED = (
-    OSError, ValueError, KeyError, TypeError, EOFError, RuntimeError, BadZipFile, zlib.error,
+    OSError, ValueError, KeyError, TypeError, EOFError, RuntimeError, BadZipFile, zlib.error
 )  # fmt: skip
 
 

@@ -10,11 +10,7 @@ from analytic.contact.problem import ContactError
 from comparisons.answers.answer import Answer
 from comparisons.assessment.bulge import bulges
 from comparisons.assessment.comparison import compared, pair_histories
-from comparisons.assessment.effects.error_budget import (
-    ErrorBudget,
-    announce_effects,
-    error_budget,
-)
+from comparisons.assessment.effects.error_budget import ErrorBudget, announce_effects, error_budget
 from comparisons.assessment.normal_tangential_coupling import Coupling, couplings
 from comparisons.assessment.quiescent_zone import quiescent_zones
 from comparisons.assessment.refinement import refined

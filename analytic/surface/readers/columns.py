@@ -4,12 +4,7 @@ import numpy as np
 
 from analytic.numerics import check_positive
 from analytic.profile import MAX_SAMPLES
-from analytic.surface.readers.dropouts import (
-    MIN_SAMPLES,
-    MeasuredProfile,
-    known_part,
-    without_gaps,
-)
+from analytic.surface.readers.dropouts import MIN_SAMPLES, MeasuredProfile, known_part, without_gaps
 from analytic.surface.readers.source import ProfileError, shown
 from analytic.surface.readers.text import DECIMAL_COMMAS, ProfileTable
 

@@ -31,12 +31,7 @@ from pathlib import Path
 
 import numpy as np
 
-from analytic.surface.readers.source import (
-    NotRowsError,
-    ProfileError,
-    read_lines,
-    shown,
-)
+from analytic.surface.readers.source import NotRowsError, ProfileError, read_lines, shown
 
 NUMBER = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)([eEdD][+-]?\d+)?", re.ASCII)
 ONE_COMMA = re.compile(r"[+-]?\d*,?\d*([eEdD][+-]?\d+)?", re.ASCII)

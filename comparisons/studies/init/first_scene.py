@@ -70,7 +70,7 @@ STEEL = {"youngs_modulus": '"210 GPa"', "poissons_ratio": "0.3"}
 # Of the roller, largest first: the contact must stay on the trace.
 RADII = (
     "10 mm", "5 mm", "2 mm", "1 mm", "500 um", "200 um", "100 um", "50 um", "20 um", "10 um",
-    "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm",
+    "5 um", "2 um", "1 um", "500 nm", "200 nm", "100 nm", "50 nm", "20 nm", "10 nm"
 )  # fmt: skip
 PEAK = '"1 GPa"'
 
