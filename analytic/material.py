@@ -82,9 +82,7 @@ class ThermalMaterial:
 
 def combined_modulus(first: Material | None, second: Material | None) -> float:
     """E* [Pa] of two bodies, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2 (Johnson 1985, eq. 4.18).
-
-    `None` is a rigid body. Raises ValueError if both are rigid.
-    """
+    `None` is a rigid body. Raises ValueError if both are rigid."""
     compliance = sum(1.0 / m.plane_strain_modulus for m in (first, second) if m is not None)
     if compliance == 0.0:
         raise ValueError("two rigid bodies have no elastic contact")
@@ -93,11 +91,9 @@ def combined_modulus(first: Material | None, second: Material | None) -> float:
 
 def dundurs_constants(body: Material, roller: Material | None) -> tuple[float, float]:
     """Dundurs' (alpha, beta) in plane strain, `roller` as the first body (Barber 2018, ch. 4).
-
     alpha = (1/E'_body - 1/E'_roller) / (1/E'_body + 1/E'_roller); beta weighs the two (1-2nu)/G in
     the same way. It vanishes for equal materials, whose surfaces a tangential traction moves by the
-    same amount. A rigid roller gives alpha = 1 and beta = (1-2nu)/(2(1-nu)) of the body.
-    """
+    same amount. A rigid roller gives alpha = 1 and beta = (1-2nu)/(2(1-nu)) of the body."""
 
     def compliances(material: Material | None) -> tuple[float, float]:
         if material is None:

@@ -147,11 +147,9 @@ def _check(profile: Profile, constraints: Constraints, positions: np.ndarray, sw
 
 class _Surface:
     """The profile at work: its samples `x` with heights that passes lower.
-
     Hats are centred on whole pitches from the trace's first sample. A pass solves on those that its
     contact can reach, the same number at every position: all passes share an operator, and each
-    starts from the pressures of the one before at its position.
-    """
+    starts from the pressures of the one before at its position."""
 
     def __init__(
         self,

@@ -120,8 +120,7 @@ def _free_beside(
 
 def exchange(problem: "EquilibriumProblem", start: np.ndarray, settled: float = 0.0) -> np.ndarray:
     """Pressures (n,) [Pa] by block exchanges from `start`, and where these get stuck by the primal
-    method; with settled > 0 as `exchange_blocks` leaves them.
-    """
+    method; with settled > 0 as `exchange_blocks` leaves them."""
     pressure, active, ended = exchange_blocks(problem, start, settled)
     return pressure if ended or settled else exchange_feasibly(problem, pressure, active)
 

@@ -32,10 +32,8 @@ def contact_ends(
 ) -> tuple[np.ndarray, np.ndarray]:
     """First and last touching node (k, 2) of each patch, places in p, and the ends of contact
     (k, 2) [m] beyond them.
-
     Gaps of c d^(3/2) (1 + k d) averaged over the hats agree with those of three open nodes; half
-    way to the first open node where there is no such end, or where too few nodes are open.
-    """
+    way to the first open node where there is no such end, or where too few nodes are open."""
     first, after = runs_of(pressure > 0.0)
     open_before = first - np.concatenate([[0], after[:-1]])
     open_beyond = np.concatenate([first[1:], [len(pressure)]]) - after

@@ -38,9 +38,7 @@ class FlattenedCylinder:
 
     def pressure(self, x: ArrayLike) -> np.ndarray:
         """H on the flowed stretch, from there E*/(2R) {b E(t|m) - L/b F(t|m)}, zero from b on [Pa].
-
-        m = 1 - k^2 and sin^2 t = (b^2 - x^2)/(b^2 - c^2).
-        """
+        m = 1 - k^2 and sin^2 t = (b^2 - x^2)/(b^2 - c^2)."""
         b, c = self.contact, self.flowed
         x = np.abs(np.asarray(x, dtype=float))
         m, share = 1.0 - (c / b) ** 2, (c / b) ** 2
@@ -55,10 +53,8 @@ def flattened_cylinder(
     load_per_length: float, radius: float, combined_modulus: float, hardness: float
 ) -> FlattenedCylinder:
     """The contact under P [N/m] with R [m], E* [Pa] and H [Pa].
-
     Raises ValueError unless H lies below Hertz' peak pressure p0, so that some material flows; then
-    (p0/H)^2 = (4/pi^2) K {2E - (1 - k^2) K} has one root k.
-    """
+    (p0/H)^2 = (4/pi^2) K {2E - (1 - k^2) K} has one root k."""
     peak = hertz_from_load(load_per_length, radius, combined_modulus).peak_pressure
     if not 0.0 < hardness < peak:
         raise ValueError(

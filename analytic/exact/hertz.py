@@ -96,10 +96,8 @@ def hertz_stress(
     hertz: HertzContact, x: ArrayLike, z: ArrayLike, friction: float = 0.0
 ) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, under p and q = friction p in +x.
-
     On the surface sz = -p and txz = -friction p; at the very edge x = -a, a the limit from the
-    surface is taken, where all but the sx of the traction vanish. Raises ValueError for z < 0.
-    """
+    surface is taken, where all but the sx of the traction vanish. Raises ValueError for z < 0."""
     x, z = points_below(x, z)
     a, side = hertz.half_width, np.copysign(1.0, x)
     x, depth = np.abs(x), z / a
@@ -128,11 +126,9 @@ def hertz_stress(
 
 def hertz_extremes(hertz: HertzContact, friction: float = 0.0) -> HertzExtremes:
     """Largest tau1 and the extremes of txz over the half-plane, positions to 1e-10 a.
-
     On the surface tau1 = |mu| p0 all over the contact and txz is -mu p0 at its centre; where
     that exceeds every value below, the centre is returned. Raises RuntimeError if the search
-    for the point of zero gradient fails.
-    """
+    for the point of zero gradient fails."""
     p0, a = hertz.peak_pressure, hertz.half_width
 
     def extremum(value: _OfShear, slope: _OfSlope, sign: float = 1.0) -> Extremum:
@@ -172,9 +168,7 @@ def _shear(
     x: ArrayLike, z: ArrayLike, friction: float
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(sz - sx)/2 + i txz and its derivatives in x and z; lengths in a, stresses in p0.
-
-    = mu I + (i mu - 1) z I', with I' = -I/s and I'' = 1/s^3.
-    """
+    = mu I + (i mu - 1) z I', with I' = -I/s and I'' = 1/s^3."""
     s = np.sqrt(_complex(np.subtract(x, 1.0), z)) * np.sqrt(_complex(np.add(x, 1.0), z))
     potential = 1.0 / (_complex(x, z) + s)
     first, second, factor = -potential / s, s**-3.0, 1j * friction - 1.0

@@ -293,9 +293,7 @@ def random_patches(
     seed: int, count: int, half_width: float, pressure: float
 ) -> tuple[PressurePatch, ...]:
     """`count` patches about x = 0 within `half_width` [m], peaks up to about `pressure` [Pa].
-
-    Half-widths, distances, peaks and q = (s - u)^2 + v^2 are drawn from the seed.
-    """
+    Half-widths, distances, peaks and q = (s - u)^2 + v^2 are drawn from the seed."""
     draw = np.random.default_rng(seed)
     widths = np.exp(draw.uniform(-0.6, 0.6, count))
     apart = draw.uniform(0.3, 1.5, count - 1) * (widths[1:] + widths[:-1])

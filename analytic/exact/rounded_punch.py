@@ -100,9 +100,7 @@ def rounded_punch_from_half_width(
     half_width: float, half_flat: float, corner_radius: float, combined_modulus: float
 ) -> RoundedPunch:
     """Contact of half-width a [m] > b >= 0 [m], with R [m] and E* [Pa].
-
-    Raises ValueError unless a, R and E* are positive and 0 <= b < a.
-    """
+    Raises ValueError unless a, R and E* are positive and 0 <= b < a."""
     check_positive(
         half_width=half_width, corner_radius=corner_radius, combined_modulus=combined_modulus
     )

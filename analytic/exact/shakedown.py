@@ -33,10 +33,8 @@ HALVINGS = 60  # of the bracket of r
 @lru_cache(maxsize=64)
 def shakedown_limit(friction: float) -> tuple[float, float]:
     """Largest p0/k at which the body shakes down, and the depth z/a that decides it.
-
     friction >= 0: the tangential traction is friction times the pressure. Good to 1e-5. Raises
-    ValueError for a friction that is negative or not finite.
-    """
+    ValueError for a friction that is negative or not finite."""
     if not (np.isfinite(friction) and friction >= 0.0):
         raise ValueError(f"friction must be finite and not negative, not {friction:g}")
     low, high = 0.0, 2.0

@@ -38,8 +38,7 @@ _SWING = 12.0  # phase of a cosine on one panel [rad]
 @dataclass(frozen=True)
 class _Response:
     """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the half-plane of
-    the `base`.
-    """
+    the `base`."""
 
     share: Callable[[np.ndarray], np.ndarray]
     surface: float
@@ -129,9 +128,7 @@ def finest_scale(layer: Contrast) -> float:
 
 def wave_panels(highest: float, reach: float, finest: float) -> tuple[np.ndarray, np.ndarray]:
     """Gauss points and weights on 0 <= w <= highest, dense enough for cos(reach w / 2).
-
-    The panels halve towards w = 0 until one reaches from there to no more than `finest`.
-    """
+    The panels halve towards w = 0 until one reaches from there to no more than `finest`."""
     halvings = np.ceil(np.log2(highest / finest))
     edges = np.append(0.0, highest * 0.5 ** np.arange(halvings, -1.0, -1.0))
     pieces = np.maximum(1, np.ceil(0.5 * reach * np.diff(edges) / _SWING)).astype(int)
@@ -145,9 +142,7 @@ def wave_panels(highest: float, reach: float, finest: float) -> tuple[np.ndarray
 
 def _mean_of_depth(distance: np.ndarray, depth: float, odd: bool) -> np.ndarray:
     """int e^-ks cos kx dk/k, that is -ln sqrt(d^2 + depth^2), or with the sine atan(d/depth).
-
-    Averaged over two hats; all in pitches, depth >= 3.
-    """
+    Averaged over two hats; all in pitches, depth >= 3."""
     points, weights = np.polynomial.legendre.leggauss(12)
     place = np.concatenate([0.5 * (1.0 + points), 1.5 + 0.5 * points])
     spline = np.where(place < 1.0, 4.0 - 6.0 * place**2 + 3.0 * place**3, (2.0 - place) ** 3) / 6.0

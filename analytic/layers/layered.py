@@ -195,9 +195,7 @@ class LayeredBody:
 
 def normal_compliance(body: LayeredBody, wavenumber: ArrayLike) -> np.ndarray:
     """uz of the surface under waves p cos kx over p [m/Pa], of k [1/m], any shape, k >= 0.
-
-    At k = 0 it is the limit, infinite where the body gives way as a whole, on a half-plane.
-    """
+    At k = 0 it is the limit, infinite where the body gives way as a whole, on a half-plane."""
     w = np.maximum(np.asarray(wavenumber, dtype=float) * body.thickness, _LONGEST)
     with np.errstate(over="ignore"):
         return body.thickness / (2.0 * body.material.shear_modulus) * normal(body.contrast, w)

@@ -52,11 +52,9 @@ def strip_displacement(offset: ArrayLike) -> np.ndarray:
 
 def hat_galerkin(offset: ArrayLike) -> np.ndarray:
     """L_g at `offset` [pitches], any shape: the displacement of a hat weighed with another hat.
-
     Fourth difference of x^4 ln|x| / 24, less 25/12: the integral of ln against the cubic spline
     that two hats make. Whole offsets are accurate to 3e-15 relative; between them, below 3, the
-    absolute error stays below 1e-14.
-    """
+    absolute error stays below 1e-14."""
     x = np.abs(np.asarray(offset, dtype=float))
     value, near, far = np.empty_like(x), x < _JOIN, x >= _FAR
     if near.any():

@@ -97,20 +97,16 @@ class HalfPlane(Convolution):
 
     def on_base(self, compliance: float) -> "HalfPlane":
         """The same on a base that gives way by `compliance` c [m^2/N] times the load: C + c w w'.
-
-        That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST.
-        """
+        That is the datum L exp(pi E* c / 2), for c >= 0 and up to FURTHEST."""
         further = np.clip(0.5 * np.pi * self.modulus * compliance, 0.0, FURTHEST)
         datum = self.datum * float(np.exp(further))
         return HalfPlane(self.count, self.pitch, self.modulus, datum, self.element)
 
     def _symbol(self, cycles: np.ndarray) -> np.ndarray:
         """2 / (E* |k|) seen through the elements, with the nearest aliases [m^2/Pa].
-
         A hat's transform is sinc^2 and stands twice (pressure and average), a strip's is sinc. On
         a datum beyond the support the mean sinks further, c h^2 a node of the ring (`on_base`):
-        without it a search for pressures first moves off, and may end as rounding what is none.
-        """
+        without it a search for pressures first moves off, and may end as rounding what is none."""
         c = np.where(cycles == 0.0, 0.5 * cycles[1], cycles)  # the mean: any positive value
         sine = np.sin(np.pi * c) / np.pi
         own, lower, upper = 1.0 / c, 1.0 / (1.0 - c), 1.0 / (1.0 + c)

@@ -38,9 +38,7 @@ class Summits:
 
 def tail_integral(n: float, h: ArrayLike) -> np.ndarray:
     """F_n(h) for n > -1, of any shape of h, to 1e-14 relative wherever phi(h) is a double.
-
-    With t - h = v^2 the integrand is smooth for half and whole n. Nothing cancels.
-    """
+    With t - h = v^2 the integrand is smooth for half and whole n. Nothing cancels."""
     h = np.asarray(h, dtype=float)[..., None]
     start = np.sqrt(np.maximum(0.0, -h - TAIL))
     half = 0.5 * (np.sqrt(np.sqrt(TAIL**2 + np.maximum(h, 0.0) ** 2) - h) - start)
@@ -58,8 +56,6 @@ def nominally_flat(summits: Summits, modulus: float, h: ArrayLike) -> tuple[np.n
 
 def persson_fraction(pressure: ArrayLike, modulus: float, rms_slope: float) -> np.ndarray:
     """f of a plane-strain surface at mean pressures [Pa], by Persson's theory.
-
     erf(p / sqrt(2 V)), V = (E* s')^2 / 4 the variance of the pressure that closes all gaps, s' the
-    slope of ridges across the plane. An isotropic surface with profiles of slope s' has 2 V.
-    """
+    slope of ridges across the plane. An isotropic surface with profiles of slope s' has 2 V."""
     return erf(np.sqrt(2.0) * np.asarray(pressure) / (modulus * rms_slope))

@@ -92,10 +92,8 @@ def _weighted_fit(basis: np.ndarray, target: np.ndarray, weight: np.ndarray) -> 
 
 def _arc(u: np.ndarray, s0: float, k: float) -> tuple[np.ndarray, np.ndarray]:
     """Height (n,) over half length of a circle through (0, 0), and its derivatives (n, 2) by s0, k.
-
     Along a circle s = s0 - k u and height' = s / c with c = sqrt(1 - s^2), so that the height is
-    (c - c0) / k. Written as u (s0 + s) / (c0 + c) it subtracts nothing and holds at k = 0 too.
-    """
+    (c - c0) / k. Written as u (s0 + s) / (c0 + c) it subtracts nothing and holds at k = 0 too."""
     s = s0 - k * u
     c, c0 = np.sqrt((1.0 - s) * (1.0 + s)), sqrt((1.0 - s0) * (1.0 + s0))
     above, below = s0 + s, c0 + c
@@ -106,11 +104,9 @@ def _arc(u: np.ndarray, s0: float, k: float) -> tuple[np.ndarray, np.ndarray]:
 
 def _fit_arc(u: np.ndarray, height: np.ndarray, weight: np.ndarray) -> tuple[float, float, float]:
     """Offset, s0 and k of the circle nearest to `height` (over half length), by Gauss-Newton.
-
     From the parabola on, a step that leaves the circle or does not improve the fit is shortened;
     once the steps are close to the end, where rounding hides their gain, they are taken whole.
-    Raises ValueError if there is no way on while the step wanted is still large.
-    """
+    Raises ValueError if there is no way on while the step wanted is still large."""
     ones = np.ones_like(u)
     offset, slope, bend = _weighted_fit(np.stack((ones, u, -0.5 * u**2), axis=1), height, weight)
     s0 = slope / np.hypot(1.0, slope)

@@ -166,10 +166,8 @@ def ground_texture(
 
 def same_spectrum(profile: Profile, seed: int) -> Profile:
     """A Gaussian profile with the power spectrum of another, as many samples and its rms height.
-
     The other's waves under a Hann window, with new phases and Rayleigh distributed amplitudes. It
-    is one whole period about x = 0, the last sample repeats the first.
-    """
+    is one whole period about x = 0, the last sample repeats the first."""
     count = len(profile.x) - 1
     x = np.linspace(profile.x[0], profile.x[-1], count + 1)
     height = profile.spline()(x[:-1])

@@ -141,10 +141,8 @@ def _cannot(out: Path, why: str) -> InputError:
 
 def _check_folder(out: Path, place: Path) -> None:
     """Raise InputError, which names `out`, unless `place` is a folder to write in, or is gone.
-
     Permission bits are not enough (root, a read-only file system), so a folder is made there and
-    removed. Another run may remove `place` meanwhile, or remove it and make it again.
-    """
+    removed. Another run may remove `place` meanwhile, or remove it and make it again."""
     for attempt in range(ATTEMPTS):
         if not os.path.lexists(place):
             return

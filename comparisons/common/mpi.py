@@ -55,10 +55,8 @@ def is_first() -> bool:
 
 def from_first(make: Callable[[], Result]) -> Result:
     """What `make` returns in the first process, in every process; it runs in no other.
-
     All must call it. An exception that `make` raises is raised in all. Calls of `from_first` inside
-    `make` run in the first alone.
-    """
+    `make` run in the first alone."""
     if not is_several() or is_alone():
         return make()
     from mpi4py import MPI
@@ -79,11 +77,10 @@ def from_first(make: Callable[[], Result]) -> Result:
 
 def as_one(work: Callable[[], int], ends: Container[int]) -> int:
     """Carry out `work`, which returns an exit status, in every process, as if they were one.
-
     Only the first prints, and another one that alone has an error. `ends` are the statuses with
     which all end by themselves; with any other status a process ends the others too, which may be
-    waiting for it. mpirun stops its processes by SIGTERM: that interrupts the first as Ctrl-C does.
-    """
+    waiting for it. mpirun stops its processes by SIGTERM: that interrupts the first as Ctrl-C
+    does."""
     if not is_several():
         return work()
     errors = io.StringIO()

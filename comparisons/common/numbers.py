@@ -85,10 +85,8 @@ def percent(
     value: float | None, signed: bool = False, digits: int = 2, uncertainty: float | None = None
 ) -> str:
     """A ratio in percent with `digits` significant digits; below 1e-6 only a bound.
-
     Digits that an `uncertainty` (a ratio too) does not support are left out: it ends one beyond
-    the uncertainty's leading digit. What rounds to nothing there is zero, without a sign.
-    """
+    the uncertainty's leading digit. What rounds to nothing there is zero, without a sign."""
     if value is None or not math.isfinite(value):
         return UNKNOWN
     if value == 0.0:

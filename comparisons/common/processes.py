@@ -77,9 +77,8 @@ class Worker:
 def fresh_process() -> Iterator[Call]:
     """A function that calls others in one process, which starts at the first call; the end of the
     block kills it.
-
-    Arguments and answers go through pickle. A call raises what the work raises, and ProcessEnded.
-    """
+    Arguments and answers go through pickle. A call raises what the work raises, and
+    ProcessEnded."""
     worker, started = Worker(_answer), []
 
     def call(work: Callable[..., Result], *given: object) -> Result:

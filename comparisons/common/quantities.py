@@ -79,9 +79,7 @@ def label(quantity: str) -> str:
 
 def models_named(given: str | Sequence[str], option: str) -> tuple[str, ...]:
     """The models that a text names, or several texts; names are separated by commas, "-" is "_".
-
-    Raises InputError, with the name of the option, for an unknown one and for none.
-    """
+    Raises InputError, with the name of the option, for an unknown one and for none."""
     named = given.split(",") if isinstance(given, str) else given
     if not isinstance(named, list | tuple) or not all(isinstance(name, str) for name in named):
         raise InputError(f"{option}: is {named!r}; allowed are {', '.join(HYPHENATED.values())}")

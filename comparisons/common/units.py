@@ -73,10 +73,8 @@ _LONGEST_UNIT = 60
 
 def to_si(given: object, dimension: Dimension) -> float:
     """The value of `given` in the SI unit of `dimension`.
-
     `given` is an int or float, already in SI, or a string "number unit". Raises UnitError for
-    anything else, an unknown unit, another dimension, or a value that is not finite.
-    """
+    anything else, an unknown unit, another dimension, or a value that is not finite."""
     if isinstance(given, bool) or not isinstance(given, int | float | str):
         raise UnitError(f"is {describe(given)}")
     if not isinstance(given, str):

@@ -92,8 +92,7 @@ class MeshField:
 @dataclass(frozen=True)
 class RecoverableField:
     """What a `MeshField` of linear bodies under vertical pressures is made of. Of all levels of a
-    model the last one's field alone is written: stresses are recovered when they are asked for.
-    """
+    model the last one's field alone is written: stresses are recovered when they are asked for."""
 
     mesh: BlockMesh
     material: Material

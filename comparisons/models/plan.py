@@ -41,9 +41,7 @@ class Plan:
 
 def make_plan(problem: Problem, models: tuple[str, ...]) -> Plan:
     """The plan that computes what the scene asks for and nothing else.
-
-    Raises SceneError for a sliding speed that no temperature can be computed for.
-    """
+    Raises SceneError for a sliding speed that no temperature can be computed for."""
     scene = problem.scene
     if scene.heat is not None:
         check_heat(problem)

@@ -142,12 +142,9 @@ def ends_of(problem: Problem, grid: HatGrid, solution: ContactSolution) -> EndSt
 
 def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     """Set up the problem of a scene; `load` [N/m] where the scene prescribes the approach.
-
     The surface is run in first, where the scene asks for it and it was not done yet.
-
     Raises SceneError where the contact would reach beyond the trace, the load exceeds what the
-    surface can carry at its hardness, or the pressure elements are too coarse or too many.
-    """
+    surface can carry at its hardness, or the pressure elements are too coarse or too many."""
     scene = run_in_scene(scene)
     modulus = combined_modulus(scene.roller, scene.body)
     hertz = _smooth_contact(scene, modulus, load)

@@ -37,11 +37,9 @@ class Window:
 
 def window_of(problem: Problem) -> Window:
     """The points of the scene's [stress], graded towards the surface.
-
     The spacing in x is the pitch of the coarsest level times or over a power of two, next to the
     one asked for, so that the grid belongs to every level's own and no field is interpolated.
-    Raises SceneError for a window that reaches beyond the body's mesh or shows nothing.
-    """
+    Raises SceneError for a window that reaches beyond the body's mesh or shows nothing."""
     scene, wanted = problem.scene, problem.scene.stress
     half_width = problem.hertz.half_width
     half_range, depth = (e.metres(half_width) for e in (wanted.half_range, wanted.depth))

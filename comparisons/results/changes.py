@@ -223,9 +223,7 @@ def _of_model_error(entry: dict, place: Sequence[str], value: Value | list) -> S
 
 def _total(recorded: dict, model: str, entry: int, quantity: str) -> tuple[float, str]:
     """Total uncertainty of a quantity, else the largest there is, and whose it is.
-
-    With too few levels for a total its iteration's part counts: as many levels are repeated.
-    """
+    With too few levels for a total its iteration's part counts: as many levels are repeated."""
     entries = recorded["models"].get(model) or []
     stated = entries[entry].get("uncertainty") or {} if entry < len(entries) else {}
     chosen = [quantity] if quantity in stated else stated

@@ -55,18 +55,14 @@ Row = dict[str, str | float | None]
 
 def tidy_rows(folders: Iterable[Path]) -> list[Row]:
     """The rows of every run in or below the folders, each with all COLUMNS.
-
-    Raises InputError, one line, for a folder without runs and for a result that cannot be read.
-    """
+    Raises InputError, one line, for a folder without runs and for a result that cannot be read."""
     return [row for path in _results(folders) for row in _rows_in(path)]
 
 
 def as_csv(rows: Iterable[Row]) -> str:
     """The table as comma-separated values, with a header.
-
     Neither a terminal nor a spreadsheet obeys a text of it: control characters are written as
-    escapes, and an apostrophe stands before what would be a formula.
-    """
+    escapes, and an apostrophe stands before what would be a formula."""
     text = io.StringIO()
     writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
     writer.writeheader()

@@ -13,10 +13,8 @@ SCHEMA = 2  # of record.json; 1 had neither the trace as read nor the number of 
 
 def record_of(scene: ResolvedScene, runs: dict[str, ModelRun], hashes: dict[str, str]) -> dict:
     """record.json: everything that a repetition needs, the profile's samples included.
-
     Those of `profile` are as pressed, before any running-in; those of its `trace` as read or made.
-    A repetition starts from the trace and takes off form and waves, and runs in, itself.
-    """
+    A repetition starts from the trace and takes off form and waves, and runs in, itself."""
     profile = scene.as_measured
     return {
         "schema": SCHEMA,

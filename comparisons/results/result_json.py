@@ -201,10 +201,8 @@ def _stress(stress: StressResult | None) -> dict | None:
 
 def _peak_memory(problem: Problem, run: ModelRun) -> int:
     """Largest memory of the process [bytes] by the time the model was done.
-
     The half-plane's planned levels come first, so that theirs is its own; further levels share
-    the process with the finite elements.
-    """
+    the process with the finite elements."""
     last = len(problem.pitches) if run.name == "half_plane" else len(run.levels)
     return run.levels[min(last, len(run.levels)) - 1].peak_memory
 

@@ -33,10 +33,8 @@ def scene_titles() -> dict[str, str]:
 
 def find_scene(name_or_path: str | os.PathLike) -> Path:
     """The file of a scene, named by its path or by the name of one that comes with the project.
-
     A name wins over a file that is called the same; "./name" means the file. Raises SceneError
-    if there is neither, with the nearest name and the names there are.
-    """
+    if there is neither, with the nearest name and the names there are."""
     given = os.fspath(name_or_path)
     if not given:
         raise SceneError("the scene has no name; allowed is a scene's file or name")

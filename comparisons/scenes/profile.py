@@ -84,10 +84,8 @@ def sinusoid_length(
     table: ProfileSection, load: Load, radius: float, roller: Material | None, body: Material
 ) -> float:
     """Length [m] of a sinusoid that outlasts its contact under `load`.
-
     Crests touch where the roller is no higher than Hertz' compression and the waves make up
-    for: x^2 < a^2 + 4 R amplitude, a the Hertz half-width, R = `radius` [m].
-    """
+    for: x^2 < a^2 + 4 R amplitude, a the Hertz half-width, R = `radius` [m]."""
     if load.kind == "approach":
         half_width = sqrt(2.0 * radius * load.value)
     else:

@@ -58,11 +58,9 @@ def load_scene(name_or_path: str | os.PathLike, answers: Sequence[str] = ()) -> 
 
 def answers_named(given: Sequence[str], known: object) -> dict:
     """The tables [answers.NAME] of answers given as NAME=FILE.
-
     A FILE takes the place of those that the `known` tables have under its name; of several each
     is a resolution. A FILE.toml holds the table itself, with files from its own folder. Raises
-    InputError for what is neither.
-    """
+    InputError for what is neither."""
     found = dict(known) if isinstance(known, dict) else {}
     named: dict[str, list] = {}
     for text in given:
@@ -170,9 +168,7 @@ def with_tolerance(
     scene: ResolvedScene, tolerance: float, source: str = "tolerance"
 ) -> ResolvedScene:
     """The scene with one relative tolerance for all that it judges.
-
-    Raises InputError, which calls it by its `source`, unless it is above 0 and below 1.
-    """
+    Raises InputError, which calls it by its `source`, unless it is above 0 and below 1."""
     is_number = isinstance(tolerance, int | float) and not isinstance(tolerance, bool)
     if not (is_number and 0.0 < tolerance < 1.0):
         given = f"{tolerance:g}" if is_number else describe(tolerance)

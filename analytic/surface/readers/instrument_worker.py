@@ -24,11 +24,9 @@ TOO_LENIENT = ("hgt",)  # terrain: any file of twice a square number of bytes pa
 
 def main(path: str, target: str, wanted: str | None = None) -> dict:
     """Reads `path`, writes `heights` and, for an uneven scan, `x` to `target`, in file units.
-
     Heights are (rows, columns) of a map; the result is format, version, pitch, unit [m] and its
     name, and the names of channels; or absent, or problem. Of a spreadsheet it is the head above
-    the rows, whose numbers are in `target`.
-    """
+    the rows, whose numbers are in `target`."""
     warnings.simplefilter("ignore")
     # Without it SurfaceTopography does well; with it, this process would be one of an MPI run.
     sys.modules["mpi4py"] = None

@@ -58,9 +58,7 @@ def read_fields(
     path: Path, source: AnswerSource, problem: Problem, window: Window | None
 ) -> tuple[np.ndarray, np.ndarray, OutsideStress | None]:
     """x (n,) [m] and pressure (n,) [Pa] along the surface, and the stresses on the window.
-
-    Raises ValueError with what is wrong.
-    """
+    Raises ValueError with what is wrong."""
     frictions = problem.scene.friction
     friction = frictions[0] if source.friction is None else source.friction
     if friction not in frictions or (source.friction is None and len(frictions) > 1):

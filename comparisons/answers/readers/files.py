@@ -17,9 +17,7 @@ LONGEST = 200  # characters of what a library says
 
 def read_answers(problem: Problem, window: Window | None) -> dict[str, tuple[Answer, ...]]:
     """The scene's answers by name, each on its resolutions, coarse to fine.
-
-    Raises InputError for a file that cannot be read, or is none of the scene's kind.
-    """
+    Raises InputError for a file that cannot be read, or is none of the scene's kind."""
     return {each.name: _read(each, problem, window) for each in problem.scene.answers}
 
 

@@ -25,9 +25,7 @@ END_OF_FRD = b"9999"
 
 def read_mesh(path: Path, step: int | None) -> "UnstructuredGrid":
     """Mesh and arrays at a step in time, the last by default.
-
-    Raises ValueError with what is wrong.
-    """
+    Raises ValueError with what is wrong."""
     from vtkmodules.vtkCommonCore import vtkObject
 
     shown = vtkObject.GetGlobalWarningDisplay()

@@ -254,9 +254,7 @@ def _plain(value: object) -> object:
 
 def scene_error(error: ValidationError, where: str) -> SceneError:
     """The one line that stands for `error`; `where` names the scene.
-
-    A misspelt name usually leaves a needed field missing as well, so unknown names come first.
-    """
+    A misspelt name usually leaves a needed field missing as well, so unknown names come first."""
     problems = error.errors(include_url=False)
     unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
     return SceneError(f"{where}: {_line((unknown or problems)[0])}")

@@ -201,9 +201,7 @@ def _zone(view: LevelView, friction: float) -> ShearDip:
 
 def reach_against_smooth(level: float) -> Reading:
     """Depth of the top of the Hertz zone in the smooth contact, less that in this one [a].
-
-    The zone is what is joined with the largest deep tau1 at `level` smooth maxima, no friction.
-    """
+    The zone is what is joined with the largest deep tau1 at `level` smooth maxima, no friction."""
 
     def reading(view: LevelView) -> float:
         rough, smooth = (stress.tau1 for stress in (view.stress(0.0), view.smooth(0.0)))
@@ -275,9 +273,7 @@ def axis_error(view: LevelView) -> float:
 
 def error_below_sampling(view: LevelView) -> float:
     """Largest error of sx and sz on the axis, at depths less than one pressure element [p0].
-
-    The half-plane's by uniform strips, which the paper sums.
-    """
+    The half-plane's by uniform strips, which the paper sums."""
     if view.model == "half_plane":
         z, hertz = _below(view.level.grid.pitch), view.problem.hertz
         strips = stress_at(view.level.grid.x, view.level.solution.pressure, 0.0, 0.0, z, "strip")
@@ -288,10 +284,8 @@ def error_below_sampling(view: LevelView) -> float:
 
 def error_on_rough_surface(element: Element, largest: bool = False) -> Reading:
     """Error of sx and sz at depths less than a sampling interval of the trace, sliding [p0].
-
     The sum over elements that are one sampling interval wide, against the level's own finer
-    pressures joined linearly. The root mean square of all errors, or the largest.
-    """
+    pressures joined linearly. The root mean square of all errors, or the largest."""
 
     def reading(view: LevelView) -> float:
         grid, pressure, hertz = view.level.grid, view.level.solution.pressure, view.problem.hertz

@@ -13,10 +13,8 @@ BISECTIONS = 40  # of the range in which a level is sought: to 1e-12 of it
 
 def agreement_depth(z: np.ndarray, difference: np.ndarray, tolerance: float) -> float:
     """Depth, in the unit of z (m,), below which |difference| (m, k) stays within a tolerance.
-
     Between two depths the largest difference is taken as linear. 0 where the tolerance holds at
-    every depth; the last depth where it does not hold even there.
-    """
+    every depth; the last depth where it does not hold even there."""
     largest = np.max(np.abs(difference), axis=1)
     beyond = np.flatnonzero(largest > tolerance)
     if len(beyond) == 0:
@@ -36,10 +34,8 @@ def zone(field: np.ndarray, level: float, seed: tuple[int, int]) -> np.ndarray:
 
 def top_of_zone(z: np.ndarray, field: np.ndarray, level: float, seed: tuple[int, int]) -> float:
     """Least depth, in the unit of z (m,), of what is joined with `seed` at a level.
-
     Between the first row of the zone and the row above it the field is taken as linear. The last
-    depth where there is no zone.
-    """
+    depth where there is no zone."""
     inside = zone(field, level, seed)
     rows = np.flatnonzero(inside.any(axis=1))
     if len(rows) == 0:
