@@ -86,8 +86,7 @@ def roller_gap(
     shape  x^2 / 2R, or R - sqrt(R^2 - x^2), straight on beyond |x| = STEEPEST R
 
     The constant of the gap is arbitrary: the approach absorbs it. The result can be pickled where
-    `height` can.
-    """
+    `height` can."""
     return partial(_roller_gap, radius, height, shape)
 
 

@@ -2,8 +2,7 @@
 
 A rigid body is `None` wherever a `Material` is expected for the roller.
 Nomenclature: E Young's modulus [Pa], nu Poisson's ratio, E* combined modulus [Pa],
-alpha and beta Dundurs' constants.
-"""
+alpha and beta Dundurs' constants."""
 
 from dataclasses import dataclass
 

@@ -16,8 +16,7 @@ attract no pressure, but not where no hat flowed: right to second order in the p
 
 Between samples the profile is a spline, which rises a little beside a flattened crest: by 0.3 % of
 the largest lowering with hats a 20th of the shortest wave apart and 0.1 % at a 40th; where a wave
-has no more than 3.4 samples by 3 to 4 % with hats at the samples, 1 to 2 % at half the spacing.
-"""
+has no more than 3.4 samples by 3 to 4 % with hats at the samples, 1 to 2 % at half the spacing."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -104,8 +103,7 @@ def run_in(
     pitch        of the pressure hats [m]; default half the profile's spacing
     sweeps       at most
 
-    Raises ValueError for what makes no sense, ContactError if the trace cannot carry the load.
-    """
+    Raises ValueError for what makes no sense, ContactError if the trace cannot carry the load."""
     positions = np.asarray(positions, dtype=float)
     _check(profile, constraints, positions, sweeps)
     pitch = pitch or profile.spacing / HATS

@@ -3,8 +3,7 @@
 The commands stand in `comparisons.commands`. They only take their arguments apart and return the
 job to do; `main` does it, so that every error and interrupt of the work ends in one place. What a
 command needs beyond the standard library is imported by its job: `crosscheck --help` loads typer
-and nothing else.
-"""
+and nothing else."""
 
 import errno
 import os
@@ -74,8 +73,7 @@ for name, command in {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line (default: the process's own) and return the exit status.
 
-    Several processes under mpirun print, and end, as one.
-    """
+    Several processes under mpirun print, and end, as one."""
     if not sys.warnoptions:
         warnings.simplefilter("ignore")  # libraries' notes to programmers
     if COMPLETION in os.environ:
@@ -98,8 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _open_streams() -> None:
     """Replace streams that were closed, and let the output take every character.
 
-    The next file to be opened would get a closed stream's number, and what libraries print.
-    """
+    The next file to be opened would get a closed stream's number, and what libraries print."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode))

@@ -1,7 +1,6 @@
 """The only module that depends on the version of dolfinx: 0.5, 0.9 or 0.11.
 
-Each function hides one difference and names it.
-"""
+Each function hides one difference and names it."""
 
 import inspect
 import logging

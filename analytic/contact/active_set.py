@@ -12,8 +12,7 @@ Edge extrapolation. At x from an edge that stands s too far out,
 
 (the singularity of a fixed edge and the next term): tension shows over s/2 only, overlap beside an
 edge s too far in over 3 s/2. Runs of violating nodes at an edge are therefore lengthened or
-shortened, instead of approaching it by halves from one side and stepping over it from the other.
-"""
+shortened, instead of approaching it by halves from one side and stepping over it from the other."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -169,8 +168,7 @@ def exchange_feasibly(
     On the way to the equilibrium of the free nodes those that leave the box stay on its sides:
     all of them where that lowers the energy by WORTHWHILE, else the first that are met. At the
     equilibrium every node whose gap calls for it is freed; those that would leave the box at
-    once go back before anything has moved.
-    """
+    once go back before anything has moved."""
     hardness = problem.constraints.hardness
     if problem.can_carry(active):
         pressure = problem.feasible(start, active.free)

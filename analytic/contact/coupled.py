@@ -15,8 +15,7 @@ contraction takes over, which unlike them is proved to converge:
 the projection, in the norm of N, of p_k - t N^-1 (G + C p_k). Two iterates approach each other by
 sqrt((1-t)^2 + t^2 k^2), k the size of the skew part in that norm (mu beta for two half-planes under
 a given load): below one for t < 2/(1+k^2). t is halved whenever a step has hardly shortened. Each
-step is a contact problem of N, `solve_contact`.
-"""
+step is a contact problem of N, `solve_contact`."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -141,8 +140,7 @@ def solve_coupled(
     An operator without a skew part is left to `solve_contact`. `iterations` counts set exchanges,
     applications of C and contraction steps, on all grids together.
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
-    KKT_TOLERANCE is returned with `converged` False.
-    """
+    KKT_TOLERANCE is returned with `converged` False."""
     if not operator.skew:
         return solve_contact(operator.normal, weighted_gap, weights, constraints, start)
     check_load(constraints, weights)

@@ -17,8 +17,7 @@ forgets the secants and halves s.
 
 A half-plane's displacements are defined up to a constant. Under a prescribed load the approach
 takes that up; under a prescribed approach the model first gets the datum with which (C - D) p does
-no work on some p. Symbols as in `analytic.contact.problem`.
-"""
+no work on some p. Symbols as in `analytic.contact.problem`."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -66,8 +65,7 @@ def solve_with_model(
     the best of all steps, with `converged` False.
     `iterations` counts the steps and the applications of C and of D; C is applied once more than
     there are steps where an approach is prescribed and the model is a half-plane, and where `start`
-    is `nearer`.
-    """
+    is `nearer`."""
     common, constraints = common_gap(weighted_gap, weights, constraints)
     weighted_gap = weighted_gap - common * weights
     pressure, carried, share = start, np.zeros_like(weighted_gap), 1.0

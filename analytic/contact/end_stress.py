@@ -14,8 +14,7 @@ difference from those of the hats is what is left out.
 The curve passes through the nodal values but for the last four at each end, and its ends lie where
 force and moment of the hats are its own: within 0.02 pitches for Hertz's contact of 20 to 160
 pitches. There the stress at the surface under traction is right to 0.2 % of the largest in place of
-4 % (20 pitches to a half-width) or to 0.06 % in place of 2 % (80).
-"""
+4 % (20 pitches to a half-width) or to 0.06 % in place of 2 % (80)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

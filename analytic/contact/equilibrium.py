@@ -10,8 +10,7 @@ E extends those of the free nodes. Over a gap -1 < s < 1 between half-lines held
     u = u0 + (u1 - u0) (1/2 + asin(s)/pi)          (Johnson 1985, section 2.7)
 
 has the least energy. With E bridging every gap in this way the number of iterations hardly depends
-on that of the patches, as it would with zeros, which jump at every edge.
-"""
+on that of the patches, as it would with zeros, which jump at every edge."""
 
 from dataclasses import dataclass
 
@@ -26,8 +25,7 @@ class Extension:
 
     nodes   (m,) ascending indices of the free nodes, m >= 1
     count   nodes of the line
-    closed  whether node `count` is node 0; else the outermost displacement holds up to the ends
-    """
+    closed  whether node `count` is node 0; else the outermost displacement holds up to the ends"""
 
     def __init__(self, nodes: np.ndarray, count: int, closed: bool) -> None:
         marks = np.zeros(count, dtype=np.intp)
@@ -110,8 +108,7 @@ class SearchDirections:
 
     operator  of a stretch of the line that holds the nodes
     stretch   its place on the line: all of it where `cropped` is False
-    lift      (m,) pressures that carry a unit load
-    """
+    lift      (m,) pressures that carry a unit load"""
 
     def __init__(
         self, operator: ModelOperator, nodes: np.ndarray, weights: np.ndarray | None
@@ -185,8 +182,7 @@ class EquilibriumProblem:
 
     spent     counters that it adds to: exchanges, applications
     tight     residual of an accurate equilibrium, over the displacements that it balances
-    approach  d [m] of the last equilibrium, or as prescribed
-    """
+    approach  d [m] of the last equilibrium, or as prescribed"""
 
     def __init__(
         self,

@@ -3,8 +3,7 @@
 Coarse hats are sums of fine ones, node j of the coarse grid is node 2j + 1 of the fine one: gaps
 and weights are restricted by the hats' own sums, pressures interpolated. Near an edge pressures
 fall as the root of the distance, so that their squares tell on which side of the middle between
-two coarse nodes the edge lies.
-"""
+two coarse nodes the edge lies."""
 
 from collections.abc import Callable
 
@@ -26,8 +25,7 @@ def coarse_start(
     """Pressures (n,) [Pa] to start from: nested grids, each solved until its edges settle.
 
     settle    pressures of a coarse problem, whose edges may be off, from a start
-    coarsest  nodes below which no coarser grid is made
-    """
+    coarsest  nodes below which no coarser grid is made"""
     count, periodic = len(problem.weighted_gap), problem.operator.periodic
     operator = problem.operator.coarsened() if count >= coarsest else None
     if operator is None:

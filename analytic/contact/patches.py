@@ -15,8 +15,7 @@ def contact_patches(x: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> np.
     (x - e)^(3/2) (Johnson 1985, section 4.2), so its power 2/3 is nearly straight: a parabola
     through the second to fourth open nodes, past the first that the discrete edge disturbs,
     vanishes within a tenth of the pitch of e. Where the next patch is nearer than CLEAR nodes
-    the edge is taken half a pitch beyond the last touching node.
-    """
+    the edge is taken half a pitch beyond the last touching node."""
     first, after = runs_of(pressure > 0.0)
     last = after - 1
     pitch = x[1] - x[0]

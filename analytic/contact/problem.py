@@ -11,8 +11,7 @@ Its solution satisfies g >= 0 where p = 0, g = 0 where 0 < p < H, g <= 0 where p
 that plastic flow would remove).
 
 Method: an active set (`analytic.contact.active_set`) on nested grids, each started from the next
-coarser one (`nested_start`); on a fixed set conjugate gradients (`equilibrium`).
-"""
+coarser one (`nested_start`); on a fixed set conjugate gradients (`equilibrium`)."""
 
 from dataclasses import astuple, dataclass, replace
 from functools import partial
@@ -121,8 +120,7 @@ def solve_contact(
     tolerance  residual of the last equilibrium over the displacements that it balances
 
     Raises ContactError if the load exceeds what the hardness can carry. A solution that misses
-    KKT_TOLERANCE is returned with `converged` False.
-    """
+    KKT_TOLERANCE is returned with `converged` False."""
     check_load(constraints, weights)
     spent = {"exchanges": 0, "applications": 0}
     common, constraints = common_gap(weighted_gap, weights, constraints)

@@ -9,8 +9,7 @@ On each patch [b0, b1] the curve p = sqrt((x - b0) (b1 - x)) f(x) has both: b0, 
 outside, f a cubic spline through the nodal values that the means give.
 
     hats     (n + 2,) nodes [m], ascending, any spacing, with the feet of the outer two
-    p, g     nodal pressures (n,) [Pa], gaps (n,) [m]: means weighted with the hats
-"""
+    p, g     nodal pressures (n,) [Pa], gaps (n,) [m]: means weighted with the hats"""
 
 from collections.abc import Callable
 

@@ -1,7 +1,6 @@
 """A line contact with an exact solution: the problem, the pressure, the figures; and its makers.
 
-A numerical model takes the problem and is judged by the rest.
-"""
+A numerical model takes the problem and is judged by the rest."""
 
 import tomllib
 from collections.abc import Callable, Mapping

@@ -12,8 +12,7 @@ closed, and p' = 0 on |x| < c. Bounded pressures that carry P leave one function
 whose jump is p' and whose mean is the overlap's curvature, R d'' = (x^2 - L)/sqrt((c^2 - x^2)
 (b^2 - x^2)) on |x| < c with d = d' = 0 at c. K and E are the complete elliptic integrals of the
 modulus k. The integrals of p' and d'' give H K = pi E* b/(4R), P = H b {2E - (1 - k^2) K} and
-what follows; at c = 0 it is Hertz' contact, at c = b a block of P = 2bH.
-"""
+what follows; at c = 0 it is Hertz' contact, at c = b a block of P = 2bH."""
 
 from dataclasses import dataclass
 

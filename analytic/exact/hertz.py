@@ -15,8 +15,7 @@ With I' = -I/s and the identities z = m - A, A n = B z they turn into
 
 where A, m >= 0 and n, B have the sign of x: no two terms of a sum differ in sign, so each
 component is right to rounding on the surface, at the edges and at any distance.
-m and n are those of McEwen (Johnson 1985, eq. 4.49-4.50); pressure and load eq. 4.43-4.45.
-"""
+m and n are those of McEwen (Johnson 1985, eq. 4.49-4.50); pressure and load eq. 4.43-4.45."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

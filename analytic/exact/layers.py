@@ -3,8 +3,7 @@
 The layer is bonded to the base, or slides on it but stays ("frictionless"). Between the limits of
 thick and thin layers no closed form exists: layer_contact.json holds ten digits, and says how they
 were found by two independent derivations. a is the half-width [m], p0 the peak pressure [Pa], P the
-load per length [N/m], nu and E' = E/(1 - nu^2) [Pa] are the layer's.
-"""
+load per length [N/m], nu and E' = E/(1 - nu^2) [Pa] are the layer's."""
 
 import json
 from dataclasses import dataclass

@@ -30,8 +30,7 @@ A layer or coating of thickness t adds to u the integral over its waves of what 
     P = pi b sum_n c_n i^-n (n + 1) J_(n+1)(k b)/(k b) e^-ikc,  summed over the patches,
 
 less a constant that makes it finite at k = 0. C+ - C falls like e^-2w: Gauss points on panels leave
-rounding. Stresses in the layer get the same integral of the waves' stresses.
-"""
+rounding. Stresses in the layer get the same integral of the waves' stresses."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -25,8 +25,7 @@ flat the tangents at e = 0 do, and what is left of them is taken together (lengt
 
 s comes from e and x - b, so that even a corner contact of 1e-8 b keeps its digits. b = 0 is
 Hertz's contact; for e much smaller than b the pressure tends to P/(pi s) of the flat punch.
-The peak stands where t artanh t = chi b/e with t = b s/(x e).
-"""
+The peak stands where t artanh t = chi b/e with t = b s/(x e)."""
 
 from dataclasses import dataclass
 

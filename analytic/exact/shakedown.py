@@ -14,8 +14,7 @@ Contact, Inst. Mech. Eng., London; K. L. Johnson, Contact Mechanics, 1985, secti
 p0/k = 4.00 without friction, and 1/mu, by the surface, above a friction of 0.367.
 
 Nomenclature: a half-width [m], p0 peak pressure [Pa] of Hertz's contact, mu friction coefficient,
-k yield stress in pure shear [Pa].
-"""
+k yield stress in pure shear [Pa]."""
 
 from functools import lru_cache
 

@@ -21,8 +21,7 @@ is solved, with p bounded at both edges, by
     P = pi E* h^2 (1 - 4 n^2)/(4 R),   peak at x = -4 n h, centre of the contact at x = -2 n h.
 
 The contact moves against the traction for beta mu > 0; it mirrors when the sliding reverses or
-when the stiffer body is the half-plane. beta mu = 0 is Hertz's contact.
-"""
+when the stiffer body is the half-plane. beta mu = 0 is Hertz's contact."""
 
 from dataclasses import dataclass
 

@@ -12,8 +12,7 @@ S = sin(pi a/lambda).
     p* = pi E* A/lambda,     pm = p* S^2                       (Westergaard 1939)
     p = 2 p* cos psi sqrt(S^2 - sin^2 psi),  peak 2 p* S       (Johnson 1985, section 13.2)
     p = pm + p* cos 2 psi,  peak pm + p*       once pm >= p*
-    mean gap A (1 - r + r ln r),  r = S^2
-"""
+    mean gap A (1 - r + r ln r),  r = S^2"""
 
 from dataclasses import dataclass
 

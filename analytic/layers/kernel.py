@@ -15,8 +15,7 @@ where m0 is not zero a datum; for uz under tractions, which is odd, angles take 
 sign x and atan x/s. f is integrated numerically, on panels that halve towards w = 0 where a stiff
 or soft layer has scales of its own. From two pitches on the path is turned into the complex plane,
 where e^ikx decays and f has no poles. All but ln|x| is smooth: it is interpolated on intervals that
-double.
-"""
+double."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -51,8 +50,7 @@ def hat_compliance(count: int, ratio: float, layer: Contrast, log_datum: float =
     """2 pi G T(d) / h^2 of uz under pressures at d = 0 … count - 1, (count,).
 
     ratio      h/t
-    log_datum  ln(L/h) of the datum L; without effect on a rigid base
-    """
+    log_datum  ln(L/h) of the datum L; without effect on a rigid base"""
     surface, base = 1.0 + layer.e, layer.softness * (1.0 + layer.base_e)
     response = _Response(lambda w: normal(layer, w), surface, base, False, finest_scale(layer))
     smooth = _by_intervals(count, ratio, response)

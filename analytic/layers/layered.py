@@ -33,8 +33,7 @@ to rounding down to w = 0, where m11 may be as small as w^3. What the base adds 
     r12 D      = -A w^2 - (1+e) B
 
 The substrate enters by g and e2; stresses depend on Dundurs' constants of the pair alone,
-alpha = (1 + e - g (1+e2)) / (1 + e + g (1+e2)) and beta = (e - g e2) / (1 + e + g (1+e2)).
-"""
+alpha = (1 + e - g (1+e2)) / (1 + e + g (1+e2)) and beta = (e - g e2) / (1 + e + g (1+e2))."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -212,8 +211,7 @@ def added_stress(
 
         sz  = -(Z cosh Z - sinh Z) a1 - Z sinh Z a2
         txz =   Z sinh Z a1 + (Z cosh Z + sinh Z) a2
-        sx  =  (Z cosh Z + sinh Z) a1 + (2 cosh Z + Z sinh Z) a2
-    """
+        sx  =  (Z cosh Z + sinh Z) a1 + (2 cosh Z + Z sinh Z) a2"""
     if np.any((z < 0.0) | (z > body.thickness * (1.0 + 1e-12))):
         raise ValueError(f"depths must lie in the layer, from 0 to {body.thickness:g} m")
     w = np.maximum(wavenumber * body.thickness, _LONGEST)

@@ -15,8 +15,7 @@ the one is stretched and the other pressed, and the surface is left higher by nu
 than on the other.
 
     h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum [m]
-    p   pressure [Pa]  q   traction in +x [Pa]
-"""
+    p   pressure [Pa]  q   traction in +x [Pa]"""
 
 import numpy as np
 
@@ -31,8 +30,7 @@ class LayeredSurface(Convolution):
     count    number of elements      pitch    h [m]
     body     the layer and its base
     datum    L [m] where the base is a half-plane; default the support (count + 1) h and four
-             times what the layer spreads a load to, which makes the operator positive definite
-    """
+             times what the layer spreads a load to, which makes the operator positive definite"""
 
     def __init__(
         self, count: int, pitch: float, body: LayeredBody, datum: float | None = None
@@ -58,8 +56,7 @@ class TangentialLayer(Convolution):
     """T of a layered body, hat tractions (n,) [Pa] in +x to weighted displacements (n,) [m^2].
 
     count  number of elements      pitch    h [m]
-    body   the layer and its base
-    """
+    body   the layer and its base"""
 
     def __init__(self, count: int, pitch: float, body: LayeredBody) -> None:
         self.pitch, self.body, self.given = pitch, body, (body,)

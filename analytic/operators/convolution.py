@@ -4,8 +4,7 @@ On a line the matrix is Toeplitz and the FFT is padded with zeros to a circulant
 on a periodic line the matrix is the circulant.
 
     n    elements                           c    first column of the matrix [m^2/Pa]
-    S    symbol: transform of c, at a number of cycles per pitch [m^2/Pa]
-"""
+    S    symbol: transform of c, at a number of cycles per pitch [m^2/Pa]"""
 
 from collections.abc import Callable
 from functools import cached_property, wraps
@@ -46,8 +45,7 @@ class Convolution:
     row       (n,) [m^2/Pa], row[0] = column[0]; default the column: a symmetric matrix
     periodic  whether element n is element 0
     ring      nodes of the closed line on which `precondition` works: n where periodic, else more
-    inverse_symbol  (ring // 2 + 1,) 1/S [Pa/m^2]
-    """
+    inverse_symbol  (ring // 2 + 1,) 1/S [Pa/m^2]"""
 
     def __init__(
         self,

@@ -9,8 +9,7 @@ For comparison the half-plane comes with the uniform strips of Webster and Sayle
 own pitch, the displacement at the middle of the strip, (C p)_i = h u_z(x_i).
 
     h    pitch [m]           E*   modulus [Pa]            L    datum length [m]
-    phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]
-"""
+    phi  hat of height 1     u    displacement [m]        k    wavenumber [1/m]"""
 
 from typing import Literal, Protocol, Self
 
@@ -45,8 +44,7 @@ class ModelOperator(ComplianceOperator, Protocol):
                   or None: they are not so few, or nothing can be factored
     block         the matrix's rows and columns of some nodes
     cropped       the same on a stretch that holds a number of nodes in a row, or None
-    coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None
-    """
+    coarsened     the same on elements twice as wide, centred on nodes 1, 3, 5, …, or None"""
 
     count: int
     periodic: bool
@@ -74,8 +72,7 @@ class HalfPlane(Convolution):
     count    number of elements      pitch    h [m]
     modulus  E* [Pa], or E' of one body
     datum    L [m]; default the support (count + 1) h
-    element  "hat" (Galerkin) or "strip" (uniform, collocated)
-    """
+    element  "hat" (Galerkin) or "strip" (uniform, collocated)"""
 
     def __init__(
         self,
@@ -123,8 +120,7 @@ class HalfPlane(Convolution):
 class SumOfConvolutions(Convolution):
     """Two surfaces or more on the same elements as one: their matrices and symbols added.
 
-    bodies  with the same count, pitch and periodicity, of any kind
-    """
+    bodies  with the same count, pitch and periodicity, of any kind"""
 
     def __init__(self, *bodies: Convolution) -> None:
         if len({(body.count, body.periodic) for body in bodies}) != 1:

@@ -7,8 +7,7 @@ hats see it together with its aliases k + 2 pi j/h. These sums are Hurwitz zeta 
 the nearest terms and a power series of the others: right to rounding, as are the coefficients.
 
     h   pitch [m]             E*  modulus [Pa]               c  cycles per pitch, k h/(2 pi)
-    L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]
-"""
+    L   period n h [m]        pm  mean pressure [Pa]         Z  compliance of the mean [m/Pa]"""
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -30,8 +29,7 @@ class PeriodicHalfPlane(Convolution):
     the displacement is the sum of both.
 
     count    number of elements      pitch    h [m]
-    modulus  E* [Pa], or E' of one body
-    """
+    modulus  E* [Pa], or E' of one body"""
 
     def __init__(self, count: int, pitch: float, modulus: float) -> None:
         self.pitch, self.modulus, self.given = pitch, modulus, (modulus,)

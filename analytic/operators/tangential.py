@@ -16,8 +16,7 @@ not symmetric but positive definite as before, and its contact problem has exact
 
     h      pitch [m]             E*    modulus [Pa]
     phi    hat of height 1       beta  Dundurs' constant      mu   friction coefficient
-    C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]
-"""
+    C, T   normal and tangential compliance, integral phi_i u dx [m^2/Pa]"""
 
 import warnings
 from functools import cached_property
@@ -36,8 +35,7 @@ class CoupledOperator(ModelOperator, Protocol):
     """A compliance that is not symmetric: the surfaces under pressures and what they drag along.
 
     normal  its symmetric part, positive definite
-    skew    whether there is anything beside it
-    """
+    skew    whether there is anything beside it"""
 
     normal: ModelOperator
     skew: bool
@@ -69,8 +67,7 @@ class CoupledHalfPlane(CoupledConvolution):
 
     count, pitch h [m], modulus E* [Pa] and datum [m] as in `HalfPlane`
     friction_dundurs  mu beta, positive for sliding traction on the body in +x
-    normal            C alone
-    """
+    normal            C alone"""
 
     def __init__(
         self,
@@ -102,8 +99,7 @@ class CoupledPair(CoupledConvolution):
 
     normal      C, symmetric positive definite
     tangential  T: normal displacement under hats of traction q in +x, skew
-    friction    mu
-    """
+    friction    mu"""
 
     def __init__(self, normal: Convolution, tangential: Convolution, friction: float) -> None:
         self.normal, self.tangential, self.friction = normal, tangential, friction
@@ -131,8 +127,7 @@ class DenseCoupledCompliance(DenseMatrix):
     For a body that no model comes close to. Every set of nodes is solved by elimination: 0.1 s
     for 1500 of them.
 
-    skew    whether there is anything beside the symmetric part
-    """
+    skew    whether there is anything beside the symmetric part"""
 
     def __init__(self, matrix: np.ndarray) -> None:
         super().__init__(matrix)

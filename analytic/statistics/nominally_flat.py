@@ -7,8 +7,7 @@ Summits are spheres of one radius whose heights are Gaussian; each bears as if a
     p  mean pressure [Pa]        f   real over nominal area
 
     p = (4/3) eta E* sqrt(beta) s^(3/2) F_3/2(h),   f = pi eta beta s F_1(h),
-    F_n(h) = integral from h of (t - h)^n phi(t) dt,  phi the unit normal density
-"""
+    F_n(h) = integral from h of (t - h)^n phi(t) dt,  phi the unit normal density"""
 
 from dataclasses import dataclass
 

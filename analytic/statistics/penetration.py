@@ -11,8 +11,7 @@ In line contact the approach has no datum, a^2/R is twice the depth of the crest
 contact, as under a sphere. Thresholds of h/R stand for two things. First flow is by stress: a ridge
 flows at q0 = 1.7 yield stresses and a sphere at 1.6, so that the elastic limit carries over by q0/E
 and with a sphere's coefficient. Cutting is by the slope a/R at the edges, and carries over with a
-ridge's.
-"""
+ridge's."""
 
 from typing import Literal
 

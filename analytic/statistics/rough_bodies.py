@@ -11,8 +11,7 @@ bulk as an elastic half-space: a compact nonlinear integral equation, solved by 
     cylinder  T = 2P/(s E*) = integral p* drho over both sides,  w = -(1/pi) integral p* ln|.| drho
               smooth: a = sqrt(T/pi), peak 2 a
 
-The cylinder's d has the log kernel's datum, sqrt(2 R s); its h has none.
-"""
+The cylinder's d has the log kernel's datum, sqrt(2 R s); its h has none."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -173,8 +172,7 @@ def _sphere(reach: float, nodes: int) -> _Bulk:
     """Polynomials in rho^2, and Copson's two steps (Sneddon 1966, section 3.2):
 
     g(t) = integral over v > 0 of p*(sqrt(t^2 + v^2)),   w = (2/pi) integral over 0 .. pi/2 of
-    g(rho sin u), both by Gauss' rule.
-    """
+    g(rho sin u), both by Gauss' rule."""
     x, gauss = leggauss(nodes)
     rho, u, share = reach * np.sqrt(0.5 * (1.0 + x)), 0.5 * (1.0 + x), 0.5 * gauss
 

@@ -12,8 +12,7 @@ to what there is of the trace (ISO 16610-28:2016, retention of moments up to the
 line passes unchanged, and nothing of the trace is lost. Half a cut-off inside, this differs from
 the plain filter by a few thousandths of the waviness; one cut-off inside, by 1e-6 of it.
 
-The filter acts on the profile's spline, so that samples need not be evenly spaced.
-"""
+The filter acts on the profile's spline, so that samples need not be evenly spaced."""
 
 from math import ceil, log, pi, sqrt
 
@@ -41,8 +40,7 @@ def mean_line(profile: Profile, cutoff: float) -> np.ndarray:
 
     cutoff   [m] wavelength of which half passes; from two median sample spacings to half of the
              trace
-    Raises ValueError for a cut-off out of these bounds.
-    """
+    Raises ValueError for a cut-off out of these bounds."""
     check_cutoff(profile, cutoff)
     intervals = len(profile.x) - 1
     step = min(profile.spacing / STEPS_PER_SPACING, cutoff / STEPS_PER_CUTOFF)
@@ -66,8 +64,7 @@ def filtered(
     short_cutoff  [m] (lambda_s) waves shorter than this are taken off first; None: none are
     cutoff        [m] (lambda_c) waves longer than this are taken off then, the mean height and a
                   tilt with them; None: none are
-    Raises ValueError for cut-offs that make no sense on this profile.
-    """
+    Raises ValueError for cut-offs that make no sense on this profile."""
     if cutoff is not None and short_cutoff is not None and not short_cutoff < cutoff:
         raise ValueError(
             f"the short cut-off of {short_cutoff:g} m must lie below the cut-off of {cutoff:g} m"
@@ -95,8 +92,7 @@ def _weighted_line(height: np.ndarray, step: float) -> np.ndarray:
     step   of the grid, over the cut-off
 
     With m_k the moments of s over the trace and z_k those of s times the height, each about the
-    point, the line's value is (m_2 z_0 - m_1 z_1) / (m_2 m_0 - m_1^2).
-    """
+    point, the line's value is (m_2 z_0 - m_1 z_1) / (m_2 m_0 - m_1^2)."""
     count = len(height)
     reach = min(ceil(REACH / step), count - 1)
     u = step * np.arange(-reach, reach + 1)

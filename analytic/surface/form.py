@@ -6,8 +6,7 @@ stands for (trapezoid rule), so that crowded samples do not pull the fit.
 Nomenclature
   u       x from the middle of the trace over its half length l, -1 <= u <= 1
   s       sine of the arc's slope angle; s0 at u = 0, and s = s0 - k u along a circle
-  k       l / radius, positive where the arc is convex (its middle stands out of the body)
-"""
+  k       l / radius, positive where the arc is convex (its middle stands out of the body)"""
 
 from dataclasses import dataclass
 from math import inf, isinf, sqrt

@@ -4,8 +4,7 @@ Each stretch of the spline is a cubic, so every figure is exact up to rounding: 
 height by Gauss points, the mean deviation between the curve's crossings of the mean line, the
 extremes at the zeros of the derivative. Nothing is filtered and no tilt is removed.
 
-Nomenclature: z height above the mean height of the curve [m], L length [m], k wavenumber [1/m].
-"""
+Nomenclature: z height above the mean height of the curve [m], L length [m], k wavenumber [1/m]."""
 
 from dataclasses import dataclass, replace
 from math import inf
@@ -113,8 +112,7 @@ def shortest_wavelength(profile: Profile) -> float:
     The spline's slope is sampled evenly (at half of a spacing that nine sample distances in ten
     exceed), its mean removed, a Hann window laid over it, and its power summed from long to
     short waves. The window spreads a wave: the answer errs by up to 1/L in wavenumber, to the short
-    side for a single wave. Of a profile without slope it is inf.
-    """
+    side for a single wave. Of a profile without slope it is inf."""
     step = 0.5 * float(np.quantile(np.diff(profile.x), 0.1))
     count = next_fast_len(int(min(np.ceil(profile.length / step), MAX_RESAMPLED)), real=True)
     x = profile.x[0] + profile.length * (np.arange(count) + 0.5) / count

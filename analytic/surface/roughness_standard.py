@@ -5,8 +5,7 @@ in the middle of the trace, at least half a cut-off from its ends, and its param
 ISO 21920-2:2021 (ISO 4287:1997 but for its name for the length), integrals of the spline exact.
 
 The automatic cut-off is that of ISO 4288:1996, table 1 (ISO 21920-3:2021, classes Sc1 to Sc5):
-the shortest one whose Ra does not exceed the range that belongs to it.
-"""
+the shortest one whose Ra does not exceed the range that belongs to it."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -58,8 +57,7 @@ def standard_roughness(
     """Parameters at a cut-off [m]; raises ValueError as `filtered` does.
 
     profile       without its form, unfiltered
-    short_cutoff  [m] None: short waves stay
-    """
+    short_cutoff  [m] None: short waves stay"""
     check_cutoff(profile, cutoff)
     sections = min(SECTIONS, int((profile.length / cutoff - 1.0) * (1.0 + 1e-9)))
     length = sections * cutoff

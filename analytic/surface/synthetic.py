@@ -3,8 +3,7 @@
 Every profile is centred on x = 0 and, for a given seed, the same everywhere (numpy's PCG64).
 Lengths are in m. Parameters that make no sense raise ValueError with one line.
 
-Nomenclature: k wavenumber [1/m], H Hurst exponent, C power spectral density of the height.
-"""
+Nomenclature: k wavenumber [1/m], H Hurst exponent, C power spectral density of the height."""
 
 from math import ceil, exp, floor
 
@@ -69,8 +68,7 @@ def self_affine(
 
     The trace is one whole period: only waves that fit into `length` a whole number of times occur,
     and the last sample repeats the first. Phases are uniform, amplitudes Rayleigh distributed,
-    drawn from the long waves to the short: more samples of one seed resolve the same surface.
-    """
+    drawn from the long waves to the short: more samples of one seed resolve the same surface."""
     check_positive(length=length)
     check_samples(samples)
     if not 0.0 < hurst <= 1.0:
@@ -122,8 +120,7 @@ def ground_texture(
     peaks (skewness about -3 one_sidedness; 0.3 is usual for grinding). The trace is cut out of
     a period at least half as long again, so that its ends are independent; the least-squares
     line is taken off, and the samples (not the spline) scaled to `rms_height` [m].
-    samples, length   the trace: evenly spaced, both ends included
-    """
+    samples, length   the trace: evenly spaced, both ends included"""
     check_positive(
         rms_height=rms_height,
         length=length,

@@ -7,8 +7,7 @@ radius rho tangent to both. By the triangle of the centres the height from valle
     h = (r + rho) - sqrt((r + rho)^2 - f^2/4),     about f^2/(8 (r + rho)).
 
 The slope is continuous; the curvature jumps where the arcs meet, between 1/r and -1/rho, and the
-spline needs several samples on each arc to follow that without ringing. f, r, rho [m].
-"""
+spline needs several samples on each arc to follow that without ringing. f, r, rho [m]."""
 
 from math import ceil, sqrt
 
@@ -46,8 +45,7 @@ def turned(
     samples_per_feed   default (and at least) SAMPLES_PER_RIDGE on every ridge's arc
     noise              [m] root mean square of the Gaussian noise that is added; None: none
     noise_wavelength   [m] shortest of the noise, which has all longer ones in equal measure;
-                       default a tenth of the feed, at least two sample spacings
-    """
+                       default a tenth of the feed, at least two sample spacings"""
     rho = RIDGE_PER_NOSE * nose_radius if ridge_radius is None else ridge_radius
     check_positive(feed=feed, nose_radius=nose_radius, length=length, ridge_radius=rho)
     if feed > nose_radius:

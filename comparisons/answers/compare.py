@@ -41,8 +41,7 @@ def compare_answers(
 ) -> tuple[ComparedAnswer, ...]:
     """Every answer of the scene; `answers` are its resolutions by its name.
 
-    scatter  of the scene's figures by uncertain inputs; None: not known
-    """
+    scatter  of the scene's figures by uncertain inputs; None: not known"""
     run, found = list(runs.values())[-1], []
     operators = operators_of(problem, plan, runs)
     for source in problem.scene.answers:

@@ -2,8 +2,7 @@
 
 Each explanation is tried on the pressures. It is named where the relative L2 norm of the difference
 that it leaves is at most EXPLAINS of that before, and no other leaves clearly less. Units and signs
-come first, since nothing else can be seen before them.
-"""
+come first, since nothing else can be seen before them."""
 
 from collections.abc import Iterator
 from contextlib import suppress

@@ -3,8 +3,7 @@
     E = S - D        u_val = sqrt(u_num^2 + u_input^2 + u_D^2)
 
 S is a model's figure, D the measured one; all are relative to D, and expanded uncertainties. The
-model error lies within E +- u_val.
-"""
+model error lies within E +- u_val."""
 
 import math
 from collections.abc import Mapping
@@ -25,8 +24,7 @@ def validation_rows(
     """By quantity, a row for each friction coefficient and model.
 
     measured  the data's figures by friction and quantity, SI; `u_data` is their relative scatter
-    scatter   by uncertain inputs; where it is not known, u_input is None and counts as none
-    """
+    scatter   by uncertain inputs; where it is not known, u_input is None and counts as none"""
     found: dict[str, list[dict]] = {}
     for friction, data in measured.items():
         for name, run in runs.items():

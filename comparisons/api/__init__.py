@@ -29,8 +29,7 @@ peak pressure   0, 0.1  1.000 GPa ...
 >>> axes[0].get_ylabel()
 'p/p₀'
 >>> [round(r["half_plane"], 3) for r in found.rows if r["quantity"] == "contact_ratio"]
-[1.0, 1.0]
-"""
+[1.0, 1.0]"""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -90,8 +89,7 @@ def tables(scene: str | os.PathLike) -> dict:
     >>> changed = tables("smooth")
     >>> changed["load"]["friction"] = 0.2
     >>> load(changed).friction
-    (0.2,)
-    """
+    (0.2,)"""
     path = find_scene(scene)
     found = read_toml(path)
     profile = found.get("profile")
@@ -131,8 +129,7 @@ def run(
     >>> found.verdict
     'holds'
     >>> len(found.result["comparison"])
-    4
-    """
+    4"""
     from comparisons.runs.run import run as run_scene
 
     chosen = models_named(models, "models")
@@ -194,8 +191,7 @@ def map(
     points   along x and y, "NxM"
     x, y     "GROUP" or "GROUP=FROM:TO"; by the scene by default
     workers  processes, one a core by default
-    It takes minutes. `out` keeps each point, and goes on from there.
-    """
+    It takes minutes. `out` keeps each point, and goes on from there."""
     from comparisons.studies.maps.make import make_map
     from comparisons.studies.maps.request import request_of
 
@@ -231,8 +227,7 @@ def sweep(
     >>> found = sweep(smooth, {"load": [1e6, 4e6]}, workers=1)
     >>> peaks = [row["half_plane"] for row in found.rows if row["quantity"] == "peak_pressure"]
     >>> round(peaks[1] / peaks[0], 4)
-    2.0
-    """
+    2.0"""
     from comparisons.studies.sweep.request import sweep_request
     from comparisons.studies.sweep.study import make_sweep
 

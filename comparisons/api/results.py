@@ -89,8 +89,7 @@ class Run(Printed):
         friction  coefficient; the scene's first by default
         x (k,) and z (m,) [m], z into the rough body from its mean line; sx, sz, txz, tau1 (m, k)
         [Pa], positive in tension; nan outside a rough boundary. Where the body is elastic, the
-        stress across the plane is Poisson's ratio times sx + sz.
-        """
+        stress across the plane is Poisson's ratio times sx + sz."""
         level = self._level(model)
         frictions = self.outcome.problem.scene.friction
         found = level.stress(frictions[0] if friction is None else friction)

@@ -27,8 +27,7 @@ covers no more.
 Two levels show no order: U is TWO_GRIDS times their change, Roache's factor of safety at order 1;
 94 % of the same errors are covered. A sequence that has settled to round-off gets what is left of
 its differences, and no figure an uncertainty below the `resolution` that it is read with: levels
-may share a wrong digit.
-"""
+may share a wrong digit."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -2,8 +2,7 @@
 
 Sliding traction on bodies of different elastic constants also moves their surfaces normally, by
 friction times Dundurs' beta (`analytic.operators.tangential`). The published method neglects this.
-The half-plane is solved with and without it on its finest pressure elements.
-"""
+The half-plane is solved with and without it on its finest pressure elements."""
 
 from dataclasses import asdict, dataclass, replace
 

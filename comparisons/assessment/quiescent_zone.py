@@ -20,8 +20,7 @@ nothing says beforehand how deep asperities reach. The same rule on the largest 
 asperity tells which of them bridge the zone.
 
 QUIET is three quarters: by Lundberg and Palmgren, life goes with tau^-9.3 (c/e = 31/3 : 10/9), and
-a quarter less shear lasts an order of magnitude longer.
-"""
+a quarter less shear lasts an order of magnitude longer."""
 
 from dataclasses import dataclass, fields
 from math import inf, isfinite, nan

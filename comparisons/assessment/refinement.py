@@ -34,8 +34,7 @@ def refined(
     The levels that the scene asks for are known to `tasks` from the start, further ones when they
     are found necessary. Levels in the `cache` of a stopped run are not computed again; their
     expected time counts.
-    after_half_plane  called with the half-plane on the levels asked for, while others are solved
-    """
+    after_half_plane  called with the half-plane on the levels asked for, while others are solved"""
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
     patches, check = np.array([problem.extent]), None
 

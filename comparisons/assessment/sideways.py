@@ -6,8 +6,7 @@ themselves hardly differ. What is at x moves to x + shift + stretch x; both are 
 
     ||p((x - shift) / (1 + stretch)) - reference(x)|| / ||reference||
 
-searched first over whole pitches, by correlation, then refined.
-"""
+searched first over whole pitches, by correlation, then refined."""
 
 from dataclasses import dataclass
 

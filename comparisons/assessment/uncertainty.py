@@ -20,8 +20,7 @@ sequence of its own: what these elements leave out is in both. Against exact ans
 figures of smooth and rough contacts that both models solved) all are covered so, on median by 4.8
 times the error; by the sum of both models' own discretisations, 18 times.
 
-No figure has an uncertainty of discretisation below the resolution that it is read with.
-"""
+No figure has an uncertainty of discretisation below the resolution that it is read with."""
 
 from dataclasses import dataclass
 
@@ -96,8 +95,7 @@ def difference_of_figures(own: float, ratio: float, reference: float) -> float:
     own        uncertainty of the figure, relative to the reference
     ratio      figure over reference
     reference  relative uncertainty of the reference. It counts |ratio| times, to first order, and
-               not less than whole: a figure that vanishes says nothing of its reference.
-    """
+               not less than whole: a figure that vanishes says nothing of its reference."""
     return own + max(1.0, abs(ratio)) * reference
 
 

@@ -4,8 +4,7 @@ A difference d with uncertainty U stands for the interval d +- U. The verdict is
 interval is within the tolerance, |d| + U <= tolerance; no where all of it is beyond,
 |d| - U > tolerance; and inconclusive where it reaches across, or where U is not known. Everything
 that is judged is judged so: the models' difference, the model error, points of maps, settings of a
-cost study, claims of the paper.
-"""
+cost study, claims of the paper."""
 
 import math
 from collections.abc import Sequence

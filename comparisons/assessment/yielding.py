@@ -1,8 +1,7 @@
 """Where the body would begin to flow, and whether an elastic half-plane can stand for it.
 
 Nomenclature: Y yield stress in tension, k in shear (Tresca: Y/2), H hardness, tau1 principal shear
-in the plane, mu friction coefficient, G shear modulus, E* combined modulus.
-"""
+in the plane, mu friction coefficient, G shear modulus, E* combined modulus."""
 
 from dataclasses import dataclass
 from math import inf, pi

@@ -1,8 +1,7 @@
 """Finished results on disk, so that a command that was stopped goes on: one .npz file a result.
 
 A file holds the arrays of a result, and a JSON text that says how they make it up. It is there
-whole or not at all, and is good for the key that it was saved under.
-"""
+whole or not at all, and is good for the key that it was saved under."""
 
 import io
 import json

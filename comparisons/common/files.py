@@ -1,8 +1,7 @@
 """Writing files, and a run's folder of them, so that each appears whole or not at all.
 
 Unfinished files are inside the folder where it exists: its parent need not be writable, and no file
-moves to another file system. Else they are beside it: the folder appears with the results.
-"""
+moves to another file system. Else they are beside it: the folder appears with the results."""
 
 import contextlib
 import errno
@@ -223,8 +222,7 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
     """A scratch folder whose files replace those of `out`, one by one and whole, at the end.
 
     own   names or patterns of files that are removed where they are not made again
-    If the block fails or is interrupted nothing in `out` changes.
-    """
+    If the block fails or is interrupted nothing in `out` changes."""
     check_writable(out, own)
     with _scratch(out) as scratch, _naming(scratch, out):
         yield scratch

@@ -2,8 +2,7 @@
 
 A factorisation is one call of a compiled library, and Python handles an interrupt only when that
 returns: after seconds, or minutes. So the command works in a child; its parent waits, passes
-signals on, and kills a child that does not end in time. What the child had finished is on disk.
-"""
+signals on, and kills a child that does not end in time. What the child had finished is on disk."""
 
 import atexit
 import os
@@ -24,8 +23,7 @@ def watched(work: Callable[[], int], message: str) -> int:
     """The exit status of `work`, which a child carries out; the child returns from here only where
     it has to finalize MPI.
 
-    message  one line for standard error where the child has to be killed
-    """
+    message  one line for standard error where the child has to be killed"""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # as shells have it in the background
         return work()
     sys.stdout.flush()

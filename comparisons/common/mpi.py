@@ -8,8 +8,7 @@ is equal where they are the same program on the same kind of processor.
 Matrix and factor are distributed. gmsh, MUMPS' ordering, the half-plane, the recovery of stresses
 and all files are the first's; mesh, pressures and displacements are whole in each. At 375 000
 unknowns one process takes 986 MB, of four the first 598 MB and the others 372 MB: the factor takes
-1.25 kB an unknown in all, and the first 1 kB an unknown beside its part of it.
-"""
+1.25 kB an unknown in all, and the first 1 kB an unknown beside its part of it."""
 
 import io
 import os

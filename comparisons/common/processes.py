@@ -2,8 +2,7 @@
 one for works that need all that it has in memory.
 
 A pool of `concurrent.futures` may wait for ever for a worker that was killed before it had read a
-large task (CPython's issue 94777, in Python 3.11.2 and others); `fresh_process` does not.
-"""
+large task (CPython's issue 94777, in Python 3.11.2 and others); `fresh_process` does not."""
 
 import ctypes
 import gc
@@ -43,8 +42,7 @@ class Worker:
     """A process that serves a pipe, once it is started, and until it is killed.
 
     serve   called there with the pipe's other end
-    forked  from this process, with all that it has loaded; else a fresh one
-    """
+    forked  from this process, with all that it has loaded; else a fresh one"""
 
     def __init__(self, serve: Callable[[Connection], None], forked: bool = False) -> None:
         self._forked, self._serve = forked, serve
@@ -165,8 +163,7 @@ def uncollected() -> Iterator[None]:
 def processes(count: int, copied: Works | None = None) -> Iterator[Executor]:
     """A pool of fresh processes; what ends the block, or this process, ends them at once.
 
-    copied   work that `_copied` finds in the processes, which are copies of this one then
-    """
+    copied   work that `_copied` finds in the processes, which are copies of this one then"""
     context = multiprocessing.get_context("spawn" if copied is None else "fork")
     alive, held = context.Pipe(duplex=False)
     others = multiprocessing.active_children()
@@ -203,8 +200,7 @@ def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
     Works share what this process has in memory, and their answers go through pickle. They use no
     MPI, which survives no fork. They are carried out here where there is one core, where this
     process is one of several or has several threads, and where copies cannot be made or end before
-    they have answered.
-    """
+    they have answered."""
     count = min(copies(), len(works))
     if count > 1:
         with suppress(BrokenProcessPool, OSError), processes(count, works) as pool:
@@ -233,8 +229,7 @@ def _copied(number: int) -> object:
 def begin(alive: Connection, copied: Works | None = None) -> None:
     """Ignore Ctrl-C, and end with the process that started this one or when it closes `alive`.
 
-    copied   what a copy of a process carries out
-    """
+    copied   what a copy of a process carries out"""
     global _works
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if copied is not None:

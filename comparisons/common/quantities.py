@@ -1,8 +1,7 @@
 """The models and the figures that are compared: their names in result.json, and in words.
 
 Figures of one model are numbers per level; figures of a pair are relative L2 norms of the
-difference of two fields on the same points, with the finite elements as the reference.
-"""
+difference of two fields on the same points, with the finite elements as the reference."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -4,8 +4,7 @@ The processes begin once, where what is known to do is worth them. They are fork
 with all that it has loaded, as long as it has no MPI, which survives no fork, and its libraries are
 on one thread; else they are fresh. The answers are those of one process, in any order of work.
 
-Whoever waits may prepare what it will need: imports take as long as a small run's solution.
-"""
+Whoever waits may prepare what it will need: imports take as long as a small run's solution."""
 
 import multiprocessing
 import os

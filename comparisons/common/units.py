@@ -2,8 +2,7 @@
 
 pint knows the units. Its registry counts in decimals, so that "8.2 mm" and 0.0082 become the
 same double. Loading it takes ten times as long as reading a scene, so the units that scenes use
-every day stand in a table here; the tests hold every entry of it against pint.
-"""
+every day stand in a table here; the tests hold every entry of it against pint."""
 
 import datetime
 import difflib

@@ -48,8 +48,7 @@ def half_plane_on(
     """The half-plane on any pressure elements.
 
     friction_dundurs  mu beta by which sliding traction moves the surfaces; 0 leaves it out
-    frictions         coefficients that stresses are computed for
-    """
+    frictions         coefficients that stresses are computed for"""
     with stages.stage("contact", "half-plane: contact"):
         operator = CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, friction_dundurs)
         solution = pressed_on(problem, grid, operator)

@@ -1,8 +1,7 @@
 """Finished levels of an unfinished run, so that a run that was stopped goes on.
 
 The folder is hidden in the run's own, or beside it while there is none, and goes when the run has
-ended. The key covers all that shapes a level: scene, profile, plan, versions, and the code.
-"""
+ended. The key covers all that shapes a level: scene, profile, plan, versions, and the code."""
 
 from pathlib import Path
 

@@ -1,8 +1,7 @@
 """The analytic surface that is nearest to a scene's bodies: half-planes, layers and coatings.
 
 It predicts where finite elements will touch, and is the model of their outer iteration, whose
-answer is checked on the finite elements themselves.
-"""
+answer is checked on the finite elements themselves."""
 
 import numpy as np
 
@@ -26,8 +25,7 @@ def is_layered(scene: ResolvedScene) -> bool:
 def nearest_operator(scene: ResolvedScene, grid: HatGrid, friction: float = 0.0) -> ModelOperator:
     """Mutual compliance of roller and body on a grid of hats.
 
-    friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out
-    """
+    friction  coefficient of the sliding traction that moves the surfaces; 0 leaves it out"""
     count, pitch = grid.count, grid.pitch
     if not is_layered(scene):
         modulus = combined_modulus(scene.roller, scene.body)

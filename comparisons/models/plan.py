@@ -1,7 +1,6 @@
 """The steps that a scene needs, decided before anything runs, printed and recorded.
 
-A skipped step never changes a figure that is asked for.
-"""
+A skipped step never changes a figure that is asked for."""
 
 from dataclasses import dataclass
 

@@ -1,8 +1,7 @@
 """A resolved scene as the mechanical problem that both models solve.
 
 Symbols: R radius of relative curvature, E* combined modulus, P load per length, a and p0
-half-width and peak pressure of the smooth (Hertz) contact under the same load.
-"""
+half-width and peak pressure of the smooth (Hertz) contact under the same load."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

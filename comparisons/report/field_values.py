@@ -2,8 +2,7 @@
 
 Integers of two bytes on a part of the window's points: the half-plane's field, and its difference
 from the other model that pictures show on a separate scale, which preserves its digits. The page
-computes the other model's field.
-"""
+computes the other model's field."""
 
 import base64
 import json

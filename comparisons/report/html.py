@@ -23,8 +23,7 @@ STYLES = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 def rendered(template: str | Path, **values: object) -> str:
     """A template with values in it; in HTML text among them is escaped.
 
-    template  one of this folder, or the path of another one, which may use this folder's macros
-    """
+    template  one of this folder, or the path of another one, which may use this folder's macros"""
     path = FOLDER / template
     return _environment(path.parent).get_template(path.name).render(**values)
 

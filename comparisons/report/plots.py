@@ -47,8 +47,7 @@ class Plots:
         scene's own finite elements where these are it, and the difference.
 
         component  tau1 or txz
-        friction   coefficient; the scene's first by default
-        """
+        friction   coefficient; the scene's first by default"""
         names = [each.name for each in COMPONENTS]
         if component not in names:
             raise InputError(f"component: is {component}; allowed is {' or '.join(names)}")
@@ -64,8 +63,7 @@ class Plots:
 
         array   of `stress.vtu`: sx, sz, sy, txz, tau1, von_mises, or of finite elements such as
                 difference_tau1; of several friction coefficients the first's where none is in the
-                name
-        """
+                name"""
         levels = self.outcome.levels(self.outcome.deciding_friction)
         if model not in levels:
             raise InputError(f"model: is {model}; allowed is {' or '.join(levels)}")

@@ -2,8 +2,7 @@
 
 Two stress components on the common window and the figures of all levels, exact; the whole model
 where it is not the scene's own finite elements. The mesh comes
-from mesh.msh, figures and record from their own files; nothing is solved or meshed.
-"""
+from mesh.msh, figures and record from their own files; nothing is solved or meshed."""
 
 import json
 from dataclasses import dataclass, fields, replace
@@ -51,8 +50,7 @@ def read_outcome(folder: Path, with_mesh: bool = True) -> Outcome:
     """The outcome in a run's folder, as far as its report shows it.
 
     with_mesh  without it the report cannot be drawn, but reading takes a tenth of the time
-    Raises InputError, one line, where the folder does not hold one.
-    """
+    Raises InputError, one line, where the folder does not hold one."""
     if not folder.is_dir():
         raise InputError(f"{folder}: is no folder; allowed is the folder of a finished run")
     result, record = (read_table(folder / name) for name in ("result.json", "record.json"))

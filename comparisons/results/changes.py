@@ -2,8 +2,7 @@
 
 A figure is every number, truth and verdict of result.json but those under `cost`. It may move by
 the total uncertainty that the recorded run states for it, or for the figure that it depends on
-(DEPENDS); without one, by rounding.
-"""
+(DEPENDS); without one, by rounding."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

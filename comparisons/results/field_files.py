@@ -7,8 +7,7 @@ msh      gmsh, meshio, PyVista (MSH 2.2); each array is a view in gmsh
 Every file also says what it is of: `title`, `units` and `scene`, the latter two as JSON. In a vtu
 they are field data of bytes, bytes(data["scene"]).decode(): meshio opens no file with a text there.
 In a vtkhdf they are texts. In a msh they stand in a section $Comments. The scene stands as text in
-contact.csv beside them, too.
-"""
+contact.csv beside them, too."""
 
 import json
 import os
@@ -68,8 +67,7 @@ def field_of(outcome: Outcome, level: Level) -> FieldFile:
     points, zero where the body is held; and, in single precision, `half_plane_` and `difference_`
     COMPONENTS: the half-plane's stresses at the same points, and these less the finite elements'.
     Of several friction coefficients each array has its own in the name. Where the body yields there
-    are also what flow leaves behind when the roller is gone.
-    """
+    are also what flow leaves behind when the roller is gone."""
     scene = outcome.problem.scene
     nu = scene.body.poissons_ratio
     on_mesh = level.field_on_mesh

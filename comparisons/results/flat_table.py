@@ -16,8 +16,7 @@ Columns
                          figure, and what the answer differs from that by
   a_over_radius, …       the run's dimensionless groups
 
-What is unknown is empty in a CSV and null in a Parquet file.
-"""
+What is unknown is empty in a CSV and null in a Parquet file."""
 
 import csv
 import io

@@ -1,8 +1,7 @@
 """Plausibility warnings: signs in a scene of a missing or mistaken unit.
 
 A scene with `radius = 8` for 8 mm, `youngs_modulus = 207` for 207 GPa or a trace in the wrong unit
-is solved like any other. Nothing here is refused; the user is warned.
-"""
+is solved like any other. Nothing here is refused; the user is warned."""
 
 from collections.abc import Iterator
 

@@ -1,7 +1,6 @@
 """The record and the figures in a run's folder, checked.
 
-Everything comes from the folder itself. A profile's file may have changed or gone.
-"""
+Everything comes from the folder itself. A profile's file may have changed or gone."""
 
 import json
 from collections.abc import Mapping

@@ -39,8 +39,7 @@ def result_of(
     refinement  why it stopped
     couplings   of the half-plane, one a friction coefficient
     budget      of the comparison, None for one model
-    scatter     of uncertain inputs
-    """
+    scatter     of uncertain inputs"""
     hertz = problem.hertz
     tolerance_checks = [] if budget is None else budget.tolerance_checks(problem.scene.tolerance)
     flow = flow_assessment(problem, runs)

@@ -23,8 +23,7 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
     """Write everything into the run's folder; whole files, all at the end, by one process.
 
     fields   format of the stress fields: one of comparisons.results.field_files.FORMATS, or by
-             their size
-    """
+             their size"""
     if not is_first():
         return
     callback(Step("writing results", 0.0))

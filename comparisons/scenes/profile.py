@@ -61,8 +61,7 @@ def profile_of(
     table     [profile] with SI numbers and its defaults
     position  [m] of the roller's centre on the trace; None is the middle
     folder, source, known   as in `comparisons.scenes.resolve.resolve_tables`
-    Returns the account of the whole trace and the position as well. Raises SceneError.
-    """
+    Returns the account of the whole trace and the position as well. Raises SceneError."""
     if "file" in table:
         trace, origin = _measured(table, folder / table["file"], source, known)
     else:

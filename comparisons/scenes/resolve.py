@@ -45,8 +45,7 @@ def load_scene(name_or_path: str | os.PathLike, answers: Sequence[str] = ()) -> 
 
     answers  from outside, NAME=FILE each, beside those of the file
     Raises SceneError, one line, for anything that is wrong with the file, with what it says, or
-    with the profile that it names.
-    """
+    with the profile that it names."""
     path = find_scene(name_or_path)
     name = name_of(path)
     source = os.fspath(name_or_path)  # as it was asked for: that is how to ask for it again
@@ -87,8 +86,7 @@ def resolve_tables(
     folder  that the profile's path starts from
     source  what messages call the scene
     trace   to take in place of the profile's file
-    Raises SceneError as `load_scene` does.
-    """
+    Raises SceneError as `load_scene` does."""
     try:
         scene = SceneFile.model_validate(tables)
     except ValidationError as error:

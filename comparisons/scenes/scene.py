@@ -1,8 +1,7 @@
 """A scene as resolved: everything that is asked for, in SI, with the profile in place.
 
 x along the surface with its origin under the roller's centre, heights positive out of the body
-with their zero on the mean line. `comparisons.scenes.resolve` makes it from a file.
-"""
+with their zero on the mean line. `comparisons.scenes.resolve` makes it from a file."""
 
 import copy
 import math

@@ -1,8 +1,7 @@
 """Cases whose figures must lie within bounds, for `verify` and `stability`: run, show, write.
 
 A case that raises is a row that fails with the error's message. A case without a figure has shown
-nothing and fails, too.
-"""
+nothing and fails, too."""
 
 import math
 import warnings

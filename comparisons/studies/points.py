@@ -5,8 +5,7 @@ Points are solved by processes here (`comparisons.common.processes`), by the ran
 by a Dask cluster: by any executor of `concurrent.futures`. One point is the work of one process, on
 one thread. A few points are submitted at a time. If a process dies and takes its pool along, the
 points that were submitted are tried again one by one, each in a pool of its own: the one that
-kills its process again is saved as failed.
-"""
+kills its process again is saved as failed."""
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
@@ -50,8 +49,7 @@ def solve_points(
     """Solve every point that the cache does not have, and save it there.
 
     open_executor  opens an executor of so many workers; each is closed before the next one
-    what           the points are of, for the progress
-    """
+    what           the points are of, for the progress"""
     wanted = {point.key: point for point in points}
     left = deque(point for point in wanted.values() if cache.load(point.key) is None)
 

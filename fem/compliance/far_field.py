@@ -18,8 +18,7 @@ At the surface, under a pressure's resultant P alone, that is u_z = -2 P / (pi E
     s = (x - centre + i z) / reach, s' its conjugate    G, kappa = 3 - 4 nu, E'   of the body
     m_k   integral of ((t - centre) / reach)^k (p - i q) dt [N/m], p pressure, q traction in +x
     b     nodal forces of the tractions [N/m]           g   displacement of the held nodes [m]
-    L     datum [m]: the half-plane leaves u_z undefined up to a constant
-"""
+    L     datum [m]: the half-plane leaves u_z undefined up to a constant"""
 
 from functools import cached_property
 
@@ -50,8 +49,7 @@ class FarField:
 
     The displacement `lifted @ moments` that the boundary adds is symmetric up to the discretisation
     error; a contact solver that minimises an energy needs `symmetric`. Raises ValueError if the
-    body is held otherwise or coated, or if its boundary is nearer than reach / MOST_REACH.
-    """
+    body is held otherwise or coated, or if its boundary is nearer than reach / MOST_REACH."""
 
     def __init__(self, body: ElasticBody, start: float, stop: float) -> None:
         if (body.support.base, body.support.sides) != ("bonded", "fixed"):

@@ -3,8 +3,7 @@
 C = B^T K^-1 B is symmetric and positive definite; each application takes one back-substitution. A
 far field (`fem.compliance.far_field`) adds the symmetric part of the boundary's displacement.
 Nomenclature: p hat pressures [Pa], K stiffness [Pa], B nodal forces of unit hats [m]
-(`fem.body.surface`).
-"""
+(`fem.body.surface`)."""
 
 from functools import cached_property
 
@@ -29,8 +28,7 @@ class FiniteElementCompliance:
     normal      B of the pressure, (2k, count)
     tangential  B of a sliding traction towards +x, (2k, count)
 
-    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface.
-    """
+    Raises ValueError if the hats' nodes do not ascend or a hat sticks out of the body's surface."""
 
     def __init__(
         self,

@@ -1,7 +1,6 @@
 """What stays elastic in a contact with flow, condensed onto the hats: exact, and dense.
 
-Nomenclature: C compliance [m^2/Pa] of hat pressures p [Pa], w integrals of the hats [m].
-"""
+Nomenclature: C compliance [m^2/Pa] of hat pressures p [Pa], w integrals of the hats [m]."""
 
 import numpy as np
 from scipy.sparse import csr_matrix, diags, eye, kron
@@ -19,8 +18,7 @@ class CondensedRoller:
     displacement under each, v = C p / w, into the roller.
 
     flexible   C (count, count) [m^2/Pa]; its friction makes it unsymmetric
-    symmetric  as that
-    """
+    symmetric  as that"""
 
     frictionless, softness = True, np.ones(1)
 

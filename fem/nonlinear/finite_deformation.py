@@ -11,8 +11,7 @@ Friction drags the bodies past each other, by an amount that for unbounded bodie
 constant: a held block or a disc gives ten times what the half-plane's own datum gives. Left to
 itself the roller would stand over another place of the trace. Both are moved back along x until the
 displacement of each surface along x is zero in the pressure's mean: under load the roller stands
-where the scene has put it.
-"""
+where the scene has put it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -55,8 +54,7 @@ class FiniteDeformation:
     roller_displacement  (m, 2) [m] at those of an elastic roller, in its own frame; else empty
     approach       depth [m] of the roller's lowest point, before it deforms, below z = 0 of the
                    undeformed body
-    gap            (count,) [m] mean opening under each hat, along z
-    """
+    gap            (count,) [m] mean opening under each hat, along z"""
 
     body: ElasticBody
     hats: np.ndarray
@@ -119,8 +117,7 @@ class FiniteContact:
                the support holds it. An elastic roller has its own
     gap        (count,) [m^2] of the undeformed bodies, weighted by each hat
 
-    Raises FemError on more than one process.
-    """
+    Raises FemError on more than one process."""
 
     def __init__(
         self,
@@ -225,8 +222,7 @@ class FiniteCompliance:
     as the pressure has settled.
 
     steps  so far, one assembly and one back-substitution each
-    left   forces over the contact's, at the last pressure
-    """
+    left   forces over the contact's, at the last pressure"""
 
     def __init__(self, contact: FiniteContact) -> None:
         self._contact, self.displacement = contact, contact.linear

@@ -4,8 +4,7 @@ For small strains every law is the linear body of the same Young's modulus and P
 default is neo-Hookean. Under a flat on a sinusoid (slope 0.025, p0/E = 0.015) it has a peak
 pressure 0.42 % above the linear one, with lambda/4 (J^2 - 1 - 2 ln J) or lambda/2 (J - 1)^2 as its
 last term 0.29 and 0.22 %. The bulk modulus rises by 0.4, -0.3 and here 1.8 times the pressure
-(nu = 0.3), that of steel by about five times.
-"""
+(nu = 0.3), that of steel by about five times."""
 
 from dataclasses import dataclass
 
@@ -112,8 +111,7 @@ class CauchyRecovery(Recovery):
     traction give the stresses across the surface. Raises FemError for a coated body.
 
     estimate  sx, sz, txz (k, 3) [Pa] at all mesh points: means of the elements around them
-    across    stress across the plane (k,) [Pa] at the mesh points, of these means
-    """
+    across    stress across the plane (k,) [Pa] at the mesh points, of these means"""
 
     def __init__(
         self, body: ElasticBody, displacement: np.ndarray, load: SurfaceLoad, pressure: np.ndarray

@@ -13,8 +13,7 @@ Continuum Mechanics for Finite Element Analysis, 2nd ed., eq. 6.27; Hencky, Z. t
 Egle and Bray, J. Acoust. Soc. Am. 60 (1976) 741.
 
 Hencky's tr (ln U)^2 = (ln J)^2 / 2 + artanh^2(sqrt y) / 2, y = 1 - J^2/t^2, t = tr C / 2, has no
-singular derivative at equal stretches, where y = 0, as a series in y.
-"""
+singular derivative at equal stretches, where y = 0, as a series in y."""
 
 from functools import reduce
 from typing import TYPE_CHECKING

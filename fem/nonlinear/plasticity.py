@@ -19,8 +19,7 @@ Nomenclature
     Y, H       yield stress in tension [Pa]; its derivative by k [Pa]
     G, dk      shear modulus [Pa]; increment of k, (q - Y - H k) / (3 G + H)
     C, C_ep    elastic and consistent tangent [Pa]
-    u, B, w    displacement [m], strains of the shape functions [1/m], area of a point [m^2]
-"""
+    u, B, w    displacement [m], strains of the shape functions [1/m], area of a point [m^2]"""
 
 from dataclasses import dataclass
 
@@ -122,8 +121,7 @@ class PlasticBody:
     state   of the metal there at the end of the last accepted step
 
     Raises ValueError if the metal's elastic constants are not the body's, or if displacements are
-    not quadratic.
-    """
+    not quadratic."""
 
     symmetric, softness = True, np.ones(1)
 

@@ -17,8 +17,7 @@ the linear contact,
 rises from a negative value. If it is far above zero at the end, the step goes to its zero. With
 friction the slope includes the work of the tractions.
 
-Nomenclature as of `fem.contact.nonlinear`, K_t tangent of the body [Pa].
-"""
+Nomenclature as of `fem.contact.nonlinear`, K_t tangent of the body [Pa]."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -183,8 +182,7 @@ def press_plastically(
     friction    of the traction friction * pressure, towards +x on the body
     roller      the elastic roller's body on the same hats, may be `compliance`; None: rigid
 
-    Raises ValueError for negative loads, FemError if a load cannot be reached.
-    """
+    Raises ValueError for negative loads, FemError if a load cannot be reached."""
     if not loads or not loads[0] > 0.0 or min(loads) < 0.0:
         raise ValueError("the first load must be positive, and none negative")
     way = _LoadHistory(compliance, metal, gap, weights, guess, friction, roller)
@@ -204,8 +202,7 @@ class _LoadHistory:
     """The contact from load to load, with what stays elastic condensed.
 
     body   with its accepted plastic state
-    state  of the last contact
-    """
+    state  of the last contact"""
 
     def __init__(
         self,

@@ -1,8 +1,7 @@
 """Loading dolfinx and compiling its forms, robust against interrupts.
 
 dolfinx caches compiled forms in a folder. A process that is stopped while it compiles leaves a
-source there without the mark that it is ready; later processes wait for that mark, then fail.
-"""
+source there without the mark that it is ready; later processes wait for that mark, then fail."""
 
 import importlib
 import signal

@@ -59,8 +59,7 @@ class SymmetricFactor:
     bytes       memory that MUMPS holds for the factor, over all processes
     solves      right-hand sides so far
 
-    Raises FemError if MUMPS cannot factor it.
-    """
+    Raises FemError if MUMPS cannot factor it."""
 
     def __init__(self, matrix) -> None:
         from petsc4py import PETSc

@@ -1,8 +1,7 @@
 """Profiles and maps in files of numpy (npy, npz) and of MATLAB (mat), as numbers alone.
 
 Vectors of one length are the columns of a table under their names, an `x` first. An array of two
-dimensions is such a table where it has few columns, else a map without size and unit.
-"""
+dimensions is such a table where it has few columns, else a map without size and unit."""
 
 import io
 import zipfile

@@ -29,8 +29,7 @@ def profile_in(
                midway between its neighbours' if the rows are in order. A gap in x is such, too
     Rows may come in any order of x, but not twice at one x.
     Raises ProfileError (one line with the file, the line number, what is wrong, what is allowed)
-    for a file that cannot be read or trusted, ValueError for arguments that make no sense.
-    """
+    for a file that cannot be read or trusted, ValueError for arguments that make no sense."""
     given = {} if spacing is None else {"spacing": spacing}
     check_positive(x_scale=x_scale, height_scale=height_scale, **given)
     if dropouts not in ("refuse", "bridge"):

@@ -32,8 +32,7 @@ def known_part(
     """x and height (m,) [m] without dropouts, by ascending x, and the samples that they come from.
 
     x      (n,) [m] in any order; NaN only at ends that are left out
-    lost   (n,) which heights are; those beyond the outermost known ones are left out
-    """
+    lost   (n,) which heights are; those beyond the outermost known ones are left out"""
     if np.all(lost):
         raise ProfileError(path, "holds nothing but dropouts")
     inside = np.argsort(x, kind="stable")
@@ -59,8 +58,7 @@ def without_gaps(
     """The profile of x and height (n,) [m], `bridged` (n,) of them, with its gaps bridged as well.
 
     how   the fields of MeasuredProfile that are not found here
-    Raises ProfileError for what is no profile, and at the first gap unless dropouts are bridged.
-    """
+    Raises ProfileError for what is no profile, and at the first gap unless dropouts are bridged."""
     try:
         known = Profile(x, height)
     except ValueError as error:

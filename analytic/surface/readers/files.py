@@ -3,8 +3,7 @@
 Text of columns, spreadsheets and arrays are tables, of which one or two columns are a profile
 (`columns`). Everything else is a topography: surface data files (`topography`), PRF, and what
 SurfaceTopography knows (`instruments`), among it text that is no profile and whose header gives the
-map's size and unit. Any of them may be packed as gz.
-"""
+map's size and unit. Any of them may be packed as gz."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -144,8 +143,7 @@ def profile_of(
     spacing    [m] of samples: of a table of heights alone, and of a file without a size
     dropouts   "refuse" or "bridge", as `profile_in` has it
     chosen     the line of a map; needed for a map, wrong for anything else
-    Raises MissingUnitError for what else is needed, ProfileError for a file that cannot be used.
-    """
+    Raises MissingUnitError for what else is needed, ProfileError for a file that cannot be used."""
     if isinstance(opened, Topography):
         return _from_topography(opened, x_scale, height_scale, spacing, dropouts, chosen)
     scales = {"x_scale": x_scale or 1.0, "height_scale": height_scale or 1.0}

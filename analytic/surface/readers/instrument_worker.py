@@ -2,8 +2,7 @@
 
 Arguments: the file, where to put its heights (.npz), and the channel if not the default. The last
 line on standard output is JSON: what was found, or the problem in one line. A spreadsheet that the
-library does not know is a table.
-"""
+library does not know is a table."""
 
 import json
 import sys

@@ -1,8 +1,7 @@
 """Files of measuring instruments (X3P, OPD, Talysurf, Mitutoyo and others), by SurfaceTopography.
 
 That library is optional. It runs in a process of its own (`instrument_worker`): what it loads
-(HDF5, MPI) must not meet dolfinx's, and a reader that crashes or hangs is a message.
-"""
+(HDF5, MPI) must not meet dolfinx's, and a reader that crashes or hangs is a message."""
 
 import json
 import os

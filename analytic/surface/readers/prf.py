@@ -3,8 +3,7 @@
 Records end in a line EOR. The first names the axes, `CX M count unit scale type` and `CZ` alike,
 the second the sample distance, `SPACING CX distance`, in the unit of CX times its scale; in the
 third every line is a height, in the unit of CZ times its scale.
-Source: NPL, softgauges, data file formats (resource.npl.co.uk/softgauges/Help.htm).
-"""
+Source: NPL, softgauges, data file formats (resource.npl.co.uk/softgauges/Help.htm)."""
 
 import re
 from pathlib import Path

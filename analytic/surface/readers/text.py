@@ -20,8 +20,7 @@ decimal    with the comma as separator the point; otherwise comma or point, whic
            the caller announces one column: then the comma is decimal, and if the numbers before
            the commas all differ, so that they may be an x after all, the file is refused
 dropouts   an empty cell, a number that is not finite, only asterisks, hyphens or question
-           marks, a spreadsheet's error value, or a word of `DROPOUT`
-"""
+           marks, a spreadsheet's error value, or a word of `DROPOUT`"""
 
 import re
 from collections import Counter
@@ -99,8 +98,7 @@ class ColumnsError(NotRowsError):
 def chosen_columns(table: ProfileTable, columns: Sequence[str | int] | None) -> ProfileTable:
     """The table with the chosen columns alone; ProfileError where there is none such.
 
-    columns   one or two numbers, counted from 0, or names; None where there are no others
-    """
+    columns   one or two numbers, counted from 0, or names; None where there are no others"""
     width = table.numbers.shape[1]
     if columns is None:
         if width > 2:
@@ -131,8 +129,7 @@ def read_table(
 
     one_column   what the caller announces; it decides only how rows like `1,5` are read
     columns      as `chosen_columns` has them; others may hold anything
-    Raises ProfileError at the first row that is not a row of numbers and dropouts.
-    """
+    Raises ProfileError at the first row that is not a row of numbers and dropouts."""
     file_lines = read_lines(path, max_bytes)
     first = _first_row(path, file_lines)
     rows, lines = _rows(file_lines, first)

@@ -9,8 +9,7 @@ text      first line aISO-1.0, then lines `Key = value`, a line with an asterisk
           by row (a row is a profile) with BAD for those that were not measured, an asterisk
 binary    bISO-1.0, a header of fixed length, little endian, then the heights
 
-Scales are in m; a height is its number times Zscale.
-"""
+Scales are in m; a height is its number times Zscale."""
 
 import struct
 from dataclasses import dataclass
@@ -85,8 +84,7 @@ def trace_of(topography: Topography, chosen: MapLine | None) -> tuple[np.ndarray
     In the unit of the topography, which must have a pitch or an x. A line that follows neither
     rows nor columns is sampled at its start, at its end and evenly between at about the smaller
     pitch, by cubic interpolation over 4 x 4 samples; where one of these was not measured, the
-    height is NaN. Raises ProfileError where there is nothing to choose from, or outside the map.
-    """
+    height is NaN. Raises ProfileError where there is nothing to choose from, or outside the map."""
     if not topography.is_map:
         refuse_line(topography.path, chosen)
         if topography.x is not None:

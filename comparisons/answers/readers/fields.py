@@ -1,8 +1,7 @@
 """From a mesh of any code to the pressure along the surface and the stresses below it.
 
 The mesh is that of a body in plane strain: in a plane, or one layer of elements, as CalculiX makes
-of its plane elements. x is the file's first axis. Signs of normal stresses are those of tension.
-"""
+of its plane elements. x is the file's first axis. Signs of normal stresses are those of tension."""
 
 import re
 from dataclasses import dataclass

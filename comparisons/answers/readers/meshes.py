@@ -3,8 +3,7 @@
 frd                        CalculiX, ASCII or binary     pyvista-frd-reader
 vtu, vtk, vtkhdf, pvd, …   ParaView and many codes       pyvista
 e, exo, ex2                Exodus: MOOSE, Sierra         pyvista
-med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf take h5py
-"""
+med, xdmf, msh, …          Salome, FEniCS, gmsh          meshio; med and xdmf take h5py"""
 
 import subprocess
 import sys

@@ -8,8 +8,7 @@ and B (n, d), and on the d designs A_i, which are A with column i of B,
 
 V the variance over A and B. Where inputs do not interact, S_i and T_i are equal and sum to 1.
 Few samples suffice where f is nearly linear: the line of regression on the inputs is taken out of f
-before, and its shares, which are known, are added.
-"""
+before, and its shares, which are known, are added."""
 
 from dataclasses import dataclass
 

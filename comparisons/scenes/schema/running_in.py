@@ -61,8 +61,7 @@ def running_in_of(
     hardness  [Pa] of the body, if it has one
     position  [m] of the roller's centre on the trace
     placed    the trace with its x = 0 there
-    Raises SceneError where the roller would leave the trace.
-    """
+    Raises SceneError where the roller would leave the trace."""
     defaults = {"hardness": hardness} if table.hardness is None else {}
     positions = table.positions
     if positions is None:

@@ -1,7 +1,6 @@
 """A scene file as tables: which sections and fields there are, and what must hold between them.
 
-What is wrong is one line: "file: section.field: problem; allowed is …".
-"""
+What is wrong is one line: "file: section.field: problem; allowed is …"."""
 
 from collections.abc import Iterator
 from decimal import Decimal

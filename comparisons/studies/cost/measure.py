@@ -1,8 +1,7 @@
 """Time and memory of one setting of one method, in a process of its own with one thread.
 
 Seconds are processor time, gmsh's process included: on an idle machine the wall time, on a busy one
-what the wall time would be if the machine were idle.
-"""
+what the wall time would be if the machine were idle."""
 
 import re
 import statistics

@@ -129,8 +129,7 @@ def _sentence(
     """What to take, and why not the cheapest row.
 
     lucky  a cheaper row that meets the tolerances by chance
-    rows   the cheapest half-plane, the cheapest finite elements, the cheapest of all
-    """
+    rows   the cheapest half-plane, the cheapest finite elements, the cheapest of all"""
     half_plane, finite_element, best = rows
     aim = "all tolerances of the scene"
     if len(tolerances) == 1:

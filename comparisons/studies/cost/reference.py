@@ -6,8 +6,7 @@ the finite elements drop an assumption of the half-plane, the finest of them are
 each quantity those of the smallest uncertainty; the half-plane's errors then include its model
 error.
 
-The floor is the reference's own uncertainty: no error below it is known.
-"""
+The floor is the reference's own uncertainty: no error below it is known."""
 
 from dataclasses import dataclass, replace
 

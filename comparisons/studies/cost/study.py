@@ -1,8 +1,7 @@
 """All methods at all their settings, measured one after the other; what fails is a row as well.
 
 A setting that was measured is not measured again unless scene, program, versions, machine or the
-number of repeats differ; the time it took counts as before.
-"""
+number of repeats differ; the time it took counts as before."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,8 +1,7 @@
 """Decks in the keyword format that Abaqus and CalculiX share: the job, and the mesh that it reads.
 
 The rough body's top is the slave surface, the roller's the master. The load acts on a reference
-node, with which the roller's far boundary moves as one.
-"""
+node, with which the roller's far boundary moves as one."""
 
 from collections.abc import Iterable, Iterator
 

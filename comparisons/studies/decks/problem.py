@@ -7,8 +7,7 @@ A linear scene assumes a flat boundary and keeps the roughness in the gap. Its d
 initial gap on the rough body's top, under a flat roller, in heights divided by FLATTER, and moduli
 that are FLATTER times as large: pressures, stresses and forces of linear elasticity stay what they
 are, and whatever another code does on the deformed or rough surface is FLATTER times as small.
-Otherwise both bodies have their own shapes, as the project's finite elements do.
-"""
+Otherwise both bodies have their own shapes, as the project's finite elements do."""
 
 from dataclasses import dataclass, replace
 

@@ -41,8 +41,7 @@ def write_deck(scene: ResolvedScene, code: str, out: Path, level: int = 1) -> Wr
 
     level  of the scene's own refinement, from 1, whose elements the contact gets
     Raises InputError for another code or level and a folder that cannot be written, SceneError for
-    a scene that decks of this code do not describe.
-    """
+    a scene that decks of this code do not describe."""
     if code not in CODES:
         raise InputError(f"--for: is {code}; allowed is one of {', '.join(CODES)}")
     if not 1 <= level <= MOST_LEVEL:

@@ -115,8 +115,7 @@ def write_first_scene(
     force   replace the scene's file, and the picture's
     draw    a picture of the trace beside the scene, as SVG
     Raises InputError, one line, and writes nothing, where the profile or the place for the scene
-    cannot be used.
-    """
+    cannot be used."""
     out = profile.with_suffix(".toml") if out is None else out
     drawn = out.with_suffix(".svg") if draw else None
     _check_place(profile, out, force)

@@ -2,8 +2,7 @@
 
 A text file often names its units in the lines above its numbers ("x_um,height_um"). Where it does
 not, sizes decide: samples of surfaces lie some micrometres apart, and roughness is some tenths of
-one. Every guess comes with its reason.
-"""
+one. Every guess comes with its reason."""
 
 import re
 from collections.abc import Mapping
@@ -166,8 +165,7 @@ def fields_of_profile(path: Path, given: Mapping[str, str]) -> ProfileFields:
     """The fields that read the profile in a file, guessed where neither it nor `given` has them.
 
     given   fields of [profile] as TOML: x_unit, z_unit, spacing, columns, channel, row, column
-    Raises InputError, one line, for a file that cannot be used, or where no guess is possible.
-    """
+    Raises InputError, one line, for a file that cannot be used, or where no guess is possible."""
     try:
         found, read = _complete(path, dict(given))
     except (ProfileError, OSError) as error:

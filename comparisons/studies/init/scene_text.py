@@ -1,8 +1,7 @@
 """A scene file with every field of a measured profile's scene in it, each explained.
 
 Meanings and examples are those of `fields.toml`; what a field may hold is said by
-`comparisons.scenes.schema.fields.allowed`, as in error messages.
-"""
+`comparisons.scenes.schema.fields.allowed`, as in error messages."""
 
 import json
 import re
@@ -31,8 +30,7 @@ def scene_text(title: str, values: Values, notes: Values) -> str:
     """The text of a scene file.
 
     values  by section and field: what it is set to, as TOML; other fields stand there unused
-    notes   by section and field: a remark
-    """
+    notes   by section and field: a remark"""
     sections = tomllib.loads(FIELDS.read_text(encoding="utf-8"))
     heading = f"{sections.pop('title')}; allowed is {allowed(SceneFile, 'title')}"
     lines = [HEAD, *_comment(heading), f"title = {toml(title)}"]

@@ -89,8 +89,7 @@ def paper(
     effects  compute the half-plane's model error beside each claim; else it is estimated
 
     Raises InputError where `out` cannot be written and under mpirun, SolverError where a model
-    finds no solution; nothing is written then.
-    """
+    finds no solution; nothing is written then."""
     if is_several():
         raise InputError("paper: runs in several processes; allowed is one, without mpirun")
     check_writable(out, (PAGE, NUMBERS))

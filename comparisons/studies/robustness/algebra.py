@@ -1,8 +1,7 @@
 """Backward errors and condition numbers of the half-plane's algebra: direct solvers, FFT products.
 
 Ratios as in LAPACK's own tests (`backward_error`), for the ordinary grid and for the matrices of
-worst condition: many nodes, incompressible layers, coatings of high contrast.
-"""
+worst condition: many nodes, incompressible layers, coatings of high contrast."""
 
 from collections.abc import Callable, Sequence
 from functools import partial

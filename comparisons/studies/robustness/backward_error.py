@@ -4,8 +4,7 @@ As LAPACK tests its solvers (Anderson et al. 1999, LAPACK working note 41, test 
 
     ratio = ||b - A x||_1 / (||A||_1 ||x||_1 eps),   passed below THRESHOLD, whatever cond(A) is
 
-Then x is exact for a matrix that differs from A by rounding.
-"""
+Then x is exact for a matrix that differs from A by rounding."""
 
 from collections.abc import Callable
 

@@ -3,8 +3,7 @@ strain, contact of every node and on slopes of 1.
 
 LAPACK's test ratio must stay below its threshold whatever the condition number is. A state that the
 elements represent exactly must come out to rounding, which the condition may magnify. References of
-the contacts: elimination on the whole compliance matrix, cubic elements on the same mesh.
-"""
+the contacts: elimination on the whole compliance matrix, cubic elements on the same mesh."""
 
 from functools import lru_cache
 

@@ -1,7 +1,6 @@
 """Friction up to 1 where the bodies differ most: the sliding traction moves the surfaces.
 
-References: the exact sliding cylinder; the contact conditions on a dense matrix.
-"""
+References: the exact sliding cylinder; the contact conditions on a dense matrix."""
 
 from analytic.contact.equilibrium import Constraints
 from analytic.exact.sliding import sliding_from_load

@@ -1,8 +1,7 @@
 """Rough lines at their extremes: one node, plateaus, spikes, steep slopes, other units.
 
 References: a load over one node's weight; bounded least squares and the contact conditions on a
-dense matrix; the same profile in other units.
-"""
+dense matrix; the same profile in other units."""
 
 import numpy as np
 

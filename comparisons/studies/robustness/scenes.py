@@ -2,8 +2,7 @@
 
 References: Hertz, the sliding and the flattened cylinder, exact; the same scene in other units;
 for layers and coatings the analytic layer's contact on the same hats, which knows no mesh and no
-locking (and is held to its own references by the half-plane's rows).
-"""
+locking (and is held to its own references by the half-plane's rows)."""
 
 from functools import lru_cache
 from pathlib import Path

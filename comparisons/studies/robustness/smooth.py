@@ -1,8 +1,7 @@
 """Smooth cylinders on a half-plane: extreme stiffness, size, load, hardness and grids.
 
 In half-widths and peak pressures every Hertz contact is the same. So each row states its distance
-from the exact contact, and from the ordinary case, which is rounding.
-"""
+from the exact contact, and from the ordinary case, which is rounding."""
 
 from functools import cache
 

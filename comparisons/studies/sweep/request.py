@@ -80,8 +80,7 @@ def sweep_request(
 
     tables   of the scene, as TOML has them; paths in them count from `folder`
     over     "position=40" placements along the trace, "FIELD=FROM:TO:N" or "FIELD=A,B,C"
-    Raises InputError for anything that is wrong with them, or where no point has a scene.
-    """
+    Raises InputError for anything that is wrong with them, or where no point has a scene."""
     if not over:
         raise InputError("--over: is missing; allowed is FIELD=A,B,C, FIELD=FROM:TO:N, position=N")
     scene = resolve_tables(tables, name=name, folder=folder, source=source)

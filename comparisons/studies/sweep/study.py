@@ -44,8 +44,7 @@ def make_sweep(
     """Solve the points that `out` does not have, write table and picture there, return the content.
 
     workers  processes; None: one a core
-    Raises InputError for what cannot be written, and where no point has an answer.
-    """
+    Raises InputError for what cannot be written, and where no point has an answer."""
     check_writable(out, (TABLE, PICTURE, ZONE_MAP, SWEEP))
     cache = Cache(out / FOLDER, "", {})
     cache.remove_leftovers()

@@ -1,8 +1,7 @@
 """Figures with an exact answer: coverage of their stated uncertainties, and orders of convergence.
 
 Of one contact the error varies with where the edge falls between two nodes; the root mean square
-over contacts with different numbers of elements falls like a power of the element size.
-"""
+over contacts with different numbers of elements falls like a power of the element size."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass

@@ -2,8 +2,7 @@
 
 The form is a CSV table, a row a figure: expected value, tolerance, and two columns to fill in, the
 answer [SI] and its relative uncertainty. A row is judged as figures of a run are; `covered` says
-whether an answer lies within its own uncertainty.
-"""
+whether an answer lies within its own uncertainty."""
 
 import csv
 import io

@@ -1,8 +1,7 @@
 """The finite elements' contact again by PETSc's variational inequality, on the same mesh.
 
 It shares mesh, stiffness and hats with a level of `run`, but neither its compliance operator nor
-its contact solver, so that a mistake of either shows.
-"""
+its contact solver, so that a mistake of either shows."""
 
 import tomllib
 from collections.abc import Iterable

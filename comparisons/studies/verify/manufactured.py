@@ -7,8 +7,7 @@ such slopes that displacement and traction are continuous at its lower side. Req
 orders 2, 3, 4 for degrees 1, 2, 3 and one less in the energy norm, each within 0.1 on both sides.
 Reference: the exact solution, integrated with a rule of degree 8 on each element. A body of
 quadratic edges is solved as it is: the exact solution has no boundary, so that how well the edges
-follow a profile does not enter.
-"""
+follow a profile does not enter."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace

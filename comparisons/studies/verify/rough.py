@@ -3,8 +3,7 @@
 Their initial gap is made from the pressures (`analytic.exact.manufactured`), so that there are as
 many patches as one likes, of any widths, on a half-plane, a layer or a coating. A scene's roughness
 is what the gap lies below a roller's parabola, sampled so densely that its spline leaves errors far
-below any stated uncertainty.
-"""
+below any stated uncertainty."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

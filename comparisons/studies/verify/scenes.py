@@ -6,8 +6,7 @@ contact only depends on ratios. For the numerics cases differ by where the edges
 nodes, so each case has its own number of pressure elements on a half-width.
 
 Nomenclature: a half-width [m], h pitch of the pressure elements [m], R radius [m], p0 peak
-pressure [Pa], mu friction coefficient.
-"""
+pressure [Pa], mu friction coefficient."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace

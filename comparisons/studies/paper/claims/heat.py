@@ -3,8 +3,7 @@
 Its short formulas stand against exact solutions, its partition against the one that is solved
 under Hertz's pressure.
 
-Temperatures are parts of the surface's rise, times multiples of tL, in which heat passes a slab.
-"""
+Temperatures are parts of the surface's rise, times multiples of tL, in which heat passes a slab."""
 
 import numpy as np
 

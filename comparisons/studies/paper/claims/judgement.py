@@ -3,8 +3,7 @@
 A number confirms a claim where its whole uncertainty lies inside the claim's bounds, and denies it
 where it lies outside of them (of wider bounds where the paper gives words and no number). The
 outcome is inconclusive unless all models that can measure the claim say the same, and wherever the
-stand-in profile was made to show what the claim says.
-"""
+stand-in profile was made to show what the claim says."""
 
 from dataclasses import asdict, dataclass, replace
 from math import inf
@@ -139,8 +138,7 @@ def measured(outcome: Outcome, model: str, reading: Reading, exact: bool = False
 
     Discretisation, far boundary and iteration as for a run's figures; besides, what reading only
     every second row and column of the window changes.
-    exact  the number is an error against an exact value: it has no uncertainty of its own
-    """
+    exact  the number is an error against an exact value: it has no uncertainty of its own"""
     run = outcome.runs[model]
     views = [LevelView(model, outcome.problem, level, outcome.window) for level in run.levels]
     values = [reading(view) for view in views]

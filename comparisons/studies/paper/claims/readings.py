@@ -2,8 +2,7 @@
 
 Lengths in a, stresses in p0: half-width and peak pressure of the smooth (Hertz) contact under the
 same load. Shares and ratios have no unit. "Smooth maximum" is the largest tau1 of the smooth
-contact without friction, 0.3003 p0.
-"""
+contact without friction, 0.3003 p0."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,8 +1,7 @@
 """Numbers read off a field of shear stress: zones, what joins them, and where fields agree.
 
 Arrays are (m, k), one row a depth from the surface down. Two points belong to one zone where a
-path leads from one to the other, over sides or corners, on which the field stays at a level.
-"""
+path leads from one to the other, over sides or corners, on which the field stays at a level."""
 
 import numpy as np
 from scipy.ndimage import label
@@ -65,8 +64,7 @@ def share_joined(
 ) -> float:
     """Of the area in `part` (m, k) at or above a level, the share joined with `seed`; 0 of none.
 
-    weights  (m, 1) or (m, k), the area that a point stands for
-    """
+    weights  (m, 1) or (m, k), the area that a point stands for"""
     area = np.broadcast_to(weights, field.shape)
     above = part & (field >= level)
     total = float(np.sum(area[above]))
