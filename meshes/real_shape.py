@@ -14,6 +14,10 @@ Disc of radius R [m], z into the roller as for every body, with the sagitta s(x)
 
 The surface goes to the roller's circle without moving along x, lines of equal depth to circles
 about the centre (0, R), upright lines to rays.
+
+What lies near the contact in a disc (`rounded`): squares about the origin go to arcs about it, rays
+to curves that divide the disc's angle there, pi - 2 asin(r / 2R), as they divide pi. Base and sides
+become the arc that ends on the rim over the block's ends.
 """
 
 import time
@@ -131,6 +135,27 @@ WIDEST, DEEPEST = 0.8, 0.7
 def sagitta(x: np.ndarray, radius: float) -> np.ndarray:
     """s(x) [m] of a circle of `radius` [m], without cancellation."""
     return x**2 / (radius + np.sqrt(radius**2 - x**2))
+
+
+def rounded(mesh: BlockMesh, radius: float) -> BlockMesh:
+    """Mesh of a disc of `radius` [m] up to an arc about the contact, from that of a flat block as
+    deep as its half-width; x of the surface stays. Raises MeshError if it is of another form, or
+    wider than the disc, or if the elements are not fit to solve on."""
+    half = mesh.spec.half_width
+    if mesh.shift.any() or mesh.spec.depth != half or not half < radius:
+        raise MeshError(
+            f"only a flat block as deep as its half-width, {half:g} m, and that below the radius, "
+            f"{radius:g} m, can be rounded"
+        )
+    x, z = mesh.points.T
+    r, square = np.hypot(x, z), np.maximum(np.abs(x), z)
+    chord = np.sqrt(2.0 * radius * sagitta(r - square / half * (r - square), radius))
+    share = 1.0 - np.arcsin(0.5 * chord / radius) / (0.5 * np.pi)
+    angle = 0.5 * np.pi - share * np.arctan2(x, z)
+    real = chord[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    disc = replace(mesh, shift=real - mesh.points)
+    quality = check_quality(disc, least_angle_degrees=LEAST_ANGLE_ROUGH_DEGREES)
+    return replace(disc, quality=mesh.quality | quality)
 
 
 def bent(mesh: BlockMesh, radius: float) -> BlockMesh:

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 # large. At rest the scene's `reach` bounds it.
 SLOWEST, FASTEST = 1e-3, 1e4
 BODIES = ("body", "roller")
+# Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
+# what is left of the disc farther off is a narrow lens.
+FARTHEST = 1.2
 
 
 @dataclass(frozen=True)
@@ -112,4 +115,10 @@ def check_heat(problem: Problem) -> None:
         raise SceneError(
             f"{scene.source}: heat.reach: is {scene.heat.reach:g} m; allowed is at least "
             f"{least:.3g} m, four times as far as the contact may reach"
+        )
+    most = FARTHEST * scene.roller_radius
+    if scene.heat.velocities[1] == 0.0 and scene.heat.reach > most:
+        raise SceneError(
+            f"{scene.source}: heat.reach: is {scene.heat.reach:g} m in a roller at rest; allowed "
+            f"is at most {most:.3g} m, {FARTHEST:g} times its radius"
         )

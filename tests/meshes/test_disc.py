@@ -10,7 +10,7 @@ from meshes.block import EDGES, BlockSpec, MeshError, real_points
 from meshes.build import build_block
 from meshes.msh_file import read_msh, write_msh
 from meshes.quality import corner_jacobians
-from meshes.real_shape import bent, roughen, sagitta
+from meshes.real_shape import bent, roughen, rounded, sagitta
 
 RADIUS = 2.0
 
@@ -135,3 +135,32 @@ def test_comes_back_from_its_file(disc, tmp_path):
     assert np.array_equal(found.shift, disc.shift)
     assert found.points == pytest.approx(disc.points, abs=1e-15)
     assert real_points(found) == pytest.approx(real_points(disc), abs=1e-15)
+
+
+def test_rounded_about_the_contact():
+    """Up to an arc about the contact, between rim and rim; rays divide the angle alike."""
+    flat = build_block(BlockSpec(1.6, 1.6, np.array([[-0.2, 0.2]]), 0.02, 0.2))
+    disc = rounded(flat, RADIUS)
+    on = flat.points[:, 1] == 0.0
+    places = real_points(disc)
+    assert places[on, 0] == pytest.approx(flat.points[on, 0], abs=1e-14)
+    assert from_centre(places[on])[0] == pytest.approx(np.full(on.sum(), RADIUS), rel=1e-14)
+    outer = np.abs(np.abs(flat.points).max(axis=1) - 1.6) < 1e-12
+    arc = np.hypot(1.6, sagitta(1.6, RADIUS))
+    assert np.hypot(*places[outer].T) == pytest.approx(np.full(outer.sum(), arc), rel=1e-12)
+    assert np.hypot(*places.T).max() < arc * (1.0 + 1e-12)
+    middle = flat.points[:, 0] == 0.0
+    assert np.all(places[middle, 0] == pytest.approx(0.0, abs=1e-14))
+    corners = corner_jacobians(places, disc.triangles)
+    assert corners.min() > 0.0
+    lens = arc**2 * np.arccos(0.5 * arc / RADIUS) + RADIUS**2 * np.arccos(
+        1.0 - 0.5 * (arc / RADIUS) ** 2
+    )
+    lens -= 0.5 * arc * np.sqrt(4.0 * RADIUS**2 - arc**2)
+    assert 0.5 * corners.mean(axis=1).sum() == pytest.approx(lens, rel=2e-3)
+
+
+def test_what_is_not_rounded(flat):
+    for mesh, radius in ((flat, RADIUS), (block(1.0, 1.0), 0.9)):
+        with pytest.raises(MeshError, match=r"only a flat block as deep as .* can be rounded"):
+            rounded(mesh, radius)

@@ -19,6 +19,9 @@ class HeatFigure:
     difference: float | None = None
     # the part of it that the half-plane finds under the finite elements' pressures
     by_pressure: float | None = None
+    # of each feature that the finite elements alone have: what the figure is without it, over what
+    # it is with it, less 1 (`value`), and the numerical `uncertainty` of that
+    effects: dict[str, dict[str, float]] = field(default_factory=dict)
     uncertainty: float | None = None  # of the difference, numerical
     tolerance: float | None = None
     verdict: Verdict | None = None
@@ -35,7 +38,7 @@ class HeatStudy:
     # part of the heat into the body that older rules give the whole contact, and the flash
     # temperature [K] by each
     rules: dict[str, dict[str, float]]
-    contains: tuple[str, ...]  # what the finite elements alone have, in words
+    contains: dict[str, str]  # what the finite elements alone have, in words
     x: np.ndarray = field(repr=False)  # (n,) [m]
     z: np.ndarray = field(repr=False)  # (m,) [m]
     field: np.ndarray = field(repr=False)  # (2, m, n) [K] in body and roller, half-planes
@@ -48,5 +51,5 @@ class HeatStudy:
             "models": {name: each.figures for name, each in self.contacts.items()},
             "figures": {figure.quantity: asdict(figure) for figure in self.figures},
             "rules": self.rules,
-            "contains": list(self.contains),
+            "contains": list(self.contains.values()),
         }

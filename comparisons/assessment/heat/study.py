@@ -33,7 +33,7 @@ def heat_study(
 ) -> HeatStudy:
     """Temperatures on every level of every model that was run, and the comparison."""
     callback("frictional heat")
-    histories, contains, moved = {}, (), {}
+    histories, contains, moved, dropped = {}, {}, {}, {}
     if "half_plane" in runs:
         levels = runs["half_plane"].levels
         histories["half_plane"] = [half_space_heat(problem, level) for level in levels]
@@ -47,7 +47,12 @@ def heat_study(
         moved = {
             name: far_boundary(smaller.figures[name] / coarse.figures[name], 1.0) for name in JUDGED
         }
-    figures = tuple(_figure(problem, runs, histories, moved, name) for name in JUDGED)
+        for feature in contains:
+            callback(f"frictional heat without {contains[feature]}")
+            bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
+            dropped[feature] = list(zip(bare, own, strict=True))
+    given = problem, runs, histories, moved, dropped
+    figures = tuple(_figure(*given, name) for name in JUDGED)
     finest = {name: history[-1] for name, history in histories.items()}
     first, peclet = next(iter(finest.values())), peclet_numbers(problem)
     found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
@@ -59,6 +64,7 @@ def _figure(
     runs: dict[str, ModelRun],
     histories: dict[str, list[HeatedContact]],
     moved: dict[str, float],
+    dropped: dict[str, list[tuple[HeatedContact, HeatedContact]]],
     name: str,
 ) -> HeatFigure:
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
@@ -69,9 +75,10 @@ def _figure(
         left = grid_convergence(history, FORMAL_ORDER).uncertainty / abs(history[-1])
         domain = moved[name] if model == "finite_element" else 0.0
         own[model] = left + iteration(runs[model].finest) + domain
+    effects = {feature: _effect(pairs, name) for feature, pairs in dropped.items()}
     shown = {model: history[-1] for model, history in values.items()}
     if len(values) < 2:
-        return HeatFigure(name, shown, own)
+        return HeatFigure(name, shown, own, effects=effects)
     one, other = shown["half_plane"], shown["finite_element"]
     difference = (one - other) / other
     uncertainty = abs(1.0 + difference) * own["half_plane"] + own["finite_element"]
@@ -80,7 +87,15 @@ def _figure(
     by_pressure = (one - under_theirs) / other
     tolerance = problem.scene.heat.tolerance
     verdict = judge(difference, uncertainty, tolerance)
-    return HeatFigure(name, shown, own, difference, by_pressure, uncertainty, tolerance, verdict)
+    found = by_pressure, effects, uncertainty, tolerance, verdict
+    return HeatFigure(name, shown, own, difference, *found)
+
+
+def _effect(pairs: list[tuple[HeatedContact, HeatedContact]], name: str) -> dict[str, float]:
+    """Of what the first of each pair has not and the second has, on every level."""
+    moved = [bare.figures[name] / whole.figures[name] - 1.0 for bare, whole in pairs]
+    found = grid_convergence(moved, FORMAL_ORDER)
+    return {"value": found.value, "uncertainty": found.uncertainty}
 
 
 def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, float]]:

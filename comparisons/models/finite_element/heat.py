@@ -1,14 +1,18 @@
 """The heat of friction in finite bodies: conduction on meshes of their own, and its partition.
 
 A body without a thickness goes on as a half-space beyond its mesh. That of a layer ends where the
-heat has gone into its base or been carried off.
+heat has gone into its base or been carried off. The roller is a disc of its radius and has its bulk
+temperature at the scene's `reach` from the contact, and where its rim comes in; of a fast one only
+what is heated is meshed.
 """
+
+from collections.abc import Set
 
 import numpy as np
 
 from analytic.material import ThermalMaterial
 from analytic.numerics import runs_of
-from comparisons.models.heat import HeatedContact, heat_of_friction
+from comparisons.models.heat import FARTHEST, HeatedContact, heat_of_friction
 from comparisons.models.level import Level
 from comparisons.models.problem import Problem
 from fem.body.coating import Coating
@@ -17,17 +21,23 @@ from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.partition import FrictionalHeat
 from fem.heat.surface_heat import values_at
 from meshes.build import build_block
+from meshes.real_shape import rounded
 from meshes.thermal_layer import thermal_spec
 
 BLOCK = 10.0  # half-width and depth over those of what is heated
 BESIDE = 6.0  # half-width of a layer's block over its thickness, beyond that
 UPSTREAM = 5.0  # the same over kappa/V, of an insulated layer, whose heat goes nowhere else
+# Depth of the part of a disc that is meshed over kappa/V, from which its far side does not count.
+EXIT = 20.0
 LAYERS, GROWTH = 1.0, 0.28  # of `meshes.thermal_layer`, on the coarsest level
 
 
-def finite_element_heat(problem: Problem, level: Level, block: float = 1.0) -> HeatedContact:
+def finite_element_heat(
+    problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
+) -> HeatedContact:
     """As the half-spaces' `comparisons.models.heat.half_space_heat`, under the pressures of a
-    finite-element level; `block` scales the mesh of an unbounded body."""
+    finite-element level; `block` scales the mesh of an unbounded body. What is left out `without`
+    the names of `what_it_contains` is of a half-space."""
     x, heat = level.grid.x, heat_of_friction(problem, level)
     x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
     heat = np.pad(heat, 1)
@@ -37,7 +47,7 @@ def finite_element_heat(problem: Problem, level: Level, block: float = 1.0) -> H
     settings = problem.scene.heat
     given = zip((settings.body, settings.roller), settings.velocities, (True, False), strict=True)
     bodies = tuple(
-        _conduction(problem, material, velocity, patches, level.grid.pitch, block, rough)
+        _conduction(problem, material, velocity, patches, level.grid.pitch, block, rough, without)
         for material, velocity, rough in given
     )
     found = FrictionalHeat(bodies, x, contact).steady(heat)
@@ -59,10 +69,13 @@ def _conduction(
     pitch: float,
     block: float,
     rough: bool,
+    without: Set[str],
 ) -> Conduction:
     """The rough body or the roller on a mesh of its own, finer on each level in every respect."""
     scene, settings = problem.scene, problem.scene.heat
-    thickness, coated = (scene.thickness, scene.coating) if rough else (None, None)
+    thickness = scene.thickness if rough and "thickness" not in without else None
+    coated = scene.coating if rough and "coating" not in without else None
+    radius = np.inf if rough or "roller" in without else scene.roller_radius
     half_width = block * BLOCK * float(np.abs(patches).max())
     layer = None if coated is None else Coating(settings.coating, coated.thickness)
     slower = min(m.diffusivity for m in (material, layer and layer.material) if m)
@@ -72,6 +85,11 @@ def _conduction(
         half_width += block * BESIDE * thickness
         if settings.base == "insulated":
             half_width = half_width + UPSTREAM * abs(length) if velocity else settings.reach
+    elif np.isfinite(radius):
+        reach = min(settings.reach, FARTHEST * radius)
+        whole = reach * np.sqrt(1.0 - (0.5 * reach / radius) ** 2)  # x where the rim is that far
+        depth = half_width = min(whole, max(half_width, block * EXIT * abs(length)))
+        around = Surroundings("held", "flow" if depth > EXIT * abs(length) else "held")
     else:
         half_width = half_width if velocity else min(half_width, 0.5 * settings.reach)
         depth, around = half_width, Surroundings("open", "open")
@@ -86,16 +104,18 @@ def _conduction(
         growth=GROWTH / np.sqrt(finer),
         interface=None if layer is None else layer.thickness,
     )
-    body = thermal_body(build_block(spec), material, coating=layer)
+    mesh = build_block(spec)
+    mesh = rounded(mesh, radius) if np.isfinite(radius) else mesh
+    body = thermal_body(mesh, material, coating=layer, radius=radius)
     return Conduction(body, velocity, around, float(patches.mean()), settings.reach)
 
 
-def what_it_contains(problem: Problem) -> tuple[str, ...]:
+def what_it_contains(problem: Problem) -> dict[str, str]:
     """What the finite elements have and the half-space has not, in words."""
-    scene, found = problem.scene, []
+    scene, found = problem.scene, {}
     if scene.thickness is not None:
         how = {"held": "at its bulk temperature", "insulated": "insulated"}[scene.heat.base]
-        found.append(f"the body's thickness, its base {how}")
+        found["thickness"] = f"the body's thickness, its base {how}"
     if scene.coating is not None:
-        found.append("the coating")
-    return tuple(found)
+        found["coating"] = "the coating"
+    return found | {"roller": "the roller as a disc"}

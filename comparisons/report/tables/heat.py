@@ -56,12 +56,16 @@ def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
         ("Peclet number V a / 2κ", ", ".join(numbers)),
         ("bulk temperature", datum),
         ("largest rise at x =", ", ".join(dict.fromkeys(with_unit(x, "m") for x in places))),
-        ("the finite elements have", ", ".join(study.contains)),
+        ("the finite elements have", ", ".join(study.contains.values())),
     ]
     first = study.figures[0]
     if first.by_pressure is not None:
         share = _difference(first, first.by_pressure)
         found.append(("of its difference, by other pressures", share))
+    for feature, effect in first.effects.items():
+        share = percent(effect["value"], signed=True, uncertainty=effect["uncertainty"])
+        share = f"{share} ± {percent(effect['uncertainty'])}"
+        found.append((f"the largest rise without {study.contains[feature]}", share))
     return [fact for fact in found if fact[1]]
 
 

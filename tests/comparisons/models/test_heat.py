@@ -108,7 +108,8 @@ def test_finite_bodies_against_transforms(body, coating, base):
         2:-2
     ]  # next to the ends of contact the flux is not that of the hats
     assert found.body[inside] == pytest.approx(exact[inside], abs=2e-3 * exact.max())
-    assert bool(what_it_contains(given)) == bool(body or coating)
+    contained = {"thickness": "thickness" in (body or {}), "coating": bool(coating), "roller": True}
+    assert list(what_it_contains(given)) == [name for name, has in contained.items() if has]
 
 
 def test_a_square_at_rest_is_a_half_space_with_its_reach():
@@ -120,6 +121,40 @@ def test_a_square_at_rest_is_a_half_space_with_its_reach():
     assert finite.body[[0, -1]] == pytest.approx(half_space.body[[0, -1]], rel=3e-3)
     nearer = half_space_heat(made(slide_to_roll=-2.0, reach=9.9e-4, **INSULATOR), level)
     assert nearer.figures["flash_temperature"] < (1.0 - 2e-3) * largest  # what it could tell
+
+
+@pytest.mark.parametrize("reach", [None, 2e-3])
+def test_a_roller_at_rest_is_narrower_than_its_half_space(reach):
+    """All heat enters the roller. A disc's contact sees a half-space that reaches farther, as far
+    as tests/fem/heat/test_conduction.py has it."""
+    own = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
+    given = made(slide_to_roll=2.0, **own, **({"reach": reach} if reach else {}))
+    level, heat, radius = level_of(given), given.scene.heat, given.scene.roller_radius
+    half = 0.5 * heat.reach / radius
+    height = np.sqrt(1.0 - half**2) / heat.reach
+    farther = 2.0 * (np.pi - np.arccos(half)) / (np.pi * height) / heat.reach
+    disc, flat = (finite_element_heat(given, level, without=w) for w in (set(), {"roller"}))
+    assert disc.fraction == pytest.approx(0.0, abs=1e-4)
+    step = np.log(farther) * disc.heat.sum() * level.grid.pitch
+    inside = disc.heat > 0.0
+    rise = (disc.roller - flat.roller)[inside]
+    assert rise == pytest.approx(step / (np.pi * heat.roller.conductivity), rel=2e-2)
+    half_space = half_space_heat(given, level)
+    assert flat.figures["mean_temperature"] == pytest.approx(
+        half_space.figures["mean_temperature"], rel=2e-3
+    )
+
+
+def test_a_fast_roller_is_a_half_space():
+    """Of it, what is heated alone is meshed; a slow one is warmer than a half-space."""
+    own = {f"body_{name}": INSULATOR[f"roller_{name}"] for name in ("conductivity", "density")}
+    for speed, least, most in ((20.0, 2e-4, 2e-3), (2.0, 1e-3, 1e-2), (0.05, 0.01, 0.1)):
+        given = made(slide_to_roll=-2.0, speed=speed, **own)
+        level = level_of(given)
+        disc, flat = (finite_element_heat(given, level, without=w) for w in (set(), {"roller"}))
+        assert disc.fraction == pytest.approx(0.0, abs=1e-4)
+        one, other = (each.figures["mean_temperature"] for each in (disc, flat))
+        assert least < one / other - 1.0 < most
 
 
 def test_largest_temperature_of_a_band():

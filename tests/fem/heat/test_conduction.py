@@ -16,7 +16,7 @@ from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.surface_heat import flux_load
 from meshes.block import BlockSpec, MeshError, real_points
 from meshes.build import build_block
-from meshes.real_shape import bent
+from meshes.real_shape import bent, rounded
 from meshes.thermal_layer import thermal_spec
 
 UNIT = ThermalMaterial(1.0, 1.0, 1.0)
@@ -159,6 +159,67 @@ def test_an_open_boundary_stands_for_the_half_plane():
         [band_surface(np.linspace(-1, 1, 401), 0.0025).max(), at_rest], rel=2e-4
     )
     assert surface[5.0] == pytest.approx(surface[10.0], rel=2e-3)
+
+
+def disc(radius, reach, velocity, layers, size):
+    """The part of a disc that lies within `reach` of a band, its arc held."""
+    half = reach * np.sqrt(1.0 - (0.5 * reach / radius) ** 2)
+    length = 1.0 / velocity if velocity else np.inf
+    law = {"half_width": half, "depth": half, "length": length, "layers": layers}
+    mesh = rounded(build_block(thermal_spec([[-1, 1]], size, **law)), radius)
+    body = thermal_body(mesh, UNIT, radius=radius)
+    around = Surroundings("held", "flow" if velocity else "held")
+    found = Conduction(body, velocity, around).steady(flux_load(body, BAND, np.ones(3)))
+    return body.surface.x, found[body.surface.point]
+
+
+@pytest.mark.parametrize("part", [0.3, 1.0, 1.2])
+@pytest.mark.parametrize("radius", [30.0, 60.0])
+def test_a_disc_at_rest(radius, part):
+    """1/z maps the disc to a half-plane and the arc to a circle about the image of infinity; with
+    its mirror image that is a lens, whose logarithmic capacity is known (pi h / beta: h half its
+    height, beta its outer angle). The contact sees a half-plane that reaches as far as 1 over it.
+    """
+    reach = part * radius
+    outer, height = np.pi - np.arccos(0.5 * part), np.sqrt(reach**-2 - 0.25 * radius**-2)
+    as_far = 2.0 * outer / (np.pi * height)
+    exact = (np.log(as_far) + 1.0) * 2.0 / np.pi  # middle of the band: mean of ln(as_far / |x|)
+    found = disc(radius, reach, 0.0, 2, 0.05)[1].max()
+    assert found == pytest.approx(exact, rel=1e-3)
+    half_plane = (np.log(reach) + 1.0) * 2.0 / np.pi  # the disc is narrower
+    assert found > (1.0 + 0.05 * part) * half_plane
+
+
+def turning(x, radius, velocity):
+    """Surface temperature at x of a disc that turns past the band, by angular modes of any order nu
+    (what enters is never warm): T / q = 1 / (beta I_nu' / I_nu), beta^2 = i w V, nu = w R."""
+    step, ring, start = 0.005, 2**18, 2**16
+    arc = step * (np.arange(ring) - start)
+    edge = radius * np.arcsin(1.0 / radius)
+    flux = np.clip((edge - np.abs(arc)) / step + 0.5, 0.0, 1.0)
+    flux *= np.cos(np.clip(arc / radius, -1.0, 1.0))  # the band's is counted along x
+    wave = 2.0 * np.pi * np.fft.rfftfreq(ring, step)
+    wave[0] = wave[1]
+    nu, z = radius * wave, radius * np.sqrt(1j * wave * velocity)
+    ratio = np.zeros_like(z)  # I_{nu+1} / I_nu, by its continued fraction
+    for more in range(4000, 0, -1):
+        ratio = 1.0 / (2.0 * (nu + more) / z + ratio)
+    resistance = radius / (nu + z * ratio)
+    resistance[0] = 0.0
+    rise = np.fft.irfft(np.fft.rfft(flux) * resistance, ring)
+    return np.interp(radius * np.arcsin(x / radius), arc, rise - rise[start - 4000])
+
+
+def test_a_disc_that_turns():
+    x, errors = np.array([-0.8, -0.3, 0.0, 0.45, 0.8, 0.9]), []
+    for radius, velocity in ((10.0, 2.0), (10.0, 20.0), (20.0, 2.0)):
+        place, found = disc(radius, radius, velocity, 2, 0.05)
+        exact = turning(x, radius, velocity)
+        assert np.interp(x, place, found) == pytest.approx(exact, abs=2e-3 * exact.max())
+        errors.append(1.0 - band_surface(-x, 0.5 * velocity).max() / exact.max())
+    slow, fast, flatter = errors  # of the half-plane, which is too cool by as much
+    assert 0.05 < slow < 0.06 and 0.01 < fast < 0.015
+    assert np.log2(slow / flatter) == pytest.approx(1.0, abs=0.2)
 
 
 def leaving(conduction, temperature, load):

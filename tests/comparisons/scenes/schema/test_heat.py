@@ -68,6 +68,10 @@ def test_refused_by_the_rest_of_the_scene():
         ({"speed": 5e7}, r"a Peclet number of 1\.07e\+09 of the body: heat would reach no depth"),
         ({"speed": 1e-6}, r"allowed is 4\.68e-05 m/s to 468 m/s here, Peclet numbers from 0\.001"),
         ({"reach": 1e-4}, r"heat\.reach: is 0\.0001 m; allowed is at least"),
+        (
+            {"reach": 0.1},
+            r"is 0\.1 m in a roller at rest; allowed is at most 0\.0\d+ m, 1\.2",
+        ),
     ],
 )
 def test_what_no_temperature_can_be_computed_for(fields, said):
