@@ -2,8 +2,7 @@
 
 The commands stand in `comparisons.commands`. They only take their arguments apart and return the
 job to do; `main` does it, so that every error and interrupt of the work ends in one place. What a
-command needs beyond the standard library is imported by its job: `crosscheck --help` loads typer
-and nothing else."""
+command needs beyond the standard library its job imports: `crosscheck --help` loads typer alone."""
 
 import errno
 import os

@@ -63,9 +63,8 @@ def solve_with_model(
 
     A poor model costs steps, not accuracy: what misses `tolerance` after MAX_STEPS is returned,
     the best of all steps, with `converged` False.
-    `iterations` counts the steps and the applications of C and of D; C is applied once more than
-    there are steps where an approach is prescribed and the model is a half-plane, and where `start`
-    is `nearer`."""
+    `iterations` counts the steps and the applications of C and of D; C is applied once
+    more than there are steps at a given approach on a half-plane, and if `start` is `nearer`."""
     common, constraints = common_gap(weighted_gap, weights, constraints)
     weighted_gap = weighted_gap - common * weights
     pressure, carried, share = start, np.zeros_like(weighted_gap), 1.0

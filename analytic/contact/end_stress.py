@@ -122,8 +122,7 @@ def _balanced(
     pressure: np.ndarray,
     nodal: np.ndarray,
 ) -> SmoothPatch | None:
-    """With ends, near these, where the curve has the hats' force and moment; None where it is no
-    such curve."""
+    """With ends, near these, where the curve has the hats' force and moment; None if none has."""
     count, pitch = last - first + 1, x_nodes[1] - x_nodes[0]
     held, own = slice(first + DISTURBED, last + 1 - DISTURBED), slice(first, last + 1)
     places, values = x_nodes[held], nodal[held]

@@ -255,8 +255,7 @@ class EquilibriumProblem:
 
     def balanced(self, state: Equilibrium) -> ActiveSet:
         """The active set of the same load on independent springs. Where nearly all that touches is
-        at the hardness, exchanges by signs would only move the approach from one of the few free
-        nodes to the next."""
+        at the hardness, exchanges by signs would only move the approach between few free nodes."""
         if self._own_compliance is None:
             one = np.zeros_like(self.weighted_gap)
             one[len(one) // 2] = 1.0

@@ -8,8 +8,7 @@ CLEAR = 6  # open nodes that the extrapolation of an edge needs
 
 
 def contact_patches(x: np.ndarray, pressure: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Patches (k, 2) [m], ascending, from nodal pressures (n,) [Pa] and mean gaps over the hats
-    (n,) [m].
+    """Patches (k, 2) [m], ascending, from nodal pressures and mean gaps over the hats (n,) [Pa, m].
 
     `x` (n,) [m] is a uniform grid. Beyond the edge e of a smooth contact the gap opens as
     (x - e)^(3/2) (Johnson 1985, section 4.2), so its power 2/3 is nearly straight: a parabola

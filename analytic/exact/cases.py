@@ -74,6 +74,8 @@ def hertz_case(
     if friction and dundurs_constants(*pair)[1]:
         raise ValueError("friction between these materials is a sliding case")
     a, extremes = hertz.half_width, hertz_extremes(hertz, friction)
+    stresses = {"tau1_max": extremes.tau1.value, "tau1_max_depth": extremes.tau1.z}
+    stresses["txz_max_abs"] = max(extremes.txz_max.value, -extremes.txz_min.value)
     return ExactContact(
         name,
         "Hertz 1882; Smith and Liu 1953 (Johnson 1985, sections 4.2 and 7.1)",
@@ -82,13 +84,7 @@ def hertz_case(
         gap=roller_gap(radius),
         half_range=1.5 * a,
         pressure=hertz.pressure,
-        quantities={
-            **_figures(hertz.peak_pressure, -a, a),
-            "peak_position": 0.0,
-            "tau1_max": extremes.tau1.value,
-            "tau1_max_depth": extremes.tau1.z,
-            "txz_max_abs": max(extremes.txz_max.value, -extremes.txz_min.value),
-        },
+        quantities=_figures(hertz.peak_pressure, -a, a, 0.0) | stresses,
         friction=friction,
     )
 
@@ -119,7 +115,6 @@ def sliding_case(
     """Cylinder of `radius` [m] that slides under P [N/m] on a body of other elastic constants."""
     modulus, beta = combined_modulus(*pair), dundurs_constants(*pair)[1]
     contact = sliding_from_load(load_per_length, radius, modulus, friction, beta)
-    left, right = contact.edges
     return ExactContact(
         name,
         "Johnson 1985, section 7.2",
@@ -128,10 +123,7 @@ def sliding_case(
         gap=roller_gap(radius),
         half_range=2.0 * contact.half_width,
         pressure=contact.pressure,
-        quantities={
-            **_figures(contact.peak_pressure, left, right),
-            "peak_position": contact.peak_position,
-        },
+        quantities=_figures(contact.peak_pressure, *contact.edges, contact.peak_position),
         friction=friction,
     )
 
@@ -152,10 +144,8 @@ def capped_case(
         gap=roller_gap(radius),
         half_range=1.5 * flat.contact,
         pressure=flat.pressure,
-        quantities={
-            **_figures(hardness, -flat.contact, flat.contact),
-            "flowed_length": 2.0 * flat.flowed,
-        },
+        quantities=_figures(hardness, -flat.contact, flat.contact)
+        | {"flowed_length": 2.0 * flat.flowed},
         hardness=hardness,
     )
 
@@ -175,11 +165,8 @@ def wave_case(
         gap=partial(_wave_gap, wavelength, amplitude),
         half_range=0.5 * wavelength,
         pressure=wave.pressure,
-        quantities={
-            **_figures(wave.peak_pressure, -wave.half_width, wave.half_width),
-            "peak_position": 0.0,
-            "mean_gap": wave.mean_gap,
-        },
+        quantities=_figures(wave.peak_pressure, -wave.half_width, wave.half_width, 0.0)
+        | {"mean_gap": wave.mean_gap},
         period=wavelength,
     )
 
@@ -197,14 +184,13 @@ def _wave_gap(wavelength: float, amplitude: float, x: np.ndarray) -> np.ndarray:
     return 2.0 * amplitude * np.sin(np.pi * x / wavelength) ** 2
 
 
-def _figures(peak_pressure: float, left: float, right: float) -> dict[str, float]:
-    """What every contact has, from its peak pressure [Pa] and its edges [m]."""
-    return {
-        "peak_pressure": peak_pressure,
-        "contact_length": right - left,
-        "left_edge": left,
-        "right_edge": right,
-    }
+def _figures(
+    peak_pressure: float, left: float, right: float, position: float | None = None
+) -> dict[str, float]:
+    """What every contact has, from its peak pressure [Pa], its edges and the peak's place [m]."""
+    edges = {"contact_length": right - left, "left_edge": left, "right_edge": right}
+    place = {} if position is None else {"peak_position": position}
+    return {"peak_pressure": peak_pressure} | edges | place
 
 
 @cache

@@ -26,8 +26,7 @@ from analytic.exact.hertz import hertz_from_load
 
 @dataclass(frozen=True)
 class FlattenedCylinder:
-    """Half-widths `contact` b and `flowed` c [m]; `radius` R [m]; `combined_modulus` E* [Pa];
-    `hardness` H [Pa]."""
+    """Half-widths `contact` b, `flowed` c, `radius` R [m]; `combined_modulus`, `hardness` [Pa]."""
 
     contact: float
     flowed: float

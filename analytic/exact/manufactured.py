@@ -273,8 +273,7 @@ class ManufacturedContact:
 
     @cached_property
     def _waves(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Wavenumbers k [1/m], the pressures' transform [N/m] times the weights of k t / pi, and
-        these."""
+        """Wavenumbers k [1/m], the pressures' transform [N/m] times weights k t / pi, and these."""
         thickness, extent = self.layer.thickness, np.ptp(self.ends)
         contrast = self.layer.contrast
         w, weights = wave_panels(_HIGHEST, 4.0 * extent / thickness, finest_scale(contrast))

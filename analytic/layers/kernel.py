@@ -14,8 +14,7 @@ The first two terms have closed forms, -ln|x| and -ln sqrt(x^2 + s^2) averaged o
 where m0 is not zero a datum; for uz under tractions, which is odd, angles take their place, pi/2
 sign x and atan x/s. f is integrated numerically, on panels that halve towards w = 0 where a stiff
 or soft layer has scales of its own. From two pitches on the path is turned into the complex plane,
-where e^ikx decays and f has no poles. All but ln|x| is smooth: it is interpolated on intervals that
-double."""
+where e^ikx decays and f has no poles. All but ln|x| is smooth, interpolated on doubling steps."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -36,8 +35,7 @@ _SWING = 12.0  # phase of a cosine on one panel [rad]
 
 @dataclass(frozen=True)
 class _Response:
-    """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the half-plane of
-    the `base`."""
+    """m/w of a load and a displacement: `share`(w), its m at the `surface` and in the `base`."""
 
     share: Callable[[np.ndarray], np.ndarray]
     surface: float

@@ -10,9 +10,8 @@ Displacements and an approach count from a rigid base. A half-plane below leaves
 to a constant, as in `analytic.operators.half_plane`.
 
 T beside C makes the compliance of a surface that slides (`analytic.operators.tangential`). Being
-odd it does no work. Where the layer slides on its base, a net traction Q is held by its two ends:
-the one is stretched and the other pressed, and the surface is left higher by nu Q/(2 G) on one side
-than on the other.
+odd it does no work. Where the layer slides on its base, a net traction Q is held by its two ends,
+one stretched and one pressed, which leaves the surface higher by nu Q/(2 G) on one side.
 
     h   pitch [m]      k   wavenumber [1/m]      t   thickness [m]      L   datum [m]
     p   pressure [Pa]  q   traction in +x [Pa]"""

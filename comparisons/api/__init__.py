@@ -142,8 +142,7 @@ def run(
 
 
 def read(folder: str | os.PathLike) -> Run:
-    """A run from the folder that it has left; nothing is solved. Raises InputError where there is
-    none."""
+    """A run from the folder that it has left, without solving. InputError where there is none."""
     from comparisons.report.saved import read_outcome
 
     return Run(read_outcome(_place(folder, "folder")))

@@ -183,8 +183,7 @@ class Map(Printed):
 
 @dataclass(frozen=True, repr=False)
 class Sweep(Printed):
-    """One scene at many values of its fields; `content` is that of sweep.json, in `folder` if it
-    was kept."""
+    """One scene at many values of its fields; `content` is that of sweep.json, in `folder`."""
 
     content: dict
     folder: Path | None

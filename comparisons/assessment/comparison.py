@@ -91,8 +91,7 @@ def pair_norms(
 def field_norms(
     tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
 ) -> dict[str, float]:
-    """Relative L2 norms of the difference of two fields (m, k) on the window, by the depths that
-    have points in it."""
+    """Relative L2 norms of the difference of two fields (m, k), by the window's depths."""
     weights = layer_thickness(window.z)[:, None]
     depth = window.z[:, None] / problem.hertz.half_width
     return {
@@ -211,8 +210,7 @@ def discretisations(
 def compared(
     problem: Problem, runs: dict[str, ModelRun], window: Window | None
 ) -> tuple[Comparison, ...]:
-    """Every quantity at every friction coefficient, of finished runs of both models; at each in the
-    order of QUANTITIES."""
+    """Every quantity of finished runs of both models, in the order of friction, then QUANTITIES."""
     rows = []
     for pair in pair_histories(problem, runs, window):
         friction = pair.friction

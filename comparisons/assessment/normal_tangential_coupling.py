@@ -27,8 +27,7 @@ class Change:
     """A figure with coupling."""
 
     value: float | None  # [SI]; None for the norm of a difference
-    # relative to the figure without coupling, None where only that is zero; of a shift over the
-    # Hertz half-width
+    # relative to the figure without coupling, None where only that is zero; of a shift over a
     difference: float | None
 
 

@@ -112,8 +112,7 @@ def zone_of(
 
 @dataclass(frozen=True)
 class AsperityDip:
-    """Below one asperity: its place and its length of contact [m], and the dip of the largest
-    shear there."""
+    """Below one asperity: its place and length of contact [m], and the dip of the largest shear."""
 
     x: float
     length: float

@@ -147,8 +147,7 @@ def _level(
     number: int,
     half_block: bool,
 ) -> Level:
-    """One level of one model, from the cache or into it; what the other model alone needs is not
-    imported."""
+    """One level of one model, from the cache or into it; imports what this model needs alone."""
     found, pitch = cache.load(key), problem.pitches[0] / 2.0 ** (number - 1)
     if found is not None:
         return found

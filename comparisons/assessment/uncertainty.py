@@ -100,7 +100,6 @@ def difference_of_figures(own: float, ratio: float, reference: float) -> float:
 
 
 def difference_of_norms(refined: float, domain: float, parts: tuple[float, ...]) -> float:
-    """Of the norm of the half-plane against the whole model: by its own refinement and the far
-    boundary, or after the triangle's inequality by its `parts`, for norms of two levels may agree
-    by chance."""
+    """Of the norm of the half-plane against the whole model: by its refinement and far boundary,
+    or, as norms may agree by chance, after the triangle's inequality by its `parts`."""
     return max(refined + domain, sum(parts))

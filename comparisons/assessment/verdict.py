@@ -36,8 +36,7 @@ class Comparison:
 
 def is_within(value: float, uncertainty: float, low: float, high: float) -> bool | None:
     """Whether value +- uncertainty lies between the bounds, which belong to the inside: all of it
-    (True), nothing (False), or neither (None), as where one of the two is not finite. All four in
-    one unit."""
+    (True), nothing (False), or neither (None), as where one is not finite. All in one unit."""
     first, last = value - uncertainty, value + uncertainty
     if not (math.isfinite(first) and math.isfinite(last)):
         return None

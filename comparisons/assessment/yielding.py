@@ -91,8 +91,7 @@ class FlowAssessment:
         if self.flow != "elastic":
             return ""
         said = f"{DOES_NOT_APPLY}: its largest shear stress, {with_unit(worst.tau1, 'Pa', 2)}, "
-        # both criteria: k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least
-        # sqrt(3) tau1
+        # k is Y/2 by Tresca, and Y/sqrt(3) by von Mises, whose stress is at least sqrt(3) tau1
         if self.yield_stress is not None and least > self.yield_stress / 3.0**0.5:
             flow = with_unit(0.5 * self.yield_stress, "Pa", 2)
             return f"{said}exceeds the shear yield stress, Y/2 = {flow}"

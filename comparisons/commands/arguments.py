@@ -5,7 +5,8 @@ from functools import partial, wraps
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
+from typer.models import OptionInfo
 
 RESULTS = Path("results")
 Job = Callable[[], int]  # the work of a command; returns the exit status
@@ -22,14 +23,14 @@ def job(work: Callable[..., int]) -> Callable[..., Job]:
     return command
 
 
-def json_option(name: str) -> typer.models.OptionInfo:
+def json_option(name: str) -> OptionInfo:
     """The option `--json` of a command that prints `name` then, and else a table."""
-    return typer.Option("--json", help=f"Print {name} instead of the table.")
+    return Option("--json", help=f"Print {name} instead of the table.")
 
 
-def out_option(content: str, default: str) -> typer.models.OptionInfo:
+def out_option(content: str, default: str) -> OptionInfo:
     """The option `--out` of a command that writes a folder."""
-    return typer.Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
+    return Option(help=f"Folder for the {content}.", show_default=f"results/{default}")
 
 
 def complete_scenes(incomplete: str) -> list[str]:
@@ -80,6 +81,6 @@ def _beginning(names: Iterable[str], incomplete: str) -> list[str]:
 
 SCENE = "A TOML file, or a name that `scenes` lists."
 MODELS = "Models to solve with, separated by commas."
-Scene = Annotated[str, typer.Argument(help=SCENE, autocompletion=complete_scenes)]
-Models = Annotated[str, typer.Option(help=MODELS, autocompletion=complete_models)]
-Junit = Annotated[Path | None, typer.Option(help="File for JUnit XML: a testcase a figure.")]
+Scene = Annotated[str, Argument(help=SCENE, autocompletion=complete_scenes)]
+Models = Annotated[str, Option(help=MODELS, autocompletion=complete_models)]
+Junit = Annotated[Path | None, Option(help="File for JUnit XML: a testcase a figure.")]

@@ -3,10 +3,10 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Option
 
 from comparisons.commands.arguments import RESULTS, Junit, job, json_option, out_option
-from comparisons.commands.output import progress, show, show_either, show_file
+from comparisons.commands.output import progress, show_either, show_written
 from comparisons.common.errors import ExitStatus, InputError
 
 
@@ -23,11 +23,9 @@ def stability(
     directory = out or RESULTS / "stability"
     with progress() as callback:
         study = run_robustness(directory, junit, callback)
-    if as_json:
-        show_file(directory / "stability.json")
-    else:
-        show(rows_table(study.rows))
-        show(verdict_lines(study))
+    show_written(
+        as_json, directory / "stability.json", rows_table(study.rows), verdict_lines(study)
+    )
     return study.exit_status
 
 
@@ -36,10 +34,10 @@ def verify(
     out: Annotated[Path | None, out_option("figures", "verify")] = None,
     junit: Junit = None,
     export: Annotated[
-        Path | None, typer.Option(help="Only write the exact cases for other codes to this folder.")
+        Path | None, Option(help="Only write the exact cases for other codes to this folder.")
     ] = None,
     answers: Annotated[
-        Path | None, typer.Option(help="Only judge the form of such a folder, filled in.")
+        Path | None, Option(help="Only judge the form of such a folder, filled in.")
     ] = None,
     as_json: Annotated[bool, json_option("verify.json")] = False,
 ) -> int:
@@ -63,8 +61,5 @@ def verify(
     directory = out or RESULTS / "verify"
     with progress() as callback:
         found = verify_all(directory, junit, callback)
-    if as_json:
-        show_file(directory / "verify.json")
-    else:
-        show(verify_summary(found))
+    show_written(as_json, directory / "verify.json", verify_summary(found))
     return found.exit_status

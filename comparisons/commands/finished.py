@@ -4,7 +4,7 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, job, json_option
 from comparisons.commands.output import progress, show_either, show_json
@@ -14,17 +14,15 @@ from comparisons.common.mpi import from_first
 
 @job
 def report(
-    folders: Annotated[
-        list[Path], typer.Argument(metavar="DIR...", help="Folders that runs have left.")
-    ],
+    folders: Annotated[list[Path], Argument(metavar="DIR...", help="Folders that runs have left.")],
     summary: Annotated[
         Path | None,
-        typer.Option(
+        Option(
             help="Page over all runs; given by name, no report is drawn again.",
             show_default="results/summary.html, of several DIR",
         ),
     ] = None,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Print each report to PDF, too.")] = False,
+    pdf: Annotated[bool, Option("--pdf", help="Print each report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("what was made, as JSON,")] = False,
 ) -> int:
     """Draw reports again from result files, without solving; sum many runs up on one page."""
@@ -44,8 +42,8 @@ def report(
 
 @job
 def rerun(
-    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Folder that a run has left.")],
-    out: Annotated[Path | None, typer.Option(help="Folder that keeps the repetition.")] = None,
+    folder: Annotated[Path, Argument(metavar="DIR", help="Folder that a run has left.")],
+    out: Annotated[Path | None, Option(help="Folder that keeps the repetition.")] = None,
     as_json: Annotated[bool, json_option("what moved, as JSON,")] = False,
 ) -> int:
     """Repeat a recorded run from its own record; report every figure that moved."""
@@ -61,12 +59,12 @@ def rerun(
 @job
 def table(
     folders: Annotated[
-        list[Path], typer.Argument(metavar="DIR...", help="Folders with runs in or below them.")
+        list[Path], Argument(metavar="DIR...", help="Folders with runs in or below them.")
     ],
     out: Annotated[
-        Path | None, typer.Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
+        Path | None, Option(help="FILE.csv or FILE.parquet; without it CSV is printed.")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print the rows as JSON.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print the rows as JSON.")] = False,
 ) -> int:
     """Put the figures of many runs into one table: a row a run, friction and quantity."""
     from comparisons.results.flat_table import as_csv, check_ending, tidy_rows, write_table

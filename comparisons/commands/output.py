@@ -86,9 +86,12 @@ def show_either(as_json: bool, content: object, table: Callable[[], object]) -> 
         show(table())
 
 
-def show_file(path: Path) -> None:
-    """Print a file of the results: what `--json` asks for where it has just been written."""
-    print(path.read_text(encoding="utf-8"), end="")
+def show_written(as_json: bool, path: Path, *shown: object) -> None:
+    """Print a file of the results that has just been written, or what is shown of it."""
+    if as_json:
+        print(path.read_text(encoding="utf-8"), end="")
+    for each in () if as_json else shown:
+        show(each)
 
 
 def show_json(content: object) -> None:

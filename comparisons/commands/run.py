@@ -6,7 +6,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Literal
 
-import typer
+from typer import Option
 
 from comparisons.commands.arguments import (
     RESULTS,
@@ -36,21 +36,20 @@ def run(
     models: Models = BOTH,
     tolerance: Annotated[
         float | None,
-        typer.Option(help="Relative, of all that is judged; refinement ends where it is met."),
+        Option(help="Relative, of all that is judged; refinement ends where it is met."),
     ] = None,
     fields: Annotated[
-        Fields, typer.Option(help="File format of the stress fields; auto is by their size.")
+        Fields, Option(help="File format of the stress fields; auto is by their size.")
     ] = "auto",
     junit: Junit = None,
     workers: Annotated[
-        str | None,
-        typer.Option(help="A Dask scheduler's address: it solves the samples of [scatter]."),
+        str | None, Option(help="A Dask scheduler's address: it solves the samples of [scatter].")
     ] = None,
     answer: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
+        Option(metavar="NAME=FILE", help="An answer from outside: pressures or a result."),
     ] = None,
-    pdf: Annotated[bool, typer.Option("--pdf", help="Print the report to PDF, too.")] = False,
+    pdf: Annotated[bool, Option("--pdf", help="Print the report to PDF, too.")] = False,
     as_json: Annotated[bool, json_option("result.json")] = False,
 ) -> int:
     """Solve a scene with both models, compare them and judge."""

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-import typer
+from typer import Argument, Option
 
 from comparisons.commands.arguments import RESULTS, Scene, job, json_option, out_option
 from comparisons.commands.output import show, show_json
@@ -31,40 +31,38 @@ def scenes(as_json: Annotated[bool, json_option("names and titles as JSON")] = F
 
 @job
 def init(
-    profile: Annotated[Path, typer.Argument(help="A file with a measured profile.")],
+    profile: Annotated[Path, Argument(help="A file with a measured profile.")],
     out: Annotated[
-        Path | None, typer.Option(help="The scene's file.", show_default="PROFILE.toml")
+        Path | None, Option(help="The scene's file.", show_default="PROFILE.toml")
     ] = None,
-    x_unit: Annotated[str | None, typer.Option(help="Unit of positions, such as um.")] = None,
-    z_unit: Annotated[str | None, typer.Option(help="Unit of heights, such as um.")] = None,
+    x_unit: Annotated[str | None, Option(help="Unit of positions, such as um.")] = None,
+    z_unit: Annotated[str | None, Option(help="Unit of heights, such as um.")] = None,
     spacing: Annotated[
-        str | None, typer.Option(help='Of samples of heights alone, such as "0.5 um".')
+        str | None, Option(help='Of samples of heights alone, such as "0.5 um".')
     ] = None,
     columns: Annotated[
-        str | None, typer.Option(help="Of x and height in a table: names or numbers, as 0,2.")
+        str | None, Option(help="Of x and height in a table: names or numbers, as 0,2.")
     ] = None,
     channel: Annotated[
-        str | None, typer.Option(help="Of a file with several; a sheet of an xlsx.")
+        str | None, Option(help="Of a file with several; a sheet of an xlsx.")
     ] = None,
-    row: Annotated[int | None, typer.Option(help="Of an areal map, counted from 0.")] = None,
-    column: Annotated[int | None, typer.Option(help="Of an areal map instead.")] = None,
-    radius: Annotated[str | None, typer.Option(help='Of the roller, such as "8.2 mm".')] = None,
+    row: Annotated[int | None, Option(help="Of an areal map, counted from 0.")] = None,
+    column: Annotated[int | None, Option(help="Of an areal map instead.")] = None,
+    radius: Annotated[str | None, Option(help='Of the roller, such as "8.2 mm".')] = None,
     load: Annotated[
-        str | None, typer.Option(help='Per length, such as "3.85 N/um".', show_default="an example")
+        str | None, Option(help='Per length, such as "3.85 N/um".', show_default="an example")
     ] = None,
     peak_pressure: Annotated[
-        str | None, typer.Option(help="By Hertz, instead of the load, such as 1GPa.")
+        str | None, Option(help="By Hertz, instead of the load, such as 1GPa.")
     ] = None,
-    friction: Annotated[str | None, typer.Option(help="Coefficient.")] = None,
-    youngs_modulus: Annotated[
-        str | None, typer.Option(help='Of both bodies, such as "207 GPa".')
-    ] = None,
-    poissons_ratio: Annotated[str | None, typer.Option(help="Of both bodies.")] = None,
-    hardness: Annotated[str | None, typer.Option(help="Of the rough body, as a pressure.")] = None,
+    friction: Annotated[str | None, Option(help="Coefficient.")] = None,
+    youngs_modulus: Annotated[str | None, Option(help='Of both bodies, such as "207 GPa".')] = None,
+    poissons_ratio: Annotated[str | None, Option(help="Of both bodies.")] = None,
+    hardness: Annotated[str | None, Option(help="Of the rough body, as a pressure.")] = None,
     picture: Annotated[
-        bool, typer.Option(help="Draw trace, power spectrum and bearing curve beside the scene.")
+        bool, Option(help="Draw trace, power spectrum and bearing curve beside the scene.")
     ] = True,
-    force: Annotated[bool, typer.Option("--force", help="Replace the scene's file.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace the scene's file.")] = False,
     as_json: Annotated[bool, json_option("what was found as JSON")] = False,
 ) -> int:
     """Look at a measured profile and write a commented scene for it."""
@@ -93,11 +91,10 @@ def init(
 @job
 def deck(
     scene: Scene,
-    code: Annotated[Code, typer.Option("--for", help="Code that is to solve it.")],
+    code: Annotated[Code, Option("--for", help="Code that is to solve it.")],
     out: Annotated[Path | None, out_option("deck", "<name>-<code>")] = None,
     level: Annotated[
-        int,
-        typer.Option(help="Of the scene's refinement, 1 the coarsest: elements on the contact."),
+        int, Option(help="Of the scene's refinement, 1 the coarsest: elements on the contact.")
     ] = 1,
     as_json: Annotated[bool, json_option("folder, files and sizes as JSON")] = False,
 ) -> int:

@@ -4,7 +4,7 @@ of four that come along."""
 from pathlib import Path
 from typing import Annotated
 
-import typer
+from typer import Argument, Option
 
 from comparisons.commands.arguments import (
     RESULTS,
@@ -18,13 +18,13 @@ from comparisons.commands.arguments import (
     json_option,
     out_option,
 )
-from comparisons.commands.output import progress, show, show_either, show_file
+from comparisons.commands.output import progress, show_either, show_written
 from comparisons.common.errors import ExitStatus
 from comparisons.common.mpi import from_first
 
 Axis = Annotated[
     str | None,
-    typer.Option(
+    Option(
         help="GROUP or GROUP=FROM:TO.", show_default="by the scene", autocompletion=complete_groups
     ),
 ]
@@ -35,7 +35,7 @@ MAPPED = "As for `run`, or the name of a finished map."
 def cost(
     scene: Scene,
     out: Annotated[Path | None, out_option("results", "<name>-cost")] = None,
-    repeats: Annotated[int, typer.Option(help="Times that each setting is measured.")] = 3,
+    repeats: Annotated[int, Option(help="Times that each setting is measured.")] = 3,
     as_json: Annotated[bool, json_option("cost.json")] = False,
 ) -> int:
     """Measure error against time of every method; name the cheapest for each tolerance."""
@@ -47,36 +47,32 @@ def cost(
     directory = out or RESULTS / f"{resolved.name}-cost"
     with progress() as callback:
         found = measured_cost(resolved, directory, repeats, callback)
-    if as_json:
-        show_file(directory / "cost.json")
-    else:
-        show(cost_table(found))
-        print(f"diagrams {directory / 'cost.html'}, figures {directory / 'cost.json'}")
+    path = directory / "cost.json"
+    show_written(as_json, path, cost_table(found))
+    if not as_json:
+        print(f"diagrams {directory / 'cost.html'}, figures {path}")
     return ExitStatus.DONE
 
 
 @job
 def map_of(
-    scene: Annotated[str, typer.Argument(help=MAPPED, autocompletion=complete_maps)],
+    scene: Annotated[str, Argument(help=MAPPED, autocompletion=complete_maps)],
     points: Annotated[
-        str | None, typer.Option(help="Values along x and y, as NxM.", show_default="8x8")
+        str | None, Option(help="Values along x and y, as NxM.", show_default="8x8")
     ] = None,
     x: Axis = None,
     y: Axis = None,
     quantity: Annotated[
-        str, typer.Option(help="The quantity to show.", autocompletion=complete_quantities)
+        str, Option(help="The quantity to show.", autocompletion=complete_quantities)
     ] = "peak_pressure",
     workers: Annotated[
         str | None,
-        typer.Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
+        Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
     ] = None,
     mark: Annotated[
-        str | None,
-        typer.Option(help="A scene to be marked on the map.", autocompletion=complete_scenes),
+        str | None, Option(help="A scene to be marked on the map.", autocompletion=complete_scenes)
     ] = None,
-    again: Annotated[
-        bool, typer.Option("--again", help="Solve a finished map's points anew.")
-    ] = False,
+    again: Annotated[bool, Option("--again", help="Solve a finished map's points anew.")] = False,
     out: Annotated[Path | None, out_option("map", "<name>")] = None,
     as_json: Annotated[bool, json_option("map.json")] = False,
 ) -> int:
@@ -107,14 +103,14 @@ def sweep(
     scene: Scene,
     over: Annotated[
         list[str],
-        typer.Option(
+        Option(
             help="position=40 (placements along the trace), FIELD=A,B,C or FIELD=FROM:TO:N; "
             "several make every combination."
         ),
     ],
     models: Models = "half-plane",
     workers: Annotated[
-        int | None, typer.Option(help="Processes.", show_default="one a core", min=1)
+        int | None, Option(help="Processes.", show_default="one a core", min=1)
     ] = None,
     out: Annotated[Path | None, out_option("sweep", "sweep-<name>")] = None,
     as_json: Annotated[bool, json_option("sweep.json")] = False,
@@ -141,8 +137,7 @@ def sweep(
 def paper(
     out: Annotated[Path | None, out_option("page", "paper")] = None,
     effects: Annotated[
-        bool,
-        typer.Option("--effects", help="compute the half-plane's model error beside each claim"),
+        bool, Option("--effects", help="compute the half-plane's model error beside each claim")
     ] = False,
     as_json: Annotated[bool, json_option("paper.json")] = False,
 ) -> int:

@@ -35,8 +35,7 @@ class Cache:
     by_all: bool = False  # every process that mpirun started loads: the first reads for all of them
 
     def load(self, name: str) -> object | None:
-        """The result saved under a name; None where there is none, or not a whole one, or one of
-        another key."""
+        """The result saved under a name; None without a whole one of the same key."""
         if self.folder is None:
             return None
         return from_first(lambda: self._read(name)) if self.by_all else self._read(name)

@@ -78,8 +78,7 @@ def as_one(work: Callable[[], int], ends: Container[int]) -> int:
     """Carry out `work`, which returns an exit status, in every process, as if they were one.
     Only the first prints, and another one that alone has an error. `ends` are the statuses with
     which all end by themselves; with any other status a process ends the others too, which may be
-    waiting for it. mpirun stops its processes by SIGTERM: that interrupts the first as Ctrl-C
-    does."""
+    waiting for it. mpirun's SIGTERM interrupts the first process as Ctrl-C does."""
     if not is_several():
         return work()
     errors = io.StringIO()

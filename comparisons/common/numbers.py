@@ -122,3 +122,12 @@ def plain(value: float | None) -> str:
 def integer(value: int) -> str:
     """Thousands apart by a thin space."""
     return f"{value:,}".replace(",", "\u202f")
+
+
+def finite(value: object) -> object:
+    """JSON has neither NaN nor infinity: None stands for both."""
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -73,10 +73,8 @@ class Worker:
 
 @contextmanager
 def fresh_process() -> Iterator[Call]:
-    """A function that calls others in one process, which starts at the first call; the end of the
-    block kills it.
-    Arguments and answers go through pickle. A call raises what the work raises, and
-    ProcessEnded."""
+    """A function that calls others in one process, from the first call to the end of the block.
+    Arguments and answers go through pickle. A call raises what its work does, and ProcessEnded."""
     worker, started = Worker(_answer), []
 
     def call(work: Callable[..., Result], *given: object) -> Result:
@@ -198,9 +196,8 @@ def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
     """What each work returns, in their order; copies of this process carry them out, one a core.
 
     Works share what this process has in memory, and their answers go through pickle. They use no
-    MPI, which survives no fork. They are carried out here where there is one core, where this
-    process is one of several or has several threads, and where copies cannot be made or end before
-    they have answered."""
+    MPI, which survives no fork. They are carried out here on one core, where this is one of several
+    processes or has several threads, and where copies cannot be made or do not answer."""
     count = min(copies(), len(works))
     if count > 1:
         with suppress(BrokenProcessPool, OSError), processes(count, works) as pool:

@@ -107,16 +107,14 @@ class Tasks:
     ) -> None:
         """Make a task known: `work(here, *given)`, of expected seconds and bytes. The lower its
         urgency, the sooner it begins; of equal ones what `shares` the same with the last task of a
-        process goes there, as far as there is a choice; then the longest comes first. A known key
-        changes nothing."""
+        process goes there, if there is a choice; then the longest. A known key does nothing."""
         if key not in self._tasks:
             task = _Task(work, given, seconds, memory, urgency, shares)
             self._tasks[key] = self._waiting[key] = task
             self._hand_out()
 
     def result(self, key: str) -> object:
-        """The answer of a known task, waited for, which is then forgotten; raises what its work
-        raised."""
+        """The answer of a known task, waited for, then forgotten; raises what its work raised."""
         task = self._tasks[key]
         task.urgency = min(task.urgency, LATER)
         while key not in self._answers:

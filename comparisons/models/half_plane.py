@@ -72,8 +72,7 @@ def half_plane_on(
 def _stresses(
     problem: Problem, frictions: tuple[float, ...], level: Level, window: Window, fields: bool
 ) -> tuple[StressResult, ...]:
-    """Extremes off the grid and, where asked for, `fields` on the window, one set for each friction
-    coefficient."""
+    """Extremes off the grid and, where asked for, `fields` on the window, one set a friction."""
     x, pressure = level.grid.x, level.solution.pressure
     *shown, searched = (
         friction_field(

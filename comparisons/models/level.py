@@ -38,8 +38,7 @@ class StressResult:
     # largest tau1, |txz| and von Mises stress by name, found off the grid [Pa], [m]
     extremes: dict[str, Extremum]
     field: StressState  # (m, k) on the common window
-    # largest tau1 and |txz| of each asperity of the problem: value, x and z (3, k); empty where
-    # there is one
+    # largest tau1 and |txz| of each asperity: value, x and z (3, k); empty where there is one
     maxima: dict[str, np.ndarray] = field(default_factory=dict)
 
     def of_asperities(self, name: str, cells: tuple[float, ...]) -> np.ndarray:
@@ -80,8 +79,7 @@ class MeshField:
         displacement: np.ndarray,
         others: dict[str, np.ndarray],
     ) -> "MeshField":
-        """Of a body's stresses at its mesh's points and displacements (n, c, 2) [m] at its nodes,
-        one set a friction."""
+        """Of stresses at mesh points and displacements (n, c, 2) [m] at nodes, a set a friction."""
         nodes, nu = nodal[0].nodes, nodal[0].poissons_ratio
         moved = body.at_points(np.moveaxis(displacement, 1, 0))[:, nodes.point]
         states = (StressState(*each.values.T) for each in nodal)
@@ -126,8 +124,7 @@ class Level:
 
     grid: HatGrid
     solution: ContactSolution
-    # (n,) [m] of the rough body's surface, averaged over each hat; positive into the body, with the
-    # model's own datum
+    # (n,) [m] of the rough body's surface, mean of each hat; into the body, from the model's datum
     displacement: np.ndarray
     patches: np.ndarray  # (k, 2) [m] contact patches
     seconds: dict[str, float]  # by stage

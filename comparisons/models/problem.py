@@ -58,8 +58,7 @@ class Problem:
     extent: tuple[float, float]  # (2,) [m] stretch of the surface that contact may reach
     # of the first levels, coarse to fine, each half of the one before [m]
     pitches: tuple[float, ...]
-    # (k,) [m] where one ends and the next begins, ascending: largest values are compared at the
-    # same asperity
+    # (k,) [m] where one ends and the next begins: largest values are compared at the same asperity
     asperities: tuple[float, ...] = ()
 
     @property
@@ -330,8 +329,7 @@ def _asperities(problem: Problem) -> tuple[float, ...]:
 
 
 def _check_circle(problem: Problem) -> None:
-    """Refuse a circle that the grid of pressures reaches around, or on a layer the contact, which
-    is narrower."""
+    """Refuse a circle that the grid of pressures, or on a layer the contact, reaches around."""
     scene, farthest = problem.scene, float(np.abs(problem.extent).max())
     if scene.finite_element.roller_shape != "circle":
         return

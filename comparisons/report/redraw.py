@@ -75,8 +75,7 @@ def draw_again(
 
 
 def _drawn(folder: Path, draws: bool) -> tuple[str | None, SummaryRow]:
-    """The page of a run, if it `draws`, and its row; InputError where its files do not make them
-    up."""
+    """The page of a run, if it `draws`, and its row; InputError where its files make none."""
     outcome = read_outcome(folder, with_mesh=draws)
     try:
         return render(outcome) if draws else None, summary_row(outcome)

@@ -15,8 +15,7 @@ from analytic.contact.problem import KKT_TOLERANCE
 Value = float | int | bool | str | None
 Path = tuple[str | int, ...]
 
-# Relative, between two converged solutions: on other processors and libraries; the same machine
-# gives the same bits.
+# Relative, between converged solutions on other processors; the same machine gives the same bits.
 ROUNDING = KKT_TOLERANCE
 # Observed orders jump in irregular sequences, the machine's memory may decide the number of levels,
 # and estimates are no results.

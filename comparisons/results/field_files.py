@@ -142,8 +142,7 @@ def _beside(
 
 
 def _direction(stress: StressState) -> np.ndarray:
-    """Unit vectors (n, 3) along the largest principal stress in the plane; their sign means
-    nothing."""
+    """Unit vectors (n, 3) along the largest principal stress in the plane, of either sign."""
     angle = 0.5 * np.arctan2(2.0 * stress.txz, stress.sx - stress.sz)
     return np.column_stack([np.cos(angle), np.sin(angle), 0.0 * angle]).astype(np.float32)
 

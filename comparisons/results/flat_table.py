@@ -62,10 +62,12 @@ def as_csv(rows: Iterable[Row]) -> str:
     """The table as comma-separated values, with a header.
     Neither a terminal nor a spreadsheet obeys a text of it: control characters are written as
     escapes, and an apostrophe stands before what would be a formula."""
+    return csv_text([COLUMNS, *([harmless(row[name]) for name in COLUMNS] for row in rows)])
+
+
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
     text = io.StringIO()
-    writer = csv.DictWriter(text, COLUMNS, lineterminator="\n")
-    writer.writeheader()
-    writer.writerows({name: harmless(value) for name, value in row.items()} for row in rows)
+    csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue()
 
 
@@ -175,8 +177,7 @@ def _compared(result: Mapping) -> Iterable[Row]:
 
 
 def _of_heat(heat: Mapping | None) -> Iterable[Row]:
-    """Temperatures [K] and the part of the heat that enters the body; both models as half_plane and
-    finite_element."""
+    """Temperatures [K] and the part of the heat that enters the body, by both models."""
     for name, row in heat["figures"].items() if heat else ():
         unit = "" if name == "fraction_into_body" else "K"
         alone = max(row["own"].values()) if row["uncertainty"] is None else row["uncertainty"]

@@ -16,8 +16,7 @@ from comparisons.scenes.scene import ProfileInfo, ResolvedScene
 LARGEST_RADIUS = 5.0  # [m]; rolls of mills have less
 SOFTEST, STIFFEST = 1e3, 1.5e12  # [Pa] Young's modulus: gels, diamond
 LONGEST_TRACE = 0.25  # [m] that stylus instruments drive
-# Slopes (rms) of measured surfaces: polished ones have more than the first, sawn ones less than
-# the second.
+# Rms slopes of measured surfaces: polished have more than the first, sawn less than the second.
 SMOOTHEST, STEEPEST = 1e-4, 1.0
 LIGHTEST, HEAVIEST = 5e-5, 0.3  # half-width over radius: steel at some MPa, rubber pressed flat
 FEWEST_ELEMENTS = 8  # to a wave: peak pressures are then known to some per cent

@@ -65,8 +65,7 @@ def rerun(
     folder: Path, out: Path | None = None, callback: ProgressCallback = no_progress
 ) -> Repetition:
     """Repeat the run in a folder, which is only read; `out` keeps the repetition.
-    Raises InputError for a folder without a record, with a broken one, or one that may not be
-    written to."""
+    Raises InputError for a folder without a sound record, or one that may not be written to."""
     record = from_first(lambda: read_record(folder))
     answers = None
     if record.scene.answers:  # as they were read: their files may have changed or gone

@@ -22,8 +22,7 @@ from meshes.block import BlockMesh
 def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTOMATIC) -> None:
     """Write everything into the run's folder; whole files, all at the end, by one process.
 
-    fields   format of the stress fields: one of comparisons.results.field_files.FORMATS, or by
-             their size"""
+    fields   format of the stress fields, of `comparisons.results.field_files`, or by their size"""
     if not is_first():
         return
     callback(Step("writing results", 0.0))

@@ -136,8 +136,7 @@ def _read(table: Mapping, path: Path) -> KnownTrace:
 
 
 def _made(table: Mapping, source: str, known: KnownTrace | None) -> tuple[Profile, dict]:
-    """The profile that `analytic.surface.synthetic` makes, about its mean line, and where it comes
-    from."""
+    """The profile that `analytic.surface.synthetic` makes, about its mean line, and its origin."""
     parameters = {name: value for name, value in table.items() if name not in ("kind", *FILTER)}
     try:
         trace = known.read.profile if known else _MAKERS[table["kind"]](**parameters)

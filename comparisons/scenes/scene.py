@@ -4,7 +4,6 @@ x along the surface with its origin under the roller's centre, heights positive 
 with their zero on the mean line. `comparisons.scenes.resolve` makes it from a file."""
 
 import copy
-import math
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from analytic.running_in import RunIn
 from analytic.surface.form import RemovedForm
 from analytic.surface.roughness import Roughness
 from analytic.surface.roughness_standard import StandardRoughness
+from comparisons.common.numbers import finite
 
 MOST_LEVELS = 8  # of a run
 CUT_OFF = 3.0  # standard deviations beyond which an uncertain input is not sampled
@@ -83,7 +83,7 @@ class ProfileInfo:
         figures = asdict(replace(self, path=None, trace=None))
         del figures["path"], figures["trace"]
         nested = ("form", "roughness", "standard")
-        return figures | {name: _finite(figures[name]) for name in nested if figures[name]}
+        return figures | {name: finite(figures[name]) for name in nested if figures[name]}
 
     def surface(self) -> dict:
         """The surface's figures, as pressed and by the standard, for JSON."""
@@ -173,8 +173,7 @@ class Resolution:
 class Budget:
     """What a run may take: `time` [s] by the laws of cost, not by a clock, and `memory` [bytes];
     whether it computes `effects` that the scene's finite elements do not model, and where "all",
-    those too that cannot change a verdict; on how many `levels` at most (None: as the time
-    allows)."""
+    those too that cannot change a verdict; on at most so many `levels` (None: as time allows)."""
 
     time: float
     memory: float
@@ -279,8 +278,7 @@ class ResolvedScene:
     tables: dict = field(repr=False)
     scatter: Scatter | None = None  # None: inputs are taken as exact
     statistics: RoughnessStatistics | None = None  # of rough contact; None: not asked for
-    # what running-in did to the surface, None until it was done; then the profile and its figures
-    # are those after it
+    # what running-in did, None until it was done; then the profile and its figures are after it
     run_in: RunIn | None = field(default=None, compare=False, repr=False)
     answers: tuple[AnswerSource, ...] = ()  # from outside, beside those of the models
     heat: Heat | None = None  # None: no temperature is asked for
@@ -301,11 +299,3 @@ class ResolvedScene:
             **copy.deepcopy(self.tables),
             "profile_info": self.profile_info.as_dict() if self.profile_info else None,
         }
-
-
-def _finite(figures: dict) -> dict:
-    """The figures with None for what JSON has no number for."""
-    return {
-        name: None if isinstance(value, float) and not math.isfinite(value) else value
-        for name, value in figures.items()
-    }

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from comparisons.common.errors import ExitStatus, one_line
 from comparisons.common.files import check_writable, publish
 from comparisons.common.mpi import is_first
+from comparisons.common.numbers import finite
 from comparisons.common.progress import ProgressCallback, Step, no_progress
 from comparisons.common.provenance import as_json, machine, versions
 from comparisons.common.quantities import LABELS
@@ -233,15 +234,6 @@ def write_study(
         files[f"{study.command}.html"] = page
     publish(out, files)
     write_junit(junit, study_junit(study))
-
-
-def finite(value: object) -> object:
-    """JSON has neither NaN nor infinity: None stands for both."""
-    if isinstance(value, dict):
-        return {key: finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def study_junit(study: CheckedStudy) -> str:

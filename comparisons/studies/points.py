@@ -1,5 +1,4 @@
-"""Points of a map or a sweep through an executor, each on disk as soon as it is done; and the
-executors.
+"""Points of a map or a sweep through executors, each on disk as soon as it is done.
 
 Points are solved by processes here (`comparisons.common.processes`), by the ranks under mpirun, or
 by a Dask cluster: by any executor of `concurrent.futures`. One point is the work of one process, on

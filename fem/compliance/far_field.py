@@ -118,8 +118,8 @@ class FarField:
 
 def multipoles(s: np.ndarray, terms: int, datum: float, poissons_ratio: float) -> np.ndarray:
     """2 G u (2 terms, n, 2) at places s (n,) under unit moments: of q in turn, then of p. `datum`
-    in units of the reach, as s. On this branch of the logarithm a pressure moves the points below
-    it straight down."""
+    in units of the reach, as s. On this branch of the logarithm a pressure moves what is below it
+    straight down."""
     kappa = 3.0 - 4.0 * poissons_ratio
     mirrored, log = s.conj(), np.log(s / (1j * datum))
     k = np.arange(1, terms)[:, None]

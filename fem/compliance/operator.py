@@ -49,8 +49,7 @@ class FiniteElementCompliance:
 
     def apply(self, pressure: np.ndarray, friction: float = 0.0) -> np.ndarray:
         """integral(phi_i u dx) (count,) [m^2], u along the direction of pressure, into the body.
-        With `friction` the sliding traction friction * pressure acts too, and the operator is not
-        symmetric."""
+        With `friction` the traction friction * pressure acts too, and C is not symmetric."""
         force = self._force(pressure, friction)
         moved = self.weighted(self.body.solve(self._load(force)))
         return moved if self.far is None else moved + self._means @ self.far.symmetric(force)

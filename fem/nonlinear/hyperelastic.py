@@ -26,8 +26,7 @@ CORNERS = reference_nodes(1)
 
 
 class HyperelasticBody:
-    """The response of `body` at finite strains, by the law of its material. Raises FemError on more
-    than one process."""
+    """The response of `body` at finite strains, by its material's law. FemError in parallel."""
 
     symmetric, softness = True, np.ones(1)
 

@@ -120,8 +120,7 @@ class PlasticBody:
     areas   (m, 3) [m^2] of these points
     state   of the metal there at the end of the last accepted step
 
-    Raises ValueError if the metal's elastic constants are not the body's, or if displacements are
-    not quadratic."""
+    Raises ValueError unless elastic constants are the body's, and displacements quadratic."""
 
     symmetric, softness = True, np.ones(1)
 

@@ -285,8 +285,7 @@ class _LoadHistory:
         return self._frozen(load, replace(now, strain=strain)) or self.state
 
     def _frozen(self, load: float, plastic: PlasticState) -> ContactState | None:
-        """The contact of the bodies in a plastic state that does not change; None if it is not
-        found."""
+        """The contact of the bodies in a plastic state that does not change; None: not found."""
         compliance, flowed = self._compliance, self.body.plastic_force(plastic)
         left = compliance.weighted(self.body.body.solve(flowed))
         try:
@@ -343,8 +342,7 @@ class PlasticFields:
 def plastic_fields(body: PlasticBody, contact: PlasticContact) -> PlasticFields:
     """Stresses and plastic strain of a body under a contact of its history. Area-weighted means of
     the linear fields through the three points of each element around a mesh point. Patches of
-    higher degree (`fem.stress.recovery`) would overshoot at the kinks on the boundary of the
-    plastic zone."""
+    higher degree (`fem.stress.recovery`) would overshoot at the plastic zone's kinks."""
     inside, across = body.stress(contact.displacement, contact.state)
     sampled = np.column_stack([inside, across, contact.state.equivalent])
     elements, count = body.body.elements, len(body.body.nodes)

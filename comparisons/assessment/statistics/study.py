@@ -65,8 +65,7 @@ def announce_statistics(
 
 def summit_rows(profile: Profile, cutoffs: tuple[float, ...] | None) -> tuple[SummitRow, ...]:
     """Of the profile as pressed, at every cut-off [m] and from every so many of its samples. Raises
-    ValueError for a profile without statistics and for a cut-off that was asked for and does not
-    suit the trace."""
+    ValueError for a profile without statistics and a given cut-off that does not suit the trace."""
     rows = [_summits(profile, "as pressed", profile.spacing, strict=True)]
     for cutoff in cutoffs or np.multiply(CUTOFFS, shortest_wavelength(profile)).tolist():
         with nullcontext() if cutoffs else suppress(ValueError):

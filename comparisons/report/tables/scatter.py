@@ -57,8 +57,7 @@ def scatter_lines(outcome: Outcome) -> list[str]:
 
 
 def beside_inputs(outcome: Outcome, quantity: str, friction: float) -> str:
-    """How the model error of a figure compares with what the inputs do to it; "" where either is
-    not known."""
+    """How the model error of a figure compares with what inputs do to it; "" if one is unknown."""
     figure = outcome.scatter and outcome.scatter.of(quantity, friction)
     if not figure or outcome.budget is None:
         return ""

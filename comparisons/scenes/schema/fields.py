@@ -235,8 +235,7 @@ class Named(FieldType):
 
 @dataclass(frozen=True)
 class Grid(FieldType):
-    """[columns, rows] of a field of points: at least 3 and at most `each` of both, at most `most`
-    points in all."""
+    """[columns, rows] of a field of points: from 3 to `each` of both, at most `most` in all."""
 
     most: int
     each: int

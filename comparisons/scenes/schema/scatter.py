@@ -72,8 +72,7 @@ Ratio = Annotated[Spread, SpreadField(DIMENSIONLESS)] | None
 
 
 class ScatterSection(SceneSection):
-    """Inputs by name. `samples` of each of two independent designs, a power of two as Sobol's
-    sequence asks for."""
+    """Inputs by name. `samples` of each of two independent designs, a power of two, after Sobol."""
 
     samples: Annotated[int, Whole(FEWEST, MOST)] = 64
     seed: Annotated[int, Whole(0, 2**32 - 1)] = 0

@@ -22,8 +22,7 @@ Tolerances = dict[str, float]
 
 @dataclass(frozen=True)
 class AssessedRow:
-    """A row with its relative errors by quantity; None where the row has none, or is itself the
-    reference."""
+    """A row with its relative errors by quantity; None where it has none, or is the reference."""
 
     row: CostRow
     errors: dict[str, float | None]

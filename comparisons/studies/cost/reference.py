@@ -3,8 +3,7 @@
 Hertz's contact is exact where the scene is smooth and both models solve the same problem. On a
 rough half-plane both models have the same limit, and the finest half-plane is the reference. Where
 the finite elements drop an assumption of the half-plane, the finest of them are the reference, for
-each quantity those of the smallest uncertainty; the half-plane's errors then include its model
-error.
+each quantity those of the smallest uncertainty; the half-plane's model error then counts as error.
 
 The floor is the reference's own uncertainty: no error below it is known."""
 

@@ -36,8 +36,8 @@ class Cost:
 
 
 def assess(problem: Problem, study: Study) -> Cost:
-    """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError where there
-    is no reference."""
+    """Errors, Pareto fronts and recommendations of what was measured. Raises SceneError without a
+    reference."""
     scene = problem.scene
     window = window_of(problem) if scene.stress is not None else None
     known = references(problem, study, window)

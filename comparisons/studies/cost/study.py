@@ -64,8 +64,7 @@ class Study:
     """What was measured."""
 
     rows: tuple[CostRow, ...]  # by method, from coarse to fine
-    # the coarsest setting with the far boundary at half its distance, by method's name, where
-    # that is needed
+    # the coarsest setting with the far boundary at half its distance, by method, where needed
     far_boundary_check: dict[str, MeasuredRun]
 
     def of(self, name: str) -> tuple[CostRow, ...]:
@@ -77,8 +76,7 @@ def measuring_machine() -> dict:
 
 
 def cost_cache(out: Path, scene: ResolvedScene, repeats: int) -> Cache:
-    """What was measured of `scene`, each under its task's name; and the load [N/m] of a prescribed
-    approach."""
+    """What was measured of `scene`, by task's name; and the load [N/m] of a prescribed approach."""
     program = versions(), program_code(*CODE)
     key = key_of(scene_key(scene), measuring_machine(), repeats, *program)
     return Cache(out / FOLDER, key, kinds_of(MeasuredRun))

@@ -1,5 +1,4 @@
-"""A scene as a folder that another code solves, with how to run it and how to bring the answer
-back."""
+"""A scene as a folder that another code solves, with how to run it and bring the answer back."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -77,8 +77,7 @@ PEAK = '"1 GPa"'
 
 @dataclass(frozen=True)
 class FirstScene:
-    """A scene file that was written, what it resolves to, how its profile is read, and a picture of
-    it."""
+    """A scene file that was written, what it resolves to, how its profile is read, a picture."""
 
     path: Path
     picture: Path | None
@@ -114,8 +113,7 @@ def write_first_scene(
     sections  fields as TOML, of [profile] not to be guessed, of others in place of the examples
     force   replace the scene's file, and the picture's
     draw    a picture of the trace beside the scene, as SVG
-    Raises InputError, one line, and writes nothing, where the profile or the place for the scene
-    cannot be used."""
+    Raises InputError, and writes nothing, where profile or place for the scene cannot be used."""
     out = profile.with_suffix(".toml") if out is None else out
     drawn = out.with_suffix(".svg") if draw else None
     _check_place(profile, out, force)

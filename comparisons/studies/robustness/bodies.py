@@ -57,8 +57,7 @@ FLAT = {
 
 @lru_cache
 def mesh_named(name: str) -> BlockMesh:
-    """One of FLAT; or "rough", whose top is a sinusoid of rms slope 1 that fades beyond the refined
-    range."""
+    """One of FLAT; or "rough", whose top is a sinusoid of rms slope 1 on the refined range."""
     if name == "rough":
         return roughen(mesh_named("fine"), _wave)
     half_width, depth, reach, edge, growth, interface = FLAT[name]

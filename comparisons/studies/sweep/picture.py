@@ -34,16 +34,14 @@ def sweep_figure(content: dict) -> "Figure":
     panels = style.stacked(drawn, [(ABOVE, TALL)] * len(names), LEFT)
     for name, axes in zip(names, panels, strict=True):
         _draw(axes, content, name)
-    panels[-1].set_xlabel(_label(content["over"][0]["field"]))
+    field = content["over"][0]["field"]
+    moved = "position of the roller on the trace, mm"
+    panels[-1].set_xlabel(moved if field == POSITION else field)
     panels[0].set_title(content["scene"]["title"], loc="left")
     handles, labels = panels[-1].get_legend_handles_labels()
     if len(labels) > 1:
         drawn.legend(handles, labels, loc="lower left", ncols=4, borderaxespad=0.2)
     return drawn
-
-
-def _label(field: str) -> str:
-    return "position of the roller on the trace, mm" if field == POSITION else field
 
 
 def _places(over: dict) -> tuple[np.ndarray, list[str] | None]:

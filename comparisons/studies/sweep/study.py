@@ -1,7 +1,5 @@
 """A sweep from its request to its files: every point solved, the figures, and how they scatter."""
 
-import csv
-import io
 import os
 from collections.abc import Iterable
 from functools import partial
@@ -19,7 +17,7 @@ from comparisons.common.processes import processes
 from comparisons.common.progress import ProgressCallback, no_progress
 from comparisons.common.provenance import as_json, versions
 from comparisons.common.quantities import QUANTITIES
-from comparisons.results.flat_table import COLUMNS, harmless, rows_of
+from comparisons.results.flat_table import COLUMNS, csv_text, harmless, rows_of
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.points import FAILED, SOLVED, failed, solve_points
 from comparisons.studies.sweep.request import SweepPoint, SweepRequest
@@ -142,14 +140,12 @@ def sweep_csv(content: dict) -> str:
     """A row for each point, friction coefficient and quantity: the swept fields, and the columns of
     `comparisons.results.flat_table`."""
     fields = [each["field"] for each in content["over"]]
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*fields, *COLUMNS])
-    for point in content["points"]:
-        for row in point["rows"]:
-            cells = [*point["values"], *(row[name] for name in COLUMNS)]
-            writer.writerow([harmless(cell) for cell in cells])
-    return text.getvalue()
+    rows = (
+        map(harmless, [*point["values"], *(row[name] for name in COLUMNS)])
+        for point in content["points"]
+        for row in point["rows"]
+    )
+    return csv_text([[*fields, *COLUMNS], *rows])
 
 
 def sweep_table(content: dict, out: Path | None) -> "Group":

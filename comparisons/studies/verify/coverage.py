@@ -72,8 +72,7 @@ class Pair:
     quantity: str
     levels: tuple[float, ...]  # figures on all levels, coarse to fine [SI]
     exact: float  # [SI]
-    # [SI] what errors are relative to: the figure, or the smooth contact's where the figure
-    # vanishes
+    # [SI] what errors are relative to: the figure, or the smooth contact's where that vanishes
     scale: float
     uncertainty: Uncertainty  # as stated, relative to `scale`
     converged: bool  # all levels met their contact conditions

@@ -24,6 +24,7 @@ from comparisons.common.errors import ExitStatus, InputError
 from comparisons.common.files import publish
 from comparisons.common.quantities import QUANTITIES
 from comparisons.report.html import rendered
+from comparisons.results.flat_table import csv_text
 from comparisons.studies.verify.rough import FEW, LAYERED, RoughBody, rough_contact, rough_scene
 from comparisons.studies.verify.scenes import ExactScene, gallery_scenes, layer_scenes
 
@@ -86,8 +87,7 @@ class JudgedForm:
 
 @cache
 def form_cases() -> tuple[FormCase, ...]:
-    """Hertz at rest and sliding, layers, rough contacts made from their pressures, waves, punches
-    with round edges."""
+    """Hertz at rest and sliding, layers, rough contacts made from pressures, waves, punches."""
     bodies = [(seed, RoughBody("half-plane")) for seed in HALF_PLANES]
     bodies += [(2 * k, body) for k, body in enumerate(LAYERED)]  # at rest: friction moves layers
     contacts = [
@@ -188,14 +188,12 @@ def _number(given: Mapping[str, str], column: str, where: str, least: float = -m
 
 
 def _form(cases: tuple[FormCase, ...]) -> str:
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for case in cases:
-        for quantity, value in case.exact.items():
-            expected = f"{value:.{DIGITS}g}"
-            writer.writerow((case.name, quantity, unit_of(quantity), expected, TOLERANCE, "", ""))
-    return file.getvalue()
+    rows = (
+        (case.name, quantity, unit_of(quantity), f"{value:.{DIGITS}g}", TOLERANCE, "", "")
+        for case in cases
+        for quantity, value in case.exact.items()
+    )
+    return csv_text([COLUMNS, *rows])
 
 
 def _of_scene(scene: ExactScene) -> FormCase:

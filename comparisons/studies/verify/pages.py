@@ -27,8 +27,7 @@ def coverage_line(found: Verification) -> str:
 
 
 def verify_summary(found: Verification) -> "RenderableType":
-    """Coverage by model and quantity and by kind, rows that have no pairs or do not hold, and the
-    verdict."""
+    """Coverage by model, quantity and kind, rows without pairs or that do not hold, the verdict."""
     from rich.console import Group
 
     tables = []

@@ -47,8 +47,7 @@ SOURCE = "displacement of the chosen pressures, analytic/exact/manufactured.py"
 
 @dataclass(frozen=True)
 class RoughBody:
-    """What is pressed: `material` at the surface, of a `thickness` over REACH on a `base`, or None
-    of both."""
+    """What is pressed: `material` at the surface, of a `thickness` over REACH on a `base`."""
 
     name: str
     material: Material = STEEL

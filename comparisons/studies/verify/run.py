@@ -2,8 +2,8 @@
 
 Figures and model errors with their stated uncertainties, of scenes solved as `run` does (`scenes`)
 and of contacts on the library's operators (`operators`), smooth and rough (`rough`); observed
-orders (`coverage`); manufactured solutions
-(`manufactured`); the contact by PETSc's own solver (`independent_solver`)."""
+orders (`coverage`); manufactured solutions (`manufactured`); the contact by PETSc's own solver
+(`independent_solver`)."""
 
 from dataclasses import dataclass
 from pathlib import Path

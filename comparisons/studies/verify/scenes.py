@@ -78,8 +78,7 @@ class ExactScene:
     pressure: Curve | None = None  # p(x) [Pa] where it is known in closed form
     models: tuple[str, ...] = MODELS  # that the solution holds for
     trace: KnownTrace | None = None  # in place of the file that the scene's profile names
-    # figures of the half-plane on the same gap, None where the model error of the half-plane is
-    # not asked for
+    # figures of the half-plane on the same gap, None where its model error is not asked for
     half_plane: Callable[[Problem], Mapping[str, float]] | None = None
 
 
@@ -121,8 +120,7 @@ def finite_element_scenes() -> tuple[ExactScene, ...]:
 
 
 def spread(count: int, fewest: float = FEWEST_ELEMENTS, most: float = MOST_ELEMENTS) -> list[float]:
-    """Numbers between the two, even on a logarithmic scale, each far from those before it (steps of
-    the golden ratio)."""
+    """Numbers between the two, even on a logarithmic scale, in steps of the golden ratio."""
     ratio = most / fewest
     return [round(fewest * ratio ** (k * GOLDEN % 1.0), 1) for k in range(1, count + 1)]
 
@@ -229,8 +227,7 @@ def scene_cases(scenes: Iterable[ExactScene]) -> list[CheckedCase]:
 
 def scene_findings(scene: ExactScene, model: str) -> ExactFindings:
     """Solve a scene with one model, as `run` does, and compare each figure with the exact one.
-    Where the half-plane's figures are known, too, it is solved with both, and its model error is
-    compared."""
+    Where the half-plane's are known too, both solve it, and its model error is compared."""
     resolved = resolve_tables(
         scene.tables,
         name="verify",

@@ -11,10 +11,9 @@ from math import inf
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import is_within
-from comparisons.common.numbers import plain
+from comparisons.common.numbers import finite, plain
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.results.outcome import Outcome
-from comparisons.studies.checks import finite
 from comparisons.studies.paper.claims.readings import SLIDING, LevelView, Reading
 
 CONFIRMED, DENIED, INCONCLUSIVE = "confirmed", "denied", "inconclusive"
@@ -47,8 +46,7 @@ class Claim:
     models: tuple[str, ...] = MODELS  # that can measure it
     exact: bool = False  # the number is an error against an exact value
     besides: tuple[tuple[str, Reading], ...] = ()  # further numbers, by what they are
-    # the compared one whose model error bears on the number; None: it is no figure of a real
-    # contact
+    # the compared one whose model error bears on the number; None: no figure of a real contact
     quantity: str | None = None
     slides: bool = False  # the number is one of the sliding contact
 
