@@ -23,9 +23,8 @@ def stability(
     directory = out or RESULTS / "stability"
     with progress() as callback:
         study = run_robustness(directory, junit, callback)
-    show_written(
-        as_json, directory / "stability.json", rows_table(study.rows), verdict_lines(study)
-    )
+    tables = (lambda: rows_table(study.rows), lambda: verdict_lines(study))
+    show_written(as_json, directory / "stability.json", *tables)
     return study.exit_status
 
 
@@ -61,5 +60,5 @@ def verify(
     directory = out or RESULTS / "verify"
     with progress() as callback:
         found = verify_all(directory, junit, callback)
-    show_written(as_json, directory / "verify.json", verify_summary(found))
+    show_written(as_json, directory / "verify.json", lambda: verify_summary(found))
     return found.exit_status

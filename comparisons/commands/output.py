@@ -86,12 +86,12 @@ def show_either(as_json: bool, content: object, table: Callable[[], object]) -> 
         show(table())
 
 
-def show_written(as_json: bool, path: Path, *shown: object) -> None:
-    """Print a file of the results that has just been written, or what is shown of it."""
+def show_written(as_json: bool, path: Path, *tables: Callable[[], object]) -> None:
+    """Print a file of the results that has just been written, or what `tables` make of it."""
     if as_json:
         print(path.read_text(encoding="utf-8"), end="")
-    for each in () if as_json else shown:
-        show(each)
+    for table in () if as_json else tables:
+        show(table())
 
 
 def show_json(content: object) -> None:

@@ -48,7 +48,7 @@ def cost(
     with progress() as callback:
         found = measured_cost(resolved, directory, repeats, callback)
     path = directory / "cost.json"
-    show_written(as_json, path, cost_table(found))
+    show_written(as_json, path, lambda: cost_table(found))
     if not as_json:
         print(f"diagrams {directory / 'cost.html'}, figures {path}")
     return ExitStatus.DONE
