@@ -116,8 +116,7 @@ def cell_values(mesh: "Mesh", value: np.ndarray) -> "Function":
 
 
 def cell_points(mesh: "Mesh") -> np.ndarray:
-    """Coordinate numbers (m, k) of the mesh's cells. 0.5 has an adjacency list, 0.9 an array, 0.11
-    a list of arrays, one a cell type."""
+    """Coordinate numbers (m, k) of cells. 0.5 has an adjacency list, 0.9 an array, 0.11 several."""
     geometry = mesh.geometry
     count = mesh.topology.index_map(mesh.topology.dim)
     count = count.size_local + count.num_ghosts

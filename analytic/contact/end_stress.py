@@ -33,8 +33,7 @@ from analytic.stress_state import StressState
 REACH = 8.0  # pitches from an end: beyond, hats are right to 2e-4 of the largest stress
 DISTURBED = 4  # nodal values at an end that the curve leaves out
 # By which share an end disturbs the inner two of them: Hertz's contact has up to 0.021 and 0.010.
-# Where the curve differs by more, the pressure bends too much for so few nodes, and the
-# hats are better than the curve.
+# Where the curve differs by more, the pressure bends too much for it, and the hats are better.
 UNLIKE = np.array([0.025, 0.012])
 FEWEST = 2 * DISTURBED + 4  # touching nodes of a patch
 TERMS = 512  # of a patch's series at most

@@ -328,8 +328,7 @@ class EquilibriumProblem:
         self, nodes: np.ndarray, pressure: np.ndarray, reduction: float
     ) -> tuple[np.ndarray, bool]:
         """Balance the free nodes of `pressure` (n,); Cp (n,) [m^2], and whether accurately.
-        By conjugate gradients. With the load prescribed the search stays in w'p = P and the
-        approach is the multiplier."""
+        By conjugate gradients; under a load within w'p = P, the approach as the multiplier."""
         search, weights = self.search(nodes), self.weights[nodes]
         if self.by_load:
             missing = self.constraints.load - self.weights @ pressure

@@ -66,8 +66,7 @@ def nodal_values(hats: np.ndarray, pressure: np.ndarray) -> np.ndarray:
 
 
 def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Ends (k,) by the gaps (k, 3) of open nodes, at places (k, 5) with the nodes beside them; one
-    half where there is none."""
+    """Ends (k,) by the gaps (k, 3) of open nodes, at places (k, 5) with those beside; else 1/2."""
     step = np.diff(local)
     weighted = gap * (step[:, :-1] + step[:, 1:])
 

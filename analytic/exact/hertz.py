@@ -83,8 +83,7 @@ def hertz_from_load(load_per_length: float, radius: float, combined_modulus: flo
 def hertz_from_peak_pressure(
     peak_pressure: float, radius: float, combined_modulus: float
 ) -> HertzContact:
-    """Contact with p0 [Pa], R [m] and E* [Pa]: a = 2 R p0/E*, P = pi a p0/2. Raises ValueError
-    unless all three are positive."""
+    """Contact with p0 [Pa], R [m], E* [Pa] > 0 (else ValueError): a = 2 R p0/E*, P = pi a p0/2."""
     check_positive(peak_pressure=peak_pressure, radius=radius, combined_modulus=combined_modulus)
     half_width = 2.0 * radius * peak_pressure / combined_modulus
     load = 0.5 * np.pi * half_width * peak_pressure

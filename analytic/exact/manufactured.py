@@ -49,8 +49,7 @@ from analytic.stress_state import Extremum, StressState
 SMOOTHNESS = 6  # continuous derivatives of the initial gap
 _HIGHEST = 40.0  # w (2 - z/t) beyond which nothing is added
 _TOGETHER = 256  # places that waves are summed at together
-# A search starts at these places and depths [half-widths] of every patch. It goes on from the best,
-# on ever closer points.
+# A search starts at these places and depths [half-widths] of each patch, and closes in on the best.
 _PLACES = 1.5 * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 41))
 _DEPTHS = np.array([0.0, *np.geomspace(0.01, 3.0, 24)])
 _STARTS, _ZOOMS, _ZOOM = 3, 28, 0.5

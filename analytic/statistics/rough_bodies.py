@@ -44,8 +44,7 @@ class RoughContact:
     steps: np.ndarray  # (n,) weights of integrals over rho
     h: np.ndarray
     pressure: np.ndarray
-    # half-width or radius of the smooth contact with the same mean |r| of the pressure on a line
-    # through the centre: (3 pi/4) <rho>
+    # of the smooth contact with the same mean |r| of pressure on a central line: (3 pi/4) <rho>
     effective_width: float
     mean_real_pressure: float  # load over real area, in E* sqrt(s / beta) or [Pa]
     d: float  # of the module, dimensionless

@@ -83,8 +83,7 @@ def turning_points(curve: PPoly) -> np.ndarray:
 
 
 def peaks(profile: Profile) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (n,) [m] of the spline's maxima, ends aside, their heights (n,) [m] and curvatures
-    (n,) [1/m], positive."""
+    """Places (n,) [m] of the spline's inner maxima, heights (n,) [m], curvatures (n,) [1/m] > 0."""
     curve = profile.spline()
     place = np.unique(crossings(curve.derivative(1)))
     bend = curve(place, 2)

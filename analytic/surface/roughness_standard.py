@@ -46,8 +46,7 @@ class StandardRoughness:
     rt: float  # [m] highest peak to deepest valley of the whole evaluation length
     rz: float  # [m] the same of each section, averaged
     rdq: float  # root mean square of dz/dx
-    # [m] mean width of the profile's elements, a hill and a dale each, told apart by a tenth of Rz;
-    # None where there is no whole one
+    # [m] mean width of elements, a hill and a dale each, told apart by a tenth of Rz; None: none
     rsm: float | None
 
 

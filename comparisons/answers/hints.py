@@ -68,8 +68,7 @@ class Curve:
 
 
 def hints(answer: Answer, problem: Problem, level: Level) -> tuple[Hint, ...]:
-    """What explains the difference of an answer's pressures to a model's; empty where they hardly
-    differ, or nothing does."""
+    """What explains the difference of an answer's pressures to a model's, where there is one."""
     reference = Curve(level.grid.x, level.solution.pressure)
     curve = Curve(answer.x, np.where(answer.touching, answer.pressure, 0.0))
     before, found = curve.off(reference), []

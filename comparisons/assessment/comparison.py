@@ -137,8 +137,7 @@ def differences(
 def relative_differences(
     one: dict[str, float], reference: dict[str, float], problem: Problem
 ) -> dict[str, float]:
-    """(one - reference) / reference of figures by name, over the Hertz contact's where the
-    reference's vanishes."""
+    """(one - reference) / reference of figures by name, or over Hertz's where that vanishes."""
     found = {}
     for name, value in one.items():
         scale = abs(reference[name]) or QUANTITIES[name].scale(problem.hertz)

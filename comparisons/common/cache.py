@@ -42,8 +42,7 @@ class Cache:
 
     def save(self, name: str, value: object) -> None:
         """Write a result: dataclasses, dictionaries, tuples, arrays, numbers, texts.
-        Another run may remove the folder at any moment; a result that is lost to that is computed
-        again where it is needed."""
+        Another run may remove the folder at any moment; what is lost is computed again."""
         if self.folder is None or not is_first():
             return
         arrays: dict[str, np.ndarray] = {}

@@ -39,8 +39,7 @@ def made() -> dict[str, str | None]:
 
 @cache
 def revision() -> str | None:
-    """Commit of the checkout that this code stands in, with `+changes` where files differ from it;
-    None outside of one, or without git."""
+    """Commit of this code's checkout, `+changes` where files differ; None without one, or git."""
     if not (PROJECT / ".git").exists():
         return None
     git = ("git", "-C", str(PROJECT), "describe", "--always", "--exclude=*", "--dirty=+changes")

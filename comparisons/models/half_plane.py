@@ -30,8 +30,7 @@ def expected_of(count: int) -> ExpectedCost:
 def half_plane_level(
     problem: Problem, pitch: float, window: Window | None, stages: Stages, fields: bool = True
 ) -> Level:
-    """Solve one level: contact, and where asked for the stresses inside the window; without
-    `fields` their largest values alone."""
+    """Solve one level: contact, and stresses in a window; without `fields` their maxima alone."""
     frictions, grid = problem.scene.friction, problem.grid(pitch)
     return half_plane_on(problem, grid, problem.coupling, frictions, window, stages, fields)
 

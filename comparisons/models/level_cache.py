@@ -16,8 +16,7 @@ CODE = (*LEVEL_CODE, "comparisons/assessment/effects")  # whose variants of the 
 
 
 def level_cache(out: Path | None, scene: ResolvedScene, plan: Plan) -> Cache:
-    """Levels of the run that carries out `plan` for `scene` and writes `out`, None for a run that
-    writes nothing and caches nothing."""
+    """Levels of the run of `plan` for `scene` that writes `out`; None writes and caches nothing."""
     if out is None:
         return Cache(None, "", {})
     key = key_of(scene_key(scene), repr(plan), versions(), program_code(*CODE))

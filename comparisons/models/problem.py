@@ -168,8 +168,7 @@ def _smooth_contact(scene: ResolvedScene, modulus: float, load: float | None) ->
 
 
 def _check_layers(scene: ResolvedScene, half_width: float) -> None:
-    """Refuse a layer whose thickness no mesh can show beside the contact, and a coating that next
-    to the body is nothing, or rigid."""
+    """Refuse a layer too thin or thick for a mesh, and a coating that is nothing, or rigid."""
     if scene.coating is not None:
         own, body = (each.youngs_modulus for each in (scene.coating.material, scene.body))
         if not body / STIFFEST <= own <= body * STIFFEST:
@@ -247,8 +246,7 @@ def _too_wide(scene: ResolvedScene, touching: tuple, ends: tuple) -> str:
 
 
 def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[float, float], float]:
-    """First and last contact [m] of either model between `low` and `high`, and how near to the
-    ends [m] that is too near."""
+    """First and last contact [m] of either model in a range, and what is too near its ends [m]."""
     start, stop = _touched(problem, (low, high), layered=False)
     if is_layered(problem.scene):
         other = _touched(problem, (low, high), layered=True)
@@ -257,8 +255,7 @@ def _search_extent(problem: Problem, low: float, high: float) -> tuple[tuple[flo
 
 
 def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tuple[float, float]:
-    """First and last contact [m] between two ends by SEARCH_HATS pressures, on the half-plane or
-    on the body's layers."""
+    """First and last contact [m] in a range by SEARCH_HATS hats, on half-plane or layers."""
     grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
     operator = nearest_operator(problem.scene, grid) if layered else _half_plane(problem, grid)
     solution = pressed_on(problem, grid, operator)

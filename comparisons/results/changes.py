@@ -17,8 +17,7 @@ Path = tuple[str | int, ...]
 
 # Relative, between converged solutions on other processors; the same machine gives the same bits.
 ROUNDING = KKT_TOLERANCE
-# Observed orders jump in irregular sequences, the machine's memory may decide the number of levels,
-# and estimates are no results.
+# Orders of irregular sequences jump, memory may decide on the levels, estimates are no results.
 NO_FIGURES = frozenset({"cost", "seconds", "iterations", "order", "levels"})
 NO_FIGURES |= {"estimate", "not_modelled", "plan", "safety_factor"}
 DEPENDS = {
@@ -35,8 +34,7 @@ PATCHES = "patches"
 
 @dataclass(frozen=True)
 class Stated:
-    """How far a figure may move: `allowed` in its unit, by which uncertainty, and the `scale` that
-    relative changes refer to."""
+    """How far a figure may move: `allowed` in its unit, by whose uncertainty, and its `scale`."""
 
     allowed: float
     by: str

@@ -35,8 +35,7 @@ class Outcome:
     result: dict  # the content of result.json
     record: dict  # the content of record.json
     directory: Path | None  # where the files are, None for a run without files
-    # what friction changes on the half-plane by moving the surfaces, one a friction coefficient;
-    # empty where it moves nothing
+    # what friction that moves the surfaces changes on the half-plane, by coefficient, if anything
     couplings: tuple[Coupling, ...] = ()
     budget: ErrorBudget | None = None  # of the difference, None for one model
     # the norms of the difference on all levels, one a friction coefficient; empty for one model

@@ -209,8 +209,7 @@ def _peak_memory(problem: Problem, run: ModelRun) -> int:
 def model_error_content(
     problem: Problem, runs: dict[str, ModelRun], budget: ErrorBudget
 ) -> dict[str, list[dict]]:
-    """By quantity, one entry a friction coefficient; relative to the whole model, None for what is
-    unknown or not judged."""
+    """By quantity and friction; relative to the whole model, None: unknown or not judged."""
     tolerance = problem.scene.tolerance
     verdicts = {(c.quantity, c.friction): c.verdict for c in budget.tolerance_checks(tolerance)}
     found: dict[str, list[dict]] = {}

@@ -1,7 +1,6 @@
 """Cases whose figures must lie within bounds, for `verify` and `stability`: run, show, write.
 
-A case that raises is a row that fails with the error's message. A case without a figure has shown
-nothing and fails, too."""
+A case that raises fails with the error's message; one without a figure fails, too."""
 
 import math
 import warnings

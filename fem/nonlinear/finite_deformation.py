@@ -40,8 +40,7 @@ from fem.stress.surface_load import SurfaceLoad
 RESIDUAL, MOST_LEFT, SETTLED = 1e-9, 3e-3, 0.1
 SECANTS, SECANT_RANK = 10, 1e-3
 MOST_CORRECTIONS = 25
-# Of Newton's method: mean displacement of the surfaces past each other that is left, of a hat, and
-# solutions to get there.
+# Of Newton's method: mean slip of the surfaces that is left, of a hat, and solutions to get there.
 ASIDE, MOST_SETTINGS = 1e-3, 6
 
 

@@ -60,8 +60,7 @@ class HyperelasticBody:
         self._jacobian = corner.transpose(2, 0, 3, 1).reshape(2, -1, 6)
 
     def linearised(self, displacement: np.ndarray) -> tuple[np.ndarray, csr_matrix]:
-        """Internal forces (n, 2) [N/m] and tangent (2n, 2n) [Pa], symmetric. Raises FemError if the
-        displacement inverts an element."""
+        """Forces (n, 2) [N/m] and tangent (2n, 2n) [Pa]. FemError where an element is inverted."""
         force = self.force(displacement)
         self.accept(displacement)
         tangent = self._in_our_order(compat.petsc_matrix(self._tangent, []))

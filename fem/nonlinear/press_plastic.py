@@ -275,8 +275,7 @@ class _LoadHistory:
         return True
 
     def _ahead(self, load: float) -> ContactState:
-        """Where to start for a load [N/m]: the plastic strain of the points that flow goes on as
-        over the last increment."""
+        """Where to start for a load [N/m]: plastic strain goes on as over the last increment."""
         if self._elastic is None:
             return self.state
         (before, former), now, last = self._former, self.body.state, self.state.load

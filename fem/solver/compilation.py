@@ -53,8 +53,7 @@ def load_dolfinx() -> None:
 
 
 def compiled(make: Callable[[], Result]) -> Result:
-    """What `make` returns, which may compile forms. Raises TimeoutError if another process compiles
-    the same for over a minute."""
+    """What `make`, which may compile forms, returns. TimeoutError if another does for a minute."""
     from mpi4py import MPI
 
     waits, clear = 0, _clear_once

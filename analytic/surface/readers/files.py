@@ -156,8 +156,7 @@ def profile_of(
 
 
 def _map_in_text(path: Path, refusal: ProfileError) -> Topography:
-    """What SurfaceTopography reads of text that is no profile, with its size and unit; what it does
-    not know stays a wrong profile."""
+    """What SurfaceTopography reads of text that is no profile; else it stays a wrong profile."""
     try:
         topography = read_instrument_file(path)
     except AbsentReaderError:

@@ -93,8 +93,7 @@ def main(path: str, target: str, wanted: str | None = None) -> dict:
 
 
 def given_in_metres(surface: "Topography") -> bool:
-    """Whether the size of a map from an MI file is as the file has it, in m; its unit is then that
-    of the heights alone."""
+    """Whether the size of a map from an MI file is in m; its unit is then of the heights alone."""
     return surface.physical_sizes[0] == float(surface.info["raw_metadata"]["xLength"])
 
 

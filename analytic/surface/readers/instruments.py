@@ -44,8 +44,7 @@ def install_command() -> str:
 
 def read_instrument_file(path: Path, channel: str | None = None) -> Topography | ProfileTable:
     """The default channel of a file that SurfaceTopography knows, or another; a table of xlsx.
-    Raises ProfileError, one line, where the library is absent (with the way to get it), does not
-    know the file, or fails on it."""
+    Raises ProfileError where the library is absent, does not know the file, or fails on it."""
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "heights.npz"
         source = path

@@ -48,8 +48,7 @@ def judged_sequences(outcome: Outcome) -> list[JudgedSequence]:
 
 
 def row_name(outcome: Outcome, name: str, friction: float) -> str:
-    """A quantity and its friction coefficient; empty for a figure that does not depend on friction
-    and stands at the first coefficient."""
+    """A quantity and its friction; what does not depend on that is empty but at the first."""
     frictions = outcome.problem.scene.friction
     if not QUANTITIES[name].needs_stress:
         return label(name) if friction == frictions[0] else ""

@@ -23,8 +23,7 @@ class ModelErrorRow:
     error: str
     uncertainty: str
     tolerance: str
-    # what makes it up, the largest first, each with its sign; of pressures before these what is
-    # left with peaks moved
+    # what makes it up with signs, the largest first; of pressures first what moved peaks leave
     contributions: tuple[str, ...]
     note: str  # what to know before the figure is taken for evidence
     moved: str  # where the whole has its largest value, if not at the half-plane's asperity
@@ -92,8 +91,7 @@ def contributions_in_words(error: ModelError) -> tuple[str, ...]:
 
 
 def moved_text(outcome: Outcome, friction: float) -> tuple[str, ...]:
-    """What is left of the pressures' difference once peaks are moved; nothing where that is most of
-    it, or no asperity makes peaks."""
+    """What is left of the pressures' difference once peaks are moved, unless most of it is."""
     entries = outcome.result["model_error"].get("pressure_l2", ())
     entry = next((each for each in entries if each["friction"] == friction), None)
     if entry is None or outcome.problem.scene.profile is None:
@@ -105,8 +103,7 @@ def moved_text(outcome: Outcome, friction: float) -> tuple[str, ...]:
 
 
 def not_modelled_line(outcome: Outcome) -> str:
-    """The effects that no model of the run has, each with its largest estimate; those that have
-    one reason stand together."""
+    """The effects that no model of the run has, by reason, each with its largest estimate."""
     selection = outcome.budget.selection
     effects = (*selection.impossible, *selection.negligible)
     parts = []

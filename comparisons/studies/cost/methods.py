@@ -1,7 +1,6 @@
 """The methods whose cost is measured, at which settings, and to which scenes each applies.
 
-A setting is a pitch of the pressure elements [m]: those of the scene's own levels, coarser and
-finer by powers of two."""
+A setting is a pitch of pressure elements [m]: the scene's, coarser and finer by powers of two."""
 
 from dataclasses import dataclass
 

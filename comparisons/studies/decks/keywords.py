@@ -27,8 +27,7 @@ LAWS = {
 
 
 def keyword_files(deck: DeckProblem, code: str) -> dict[str, str]:
-    """job.inp and mesh.inp of "calculix" or "abaqus". Raises SceneError for a law of elasticity
-    that the code does not have."""
+    """job.inp and mesh.inp of "calculix" or "abaqus". SceneError for a law that the code lacks."""
     scene = deck.problem.scene
     modulus = max(material.youngs_modulus for material in deck.rough.materials) * MPA
     stiffness = STIFFNESS * modulus / deck.edge

@@ -24,8 +24,7 @@ COUNT = 2 * int(1.5 * HATS_PER_HALF_WIDTH) + 1
 def coated_findings(
     coating: Constants, thickness: float, base: Constants, equivalent: Constants, high: float
 ) -> Findings:
-    """A coating of a thickness over a that does not matter, or is all that matters: a half-plane of
-    the `equivalent` material."""
+    """A coating so thin or thick (over a) that it is a half-plane of the `equivalent` material."""
     body = LayeredBody(Material(*coating), thickness, Material(*base))
     modulus = Material(*equivalent).plane_strain_modulus
     load = np.pi * modulus / (4.0 * RADIUS)  # half-width 1

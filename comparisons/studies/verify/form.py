@@ -103,8 +103,7 @@ def form_cases() -> tuple[FormCase, ...]:
 
 
 def export_form(out: Path) -> int:
-    """Write scenes, form and README to the folder `out`; the number of cases. Raises InputError
-    where it cannot be written."""
+    """Write scenes, form and README to `out`; the number of cases. InputError if that fails."""
     cases = form_cases()
     files = {name: text for case in cases for name, text in case.files.items()}
     files["form.csv"] = _form(cases)

@@ -120,8 +120,7 @@ def errors(body: ElasticBody, moved: np.ndarray, exact: Exact) -> tuple[float, f
 
 
 def skewed(cells: int) -> BlockMesh:
-    """A block without right-angled triangles, of the same shapes on every level; straight lines of
-    nodes at z = 0, THICKNESS and 1."""
+    """A block without right angles, alike on every level; nodes in line at z = 0, THICKNESS, 1."""
     line = np.linspace(-1, 1, cells + 1)
     mesh = structured(line, line[cells // 2 :])
     x, z = mesh.points.T

@@ -64,8 +64,7 @@ class MeasuredNumber:
     """A number of one model with what numerical error may account for, both in its unit."""
 
     value: float
-    # 0 where the number is itself an error against an exact value; infinite where fewer than
-    # three levels are known
+    # 0 of an error against an exact value; infinite where fewer than three levels are known
     uncertainty: float
     converged: bool = True  # all levels met their contact conditions
 
