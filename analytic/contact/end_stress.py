@@ -76,8 +76,7 @@ class EndStress:
     patches: tuple[SmoothPatch, ...]
 
     def parts(self, x: ArrayLike, z: ArrayLike) -> np.ndarray:
-        """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z [m] (broadcast together),
-        z >= 0; zero far from any end."""
+        """sx, sz, txz under p and sx under q = p (4, …) [Pa] at x, z >= 0 [m]; 0 far from ends."""
         x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
         pitch, found = self.x_nodes[1] - self.x_nodes[0], np.zeros((4, *x.shape))
         for patch in self.patches:

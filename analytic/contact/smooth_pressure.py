@@ -93,8 +93,7 @@ def _ends(local: np.ndarray, gap: np.ndarray) -> np.ndarray:
 def curve_between(
     ends: Interval, places: np.ndarray, values: np.ndarray
 ) -> Callable[[np.ndarray], np.ndarray]:
-    """p [Pa] at places [m] on a patch with these ends [m], through `values` (k,) at `places` (k,)
-    inside; zero beyond the ends."""
+    """p [Pa] on a patch with these ends [m] through `values` (k,) at `places` (k,); 0 beyond."""
     shape = CubicSpline(places, values / np.sqrt((places - ends[0]) * (ends[1] - places)))
 
     def curve(at: np.ndarray) -> np.ndarray:

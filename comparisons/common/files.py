@@ -107,8 +107,7 @@ def check_writable(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES))
 
 @contextmanager
 def _locked(path: Path, how: int) -> Iterator[bool | None]:
-    """Lock a file or folder until the block, or this process, ends: whether it is locked, None on a
-    file system without locks."""
+    """Lock a file or folder to the block's end: whether it is; None where a disk has no locks."""
     held, number = True, None
     try:
         number = os.open(path, os.O_RDONLY)
@@ -242,8 +241,7 @@ def published(out: Path, own: tuple[str, ...] = (*OWN_FILES, *OTHER_FILES)) -> I
 
 
 def publish(out: Path, files: Mapping[str, str | bytes], own: tuple[str, ...] = ()) -> None:
-    """Leave files by name in `out`, each whole and all of them or none; `own` as for `published`,
-    by default these files."""
+    """Leave files by name in `out`, whole, all or none; `own` as for `published`, or these."""
     with published(out, own or tuple(files)) as folder:
         for name, content in files.items():
             data = content.encode() if isinstance(content, str) else content

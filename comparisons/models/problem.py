@@ -109,8 +109,7 @@ class Problem:
 
     @property
     def coupling(self) -> float:
-        """Friction times Dundurs' beta, by which traction moves the half-plane's surfaces; 0 where
-        the scene leaves that out."""
+        """Friction times Dundurs' beta, by which traction moves surfaces; 0 where that is out."""
         return self.scene.friction[0] * self.dundurs_beta if self.scene.coupled else 0.0
 
     def grid(self, pitch: float) -> HatGrid:

@@ -75,8 +75,7 @@ class Outcome:
         return found
 
     def pair(self, friction: float) -> dict[str, Level]:
-        """The half-plane and the last of `levels`, on the same pressure elements; one model alone
-        where there is no other."""
+        """The half-plane and the last of `levels` on the same elements, or the only model."""
         name, last = list(self.levels(friction).items())[-1]
         first = next(iter(self.runs.values()))
         return {first.name: first.beside(last), name: last}

@@ -243,8 +243,7 @@ def _exceeds(budget: ErrorBudget, tolerance: Mapping[str, float], quantity: str)
 
 
 def _sideways(runs: dict[str, ModelRun], whole: Level | None) -> dict[str, float]:
-    """By how much the whole model's peaks of pressure lie beside the half-plane's, and what their
-    difference is without that."""
+    """How far the whole model's peaks lie beside the half-plane's, and what else they differ by."""
     other = runs["finite_element"].finest if whole is None else whole
     own = runs["half_plane"].beside(other).solution.pressure
     found = sideways_shift(other.grid, own, other.solution.pressure)
@@ -259,8 +258,7 @@ def _sideways(runs: dict[str, ModelRun], whole: Level | None) -> dict[str, float
 def error_budget_content(
     problem: Problem, runs: dict[str, ModelRun], rows: tuple[Comparison, ...], budget: ErrorBudget
 ) -> dict:
-    """What became of every effect, and by quantity the numerical parts and the sampling's, all
-    relative; None for what is unknown."""
+    """What became of every effect; by quantity numerical and sampling parts, relative, or None."""
     stated = {
         mu: {model: uncertainties(run, problem, mu) for model, run in runs.items()}
         for mu in problem.scene.friction

@@ -256,8 +256,7 @@ class FiniteCompliance:
         raise FemError(f"forces of {rest:.1e} are left after {MOST_CORRECTIONS} corrections")
 
     def solution(self, pressure: np.ndarray, approach: float) -> NonlinearSolution:
-        """The state of the last pressure, at the `approach` [m] that belongs to it. Raises FemError
-        where an element is inverted."""
+        """The state of the last pressure at its `approach` [m]. FemError for inverted elements."""
         contact, moved = self._contact, self.displacement
         contact.response.accept(moved)
         load = float(contact.weights @ pressure)

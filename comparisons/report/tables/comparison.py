@@ -67,8 +67,7 @@ def reference_of(outcome: Outcome, quantity: str) -> str:
 
 
 def figure_rows(outcome: Outcome) -> list[tuple[str, ...]]:
-    """Figures of the only model: quantity's name, friction, figure with unit, the same over
-    Hertz's, uncertainty."""
+    """Of the only model: quantity, friction, figure with unit and over Hertz's, uncertainty."""
     [run] = outcome.runs.values()
     problem, found = outcome.problem, []
     for friction in problem.scene.friction:

@@ -48,6 +48,5 @@ def listed(numbers: Iterable[float]) -> str:
 
 
 def error_text(quantity: str, value: float, uncertainty: float | None = None) -> str:
-    """A relative error in per cent with its sign (norms have none), in the digits that its
-    uncertainty supports."""
+    """A relative error in per cent, signed but for norms, in digits that are certain."""
     return percent(value, signed=not QUANTITIES[quantity].of_pair, uncertainty=uncertainty)

@@ -46,8 +46,7 @@ class RunningInSection(SceneSection):
             yield "running_in.load", problem
 
     def travel(self, position: float) -> float:
-        """Twice the largest distance of the roller from `position` [m]: a trace must be longer by
-        that than for one contact."""
+        """Twice the roller's largest distance from `position` [m]: so much longer is a trace."""
         if self.stroke is not None:
             return self.stroke
         return 2.0 * float(np.abs(np.array(self.positions) - position).max())

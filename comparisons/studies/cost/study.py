@@ -27,8 +27,7 @@ CODE = (
 THREADS = 1  # of a measuring process
 # Time of a setting over that of the one before.
 GROWTH = {"half_plane": 2.5, "finite_element": 3.5}
-# Shares of budget.time, in processor seconds, by which each method is done; what a method does not
-# use is left to the next ones.
+# Shares of budget.time, in processor seconds, by which methods are done; later ones get the rest.
 SHARES = (0.08, 0.2, 0.55, 0.75, 0.9)
 MOST_OF_REST = 0.25  # share of what is left of it beyond which a setting is not repeated
 OK, FAILED, SKIPPED = "ok", "failed", "skipped"
