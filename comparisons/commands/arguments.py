@@ -62,9 +62,9 @@ def complete_groups(incomplete: str) -> list[str]:
 
 
 def complete_quantities(incomplete: str) -> list[str]:
-    from comparisons.common.quantities import QUANTITIES
+    from comparisons.common.quantities import HEAT_QUANTITIES, QUANTITIES
 
-    return _beginning(QUANTITIES, incomplete)
+    return _beginning((*QUANTITIES, *HEAT_QUANTITIES), incomplete)
 
 
 def complete_models(incomplete: str) -> list[str]:

@@ -63,8 +63,13 @@ def map_of(
     x: Axis = None,
     y: Axis = None,
     quantity: Annotated[
-        str, Option(help="The quantity to show.", autocompletion=complete_quantities)
-    ] = "peak_pressure",
+        str | None,
+        Option(
+            help="The quantity to show.",
+            autocompletion=complete_quantities,
+            show_default="peak_pressure, or the finished map's",
+        ),
+    ] = None,
     workers: Annotated[
         str | None,
         Option(help="Processes, or a Dask scheduler's address.", show_default="one a core"),
@@ -79,12 +84,14 @@ def map_of(
     """Map where the half-plane holds, over two dimensionless groups."""
     from comparisons.studies.maps.content import map_table
     from comparisons.studies.maps.make import exit_status, make_map_by, show_finished
-    from comparisons.studies.maps.place import finished_names, problem_named
+    from comparisons.studies.maps.place import finished_map, finished_names, problem_named
     from comparisons.studies.maps.request import SIZE, request_of
 
     marked = mark and from_first(lambda: problem_named(mark))
     is_own = again or any(given is not None for given in (points, x, y, workers))
-    if scene in finished_names() and not is_own:
+    finished = scene in finished_names()
+    quantity = quantity or (finished_map(scene)["quantity"] if finished else "peak_pressure")
+    if finished and not is_own:
         directory = out or RESULTS / scene
         content = from_first(lambda: show_finished(scene, quantity, marked, directory))
     else:

@@ -5,6 +5,8 @@ difference has what both theories leave out: `by_pressure` is the part of it tha
 finds under the finite elements' pressures. One rule judges it, as everything else.
 """
 
+from collections.abc import Set
+
 import numpy as np
 
 from analytic.heat.partition import layered_fraction, one_fraction
@@ -12,7 +14,8 @@ from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import judge
-from comparisons.common.progress import ProgressCallback
+from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.quantities import HEAT_QUANTITIES
 from comparisons.models.heat import (
     HeatedContact,
     friction_of,
@@ -23,7 +26,6 @@ from comparisons.models.heat import (
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
 
-JUDGED = ("flash_temperature", "mean_temperature", "fraction_into_body")
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 
@@ -33,6 +35,20 @@ def heat_study(
 ) -> HeatStudy:
     """Temperatures on every level of every model that was run, and the comparison."""
     callback("frictional heat")
+    figures, finest, contains = heat_figures(problem, runs, callback)
+    first, peclet = next(iter(finest.values())), peclet_numbers(problem)
+    found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
+    return HeatStudy(*found, *_subsurface(problem, first))
+
+
+def heat_figures(
+    problem: Problem,
+    runs: dict[str, ModelRun],
+    callback: ProgressCallback = no_progress,
+    without: Set[str] | None = None,
+) -> tuple[tuple[HeatFigure, ...], dict[str, HeatedContact], dict[str, str]]:
+    """The figures; both models' contacts on the finest level; and what the finite elements alone
+    have, in words. `without` leaves features out of all of these, and states no effects."""
     histories, contains, moved, dropped = {}, {}, {}, {}
     if "half_plane" in runs:
         levels = runs["half_plane"].levels
@@ -41,22 +57,22 @@ def heat_study(
         from comparisons.models.finite_element.heat import finite_element_heat, what_it_contains
 
         levels, contains = runs["finite_element"].levels, what_it_contains(problem)
-        coarse, *_ = own = [finite_element_heat(problem, level) for level in levels]
+        off = without or frozenset()
+        coarse, *_ = own = [finite_element_heat(problem, each, without=off) for each in levels]
         histories["finite_element"] = own
-        smaller = finite_element_heat(problem, levels[0], block=0.5)
+        smaller = finite_element_heat(problem, levels[0], block=0.5, without=off)
         moved = {
-            name: far_boundary(smaller.figures[name] / coarse.figures[name], 1.0) for name in JUDGED
+            name: far_boundary(smaller.figures[name] / coarse.figures[name], 1.0)
+            for name in HEAT_QUANTITIES
         }
-        for feature in contains:
+        for feature in contains if without is None else ():
             callback(f"frictional heat without {contains[feature]}")
             bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
             dropped[feature] = list(zip(bare, own, strict=True))
     given = problem, runs, histories, moved, dropped
-    figures = tuple(_figure(*given, name) for name in JUDGED)
+    figures = tuple(_figure(*given, name) for name in HEAT_QUANTITIES)
     finest = {name: history[-1] for name, history in histories.items()}
-    first, peclet = next(iter(finest.values())), peclet_numbers(problem)
-    found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
-    return HeatStudy(*found, *_subsurface(problem, first))
+    return figures, finest, {k: v for k, v in contains.items() if k not in (without or ())}
 
 
 def _figure(

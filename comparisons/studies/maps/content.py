@@ -11,7 +11,7 @@ from comparisons.assessment.verdict import judge
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError
 from comparisons.common.provenance import versions
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import HEAT_QUANTITIES, QUANTITIES, label
 from comparisons.studies.maps.groups import GROUPS, Axis
 from comparisons.studies.maps.point import TOLERANCES
 from comparisons.studies.maps.request import MapRequest
@@ -57,7 +57,8 @@ def showing(content: dict, quantity: str) -> dict:
     """The same map of another quantity that its points have; refined for the first one. Raises
     InputError where they do not have it."""
     solved = [point for point in content["points"] if point["status"] == SOLVED]
-    held = [name for name in QUANTITIES if all(name in p["quantities"] for p in solved)]
+    names = *QUANTITIES, *HEAT_QUANTITIES
+    held = [name for name in names if all(name in p["quantities"] for p in solved)]
     if quantity not in held:
         allowed = ", ".join(held)
         raise InputError(f"--quantity: {quantity} is not on this map; allowed are {allowed}")
@@ -125,8 +126,8 @@ def map_table(content: dict, out: Path | None) -> "Group":
 
     points = content["points"]
     kinds = Counter(point.get("error", point["status"]) for point in points)
-    label = QUANTITIES[content["quantity"]].label
-    rules = Table(title=f"Where the half-plane's model error in the {label} stays small")
+    what = label(content["quantity"])
+    rules = Table(title=f"Where the half-plane's model error in the {what} stays small")
     for name in ("tolerance", "rule", "its points", "largest error there", "all within"):
         rules.add_column(name, justify="left" if name == "rule" else "right")
     for rule in content["rules"]:

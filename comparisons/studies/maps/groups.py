@@ -4,6 +4,8 @@
     t, w    thickness and width of the body [m]        R   radius of relative curvature [m]
     mu      coefficient of friction                    H   hardness [Pa]
     beta    Dundurs' constant of body and roller       E   Young's moduli [Pa]
+    V       speed of the body past the contact [m/s]   h   thickness of its coating [m]
+    k, k'   conductivity [W/(m K)] of body and coating, kappa diffusivity of the body [m^2/s]
 
 Each group also says which of the half-plane's assumptions the finite elements drop for it. All
 else stays as in the scene, but for what follows from its lengths: waves that are stretched keep
@@ -23,6 +25,8 @@ import numpy as np
 
 from analytic.surface.roughness import shortest_wavelength
 from comparisons.common.errors import InputError, SceneError
+from comparisons.common.quantities import HEAT_QUANTITIES
+from comparisons.models.heat import peclet_numbers
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import resolve_tables
 
@@ -191,6 +195,40 @@ def _set_modulus_ratio(tables: dict, value: float, origin: Origin) -> None:
     tables["roller"]["youngs_modulus"] = value * tables["body"]["youngs_modulus"]
 
 
+def _section(name: str, tables: dict, origin: Origin) -> dict:
+    if name not in tables:
+        raise SceneError(f"{origin.source}: {name}: is missing; allowed for its groups is [{name}]")
+    return tables[name]
+
+
+def _peclet(problem: Problem) -> float | None:
+    return None if problem.scene.heat is None else peclet_numbers(problem)["body"]
+
+
+def _set_peclet(tables: dict, value: float, origin: Origin) -> None:
+    """By the speed."""
+    heat = _section("heat", tables, origin)
+    share = 1.0 / heat["slide_to_roll"] + 0.5  # of the speed, at which the body moves
+    if share == 0.0:
+        raise SceneError(
+            f"{origin.source}: heat.slide_to_roll: is -2, at which the contact stays on the body; "
+            "allowed with peclet is any other one"
+        )
+    stored = heat["body_density"] * heat["body_specific_heat"]
+    diffusivity = heat["body_conductivity"] / stored
+    heat["speed"] = 2.0 * diffusivity * value / (_half_width(tables, origin) * abs(share))
+
+
+def _set_coating(tables: dict, value: float, origin: Origin) -> None:
+    _section("coating", tables, origin)["thickness"] = value * _half_width(tables, origin)
+
+
+def _set_conductivity(tables: dict, value: float, origin: Origin) -> None:
+    _section("coating", tables, origin)
+    heat = _section("heat", tables, origin)
+    heat["coating_conductivity"] = value * heat["body_conductivity"]
+
+
 def _made_profile(tables: dict, origin: Origin, group: str) -> dict:
     profile = tables.get("profile") or {}
     if profile.get("kind") not in WAVES:
@@ -233,6 +271,9 @@ FUNCTIONS: dict[str, tuple[SetTo, ValueOf | None]] = {
     "peak_pressure_over_hardness": (_set_hardness, None),
     "poissons_ratio": (_set_poissons_ratio, None),
     "modulus_ratio": (_set_modulus_ratio, None),
+    "peclet": (_set_peclet, _peclet),
+    "coating_over_a": (_set_coating, None),
+    "conductivity_ratio": (_set_conductivity, None),
 }
 GROUPS = {
     name: Group(*FUNCTIONS[name], **fields)
@@ -312,7 +353,9 @@ def counts_of(given: str) -> tuple[int, int]:
     return counts
 
 
-def usual_axes(tables: dict) -> tuple[str, str]:
+def usual_axes(tables: dict, quantity: str) -> tuple[str, str]:
+    if quantity in HEAT_QUANTITIES:
+        return "peclet", "coating_over_a" if "coating" in tables else "a_over_thickness"
     load, profile = tables["load"], tables.get("profile") or {}
     if profile.get("kind") in WAVES:
         return "wavelength_over_a", "rms_slope"

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import label
 from comparisons.report.figures.style import drawing, figure, svg
 from comparisons.studies.maps.content import (
     BELOW,
@@ -57,8 +57,8 @@ def map_figure(content: dict, mark: Mark | None = None) -> "Figure":
     _ticks(axes.xaxis, content["x"], x)
     _ticks(axes.yaxis, content["y"], y)
     _bar(drawn)
-    label = QUANTITIES[content["quantity"]].label
-    axes.set_title(f"Model error of the half-plane: {label}, per cent\n{content['scene']['title']}")
+    what = label(content["quantity"])
+    axes.set_title(f"Model error of the half-plane: {what}, per cent\n{content['scene']['title']}")
     _legend(axes, content, kinds, lines, _marked(axes, content, mark))
     return drawn
 
@@ -104,7 +104,8 @@ def _cells(axes: "Axes", content: dict, edges: tuple[np.ndarray, np.ndarray]) ->
             look["facecolor"] = colours(share)
             if columns <= LETTERED:
                 ink = _ink(look["facecolor"])
-                text = f"{100.0 * error:+#.2g}".rstrip(".").replace("-", "−")
+                digits = "#.2g" if abs(error) < 0.995 else ".0f"
+                text = f"{100.0 * error:+{digits}}".rstrip(".").replace("-", "−")
                 # lines stop short of letters
                 box = {"facecolor": look["facecolor"], "edgecolor": "none", "pad": 0.8}
                 letters = {"color": ink, "fontsize": 7.0, "ha": "center", "va": "center"}
@@ -196,10 +197,10 @@ def _legend(
         BELOW: f"within its numerical uncertainty, below {first}",
         INCONCLUSIVE: "within its numerical uncertainty",
     }
-    for kind, label in words.items():
+    for kind, said in words.items():
         if kind in kinds:
             look = {"facecolor": "none", "edgecolor": "#777777", "hatch": HATCHES[kind]}
-            entries.append(Patch(label=label, linewidth=0.4, **look))
+            entries.append(Patch(label=said, linewidth=0.4, **look))
     if FAILED in kinds:
         cross = {"marker": "x", "color": "#222222", "linestyle": "none"}
         entries.append(Line2D([], [], label="failed", **cross))

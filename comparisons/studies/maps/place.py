@@ -14,7 +14,7 @@ from comparisons.assessment.effects.selection import select_effects
 from comparisons.common.errors import InputError
 from comparisons.common.numbers import significant
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import HEAT_QUANTITIES, label
 from comparisons.models.half_plane import half_plane_level
 from comparisons.models.problem import Problem, problem_of
 from comparisons.scenes.resolve import load_scene
@@ -44,10 +44,7 @@ class Place:
             f"{content[axis]['symbol']} {'=' if value == shown else '<='} {significant(shown, 2)}"
             for axis, value, shown in zip("xy", self.groups, self.shown, strict=True)
         )
-        errors = (
-            f"{QUANTITIES[name].label} {100.0 * error:+.2g} %"
-            for name, error in self.errors.items()
-        )
+        errors = (f"{label(name)} {100.0 * error:+.2g} %" for name, error in self.errors.items())
         return (
             f"by the map {self.name} ({', '.join(values)}): model error about {', '.join(errors)}"
         )
@@ -70,6 +67,11 @@ def place_on(name: str, problem: Problem) -> Place | None:
     content = finished_map(name)
     if ("profile" in content["scene"]) != (problem.scene.profile is not None):
         return None
+    heat, of_map = problem.scene.heat, content["scene"].get("heat")
+    if of_map and heat:
+        other_base = problem.scene.thickness and heat.base != of_map.get("base", heat.base)
+        if other_base or heat.slide_to_roll != of_map["slide_to_roll"]:
+            return None
     groups, shown = [], []
     for axis in (content["x"], content["y"]):
         group = GROUPS[axis["group"]]
@@ -80,7 +82,8 @@ def place_on(name: str, problem: Problem) -> Place | None:
             return None
         groups.append(value)
         shown.append(max(value, axis["values"][0]))
-    errors = {q: interpolated(content, q, *shown) for q in problem.scene.tolerance}
+    wanted = (*problem.scene.tolerance, *(HEAT_QUANTITIES if of_map else ()))
+    errors = {q: interpolated(content, q, *shown) for q in wanted}
     errors = {quantity: error for quantity, error in errors.items() if np.isfinite(error)}
     return Place(name, tuple(groups), tuple(shown), errors) if errors else None
 
@@ -99,10 +102,13 @@ def places_of(problem: Problem) -> tuple[Place, ...]:
     found = [place for name in finished_names() if (place := place_on(name, problem))]
     found.sort(key=lambda place: -np.count_nonzero(place.groups))
     chosen: list[Place] = []
-    covered: set[str] = set()
+    covered: set[tuple[bool, str]] = set()
     for place in found:
         content = finished_map(place.name)
-        own = {content[a]["group"] for a, v in zip("xy", place.groups, strict=True) if v > 0.0}
+        heats = content["quantity"] in HEAT_QUANTITIES
+        own = {
+            (heats, content[a]["group"]) for a, v in zip("xy", place.groups, strict=True) if v > 0.0
+        }
         if own - covered or not (own or chosen):
             chosen.append(place)
             covered |= own
@@ -140,7 +146,7 @@ def first_answer(problem: Problem) -> list[str]:
         if sizes:
             total, most = sum(sizes.values()), max(sizes, key=sizes.get)
             bound = f"{100.0 * total:.2g} %" if total < 1.0 else "100 % or more"
-            bounds.append(f"{QUANTITIES[name].label} {bound} ({EFFECTS[most].label} most)")
+            bounds.append(f"{label(name)} {bound} ({EFFECTS[most].label} most)")
     if not bounds:
         return []
     return [f"by estimates, on no finished map: model error at most about {', '.join(bounds)}"]

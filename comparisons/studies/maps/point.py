@@ -3,7 +3,9 @@
 Both models are refined until the model error of the half-plane is well above its numerical
 uncertainty, never by the clock, so that a point has the same answer wherever it is computed.
 
-The uncertainty is that of a run's comparison.
+The uncertainty is that of a run's comparison. For temperatures both models have the half-plane's
+pressures: the error is the half-space's for heat alone, and the roller a disc where the finite
+elements have its circle.
 """
 
 from collections.abc import Iterator
@@ -15,7 +17,7 @@ import numpy as np
 
 from comparisons.assessment.comparison import figures, pair_history
 from comparisons.common.progress import Stages
-from comparisons.common.quantities import MODELS
+from comparisons.common.quantities import HEAT_QUANTITIES, MODELS
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
@@ -84,14 +86,15 @@ def solve_point(point: PointRequest) -> dict:
 def _solved(point: PointRequest) -> dict:
     scene = resolve_tables(point.tables, name="point", folder=point.folder, source=point.source)
     problem = problem_of(scene)
-    plan = make_plan(problem, MODELS)
-    window = window_of(problem) if plan.stress else None
+    plan, heats = make_plan(problem, MODELS), point.quantity in HEAT_QUANTITIES
+    window = window_of(problem) if plan.stress and not heats else None
     friction = max(scene.friction)
-    for runs in _refined(problem, plan, window):
+    for runs in _heated(problem) if heats else _refined(problem, plan, window):
         for run in runs:
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
-        errors = model_errors(*runs, problem, friction, window)
+        given = *runs, problem, friction, window
+        errors = heat_errors(*runs, problem) if heats else model_errors(*given)
         if not errors[point.quantity].is_open:
             break
     return {
@@ -145,6 +148,32 @@ def _refined(
             if GROWTH * finite_element[-1].unknowns > MOST_UNKNOWNS:
                 break
         pitch *= 0.5
+
+
+def _heated(problem: Problem) -> Iterator[tuple[ModelRun, ModelRun]]:
+    """As `_refined`, but both have the half-plane's pressures."""
+    from comparisons.models.half_plane import half_plane_level
+
+    pitch, levels = problem.pitches[0], []
+    for number in range(1, problem.scene.resolution.most + 1):
+        levels.append(half_plane_level(problem, pitch, None, Stages()))
+        if number >= len(problem.pitches):
+            yield tuple(ModelRun(name, tuple(levels)) for name in MODELS)
+        pitch *= 0.5
+
+
+def heat_errors(
+    half_plane: ModelRun, finite_element: ModelRun, problem: Problem
+) -> dict[str, PointError]:
+    from comparisons.assessment.heat.study import heat_figures
+
+    without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
+    runs = {run.name: run for run in (half_plane, finite_element)}
+    figures, *_ = heat_figures(problem, runs, without=without)
+    return {
+        each.quantity: PointError(*each.values.values(), each.difference, each.uncertainty)
+        for each in figures
+    }
 
 
 def model_errors(

@@ -10,7 +10,7 @@ from pathlib import Path
 from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError
 from comparisons.common.provenance import LEVEL_CODE, digest, program_code, versions
-from comparisons.common.quantities import QUANTITIES
+from comparisons.common.quantities import HEAT_QUANTITIES, QUANTITIES
 from comparisons.scenes.files import find_scene, name_of, read_toml
 from comparisons.scenes.resolve import resolve_tables
 from comparisons.studies.maps.groups import (
@@ -24,6 +24,8 @@ from comparisons.studies.maps.groups import (
 )
 
 FOLDER = "map_points"
+# Fields that follow from others where a scene does not give them.
+FOLLOWING = (("load", "position"), ("profile", "length"), ("profile", "cutoff"), ("heat", "reach"))
 # What shapes the answer at a point, beside versions of libraries.
 CODE = (
     *LEVEL_CODE,
@@ -131,17 +133,20 @@ def request_of(
     name = name_of(path)
     origin = Origin(source=scene, folder=path.parent)
     tables = _given_tables(given, name, origin)
-    usual = usual_axes(tables)
+    heats = quantity in HEAT_QUANTITIES
+    if not heats and quantity not in QUANTITIES:
+        allowed = ", ".join((*QUANTITIES, *HEAT_QUANTITIES))
+        raise InputError(f"--quantity: there is no {quantity}; allowed are {allowed}")
+    needed = "heat" if heats else "stress" if QUANTITIES[quantity].needs_stress else "load"
+    if needed not in tables:
+        raise InputError(f"--quantity: {quantity} needs a [{needed}] section in {scene}")
+    usual = usual_axes(tables, quantity)
     axes = [
         axis_of(asked or default, count, option)
         for asked, default, count, option in zip((x, y), usual, counts, ("--x", "--y"), strict=True)
     ]
     if axes[0].group == axes[1].group:
         raise InputError(f"--y: is {axes[1].group}, as --x; allowed are two groups")
-    if quantity not in QUANTITIES:
-        raise InputError(f"--quantity: there is no {quantity}; allowed are {', '.join(QUANTITIES)}")
-    if QUANTITIES[quantity].needs_stress and "stress" not in tables:
-        raise InputError(f"--quantity: {quantity} needs a [stress] section in {scene}")
     return MapRequest(scene, name, tables, origin, *axes, quantity)
 
 
@@ -149,7 +154,7 @@ def _given_tables(given: dict, name: str, origin: Origin) -> dict:
     """The scene in SI without the fields that follow from others: these change along the axes."""
     tables = copy.deepcopy(resolve_tables(given, name=name, **vars(origin)).tables)
     tables["finite_element"] = given.get("finite_element", {})
-    for section, field in (("load", "position"), ("profile", "length"), ("profile", "cutoff")):
+    for section, field in FOLLOWING:
         if section in tables and field not in given[section]:
             tables[section].pop(field, None)
     if "profile" in tables and given["profile"].get("cutoff") == "auto":

@@ -32,14 +32,20 @@ def test_a_point_of_a_map_lies_there_with_its_own_error(name):
     """The groups that a point's scene was given are those that are read off it."""
     content = finished_map(name)
     columns = len(content["x"]["values"])
-    request = request_of(name, f"{columns}x{columns}", *(f"{_axis(content[a])}" for a in "xy"))
+    request = request_of(
+        name,
+        f"{columns}x{columns}",
+        *(f"{_axis(content[a])}" for a in "xy"),
+        quantity=content["quantity"],
+    )
     for number in (3 * columns + 4, 6 * columns + 1):
         point = request.points[number]
         scene = resolve_tables(point.tables, name="point", folder=point.folder, source=name)
         place = place_on(name, problem_of(scene))
         assert place.groups == pytest.approx((point.x, point.y), rel=0.01)
-        expected = content["points"][number]["quantities"]["peak_pressure"]["difference"]
-        assert place.errors["peak_pressure"] == pytest.approx(expected, rel=0.02, abs=2e-5)
+        quantity = content["quantity"]
+        expected = content["points"][number]["quantities"][quantity]["difference"]
+        assert place.errors[quantity] == pytest.approx(expected, rel=0.02, abs=2e-5)
 
 
 def _axis(axis: dict) -> str:
@@ -48,13 +54,17 @@ def _axis(axis: dict) -> str:
 
 @pytest.mark.parametrize("name", finished_names())
 def test_between_points_the_error_is_known_to_a_tenth(name):
-    """By every second point from its four neighbours, at twice the distance."""
+    """By every second point from its four neighbours, at twice the distance: there an error has
+    four times its deviation from straight lines. A slab's falls tenfold in two points of its map,
+    so that it is known to a tenth at the map's own spacing, from 1 % on."""
+    slab = name in ("peclet-thickness", "peclet-insulated")
+    least, most = (1e-2, 0.4) if slab else (1e-3, 0.1)
     content = finished_map(name)
-    error = differences(content, "peak_pressure")
+    error = differences(content, content["quantity"])
     s = scaled(error)
     guess = unscaled(0.25 * (s[1:-1, :-2] + s[1:-1, 2:] + s[:-2, 1:-1] + s[2:, 1:-1]))
-    off = np.abs(guess - error[1:-1, 1:-1]) / np.maximum(np.abs(error[1:-1, 1:-1]), 1e-3)
-    assert np.nanquantile(off, 0.9) < 0.1
+    off = np.abs(guess - error[1:-1, 1:-1]) / np.maximum(np.abs(error[1:-1, 1:-1]), least)
+    assert np.nanquantile(off, 0.9) < most
 
 
 def test_between_two_points_it_is_straight_on_the_scale():
@@ -74,6 +84,22 @@ def test_smooth_scenes_take_the_map_of_what_they_have():
     # solved: -0.92 % under an elastic roller; the map's is rigid, with a body as stiff as both
     assert -0.011 < place.errors["peak_pressure"] < -0.005
     assert "<= " in place.text and "peak pressure −" in place.text.replace("-", "−")
+
+
+def test_scenes_with_heat_take_its_maps_beside():
+    """Of the scene's own base and of its slide-to-roll ratio."""
+    heat = load_scene("frictional-heat").tables["heat"]
+    slab = load_scene("smooth").tables["body"] | {"thickness": 4e-4}
+    for base, name in (("held", "peclet-thickness"), ("insulated", "peclet-insulated")):
+        given = {"body": slab, "heat": heat | {"base": base, "speed": 0.02}}
+        load = load_scene("smooth").tables["load"] | {"friction": [0.1]}
+        found = {p.name: p for p in places_of(problem("smooth", **given, load=load))}
+        assert found.keys() == {"curvature-thickness", "peclet-radius", name}
+        error = found[name].errors["flash_temperature"]
+        assert (error > 0.0) == (base == "held") and "flash temperature" in found[name].text
+    rolling = given | {"heat": given["heat"] | {"slide_to_roll": 0.1}}
+    names = {place.name for place in places_of(problem("smooth", **rolling, load=load))}
+    assert names == {"curvature-thickness"}
 
 
 def test_friction_of_unlike_bodies_is_on_the_other_map():
@@ -102,6 +128,14 @@ def test_a_finished_map_is_shown_and_not_solved(tmp_path, capsys, monkeypatch):
     unmarked = (out / "map.svg").read_text()
     assert main(asked) == 0
     assert (out / "map.svg").read_text() != unmarked
+
+
+def test_a_map_of_temperatures_shows_them(tmp_path, capsys):
+    out = str(tmp_path / "map")
+    assert main(["map", "peclet-thickness", "--out", out]) == 0
+    assert "model error in the flash temperature stays small" in capsys.readouterr().out
+    assert main(["map", "peclet-thickness", "--out", out, "--quantity", "peak_pressure"]) == 2
+    assert "peak_pressure is not on this map; allowed are flash_temp" in capsys.readouterr().err
 
 
 def test_what_a_map_does_not_have_is_refused(tmp_path, capsys):
