@@ -61,13 +61,6 @@ def band_mean(peclet: float) -> float:
     return float((front + behind) / (2.0 * peclet) / (np.pi * peclet))
 
 
-def fast_band(peclet: float) -> tuple[float, float]:
-    """Largest and mean k T / (q l) for a fast source: one-dimensional conduction while it passes,
-    (2/sqrt(pi)) sqrt(2 kappa l / V) / l and two thirds of it (Jaeger 1942)."""
-    largest = 2.0 / np.sqrt(np.pi * peclet)
-    return largest, 2.0 / 3.0 * largest
-
-
 def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
     """I(u) as in the head of this module, less 1 where `ahead`."""
     size = np.abs(u).clip(1e-300)

@@ -95,6 +95,17 @@ def peclet_numbers(problem: Problem) -> dict[str, float]:
     return dict(zip(BODIES, numbers, strict=True))
 
 
+def what_it_contains(problem: Problem) -> dict[str, str]:
+    """What the finite elements have and the half-space has not, in words."""
+    scene, found = problem.scene, {}
+    if scene.thickness is not None:
+        how = {"held": "at its bulk temperature", "insulated": "insulated"}[scene.heat.base]
+        found["thickness"] = f"the body's thickness, its base {how}"
+    if scene.coating is not None:
+        found["coating"] = "the coating"
+    return found | {"roller": "the roller as a disc"}
+
+
 def check_heat(problem: Problem) -> None:
     """Raise SceneError for speeds that no temperature can be computed for."""
     scene = problem.scene

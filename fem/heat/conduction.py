@@ -35,7 +35,6 @@ from fem.body.sums import matrix_of
 from fem.body.surface import boundary_points
 from fem.body.triangle import edge_shapes
 from fem.heat.body import ThermalBody
-from fem.heat.surface_heat import flux_load, values_at
 from fem.heat.transient import march
 from fem.solver.mumps import Factor
 
@@ -144,10 +143,3 @@ class Conduction:
         """As of `fem.heat.transient.march`."""
         given = self.matrix, self.held, load, times, start
         return march(self.body.capacity, *given, symmetric=not self.velocity)
-
-    def at_surface(self, x: np.ndarray, flux: np.ndarray) -> np.ndarray:
-        """Steady temperature (m,) [K] at ascending x (m,) [m] under a flux (m,) [W/m^2] into the
-        body, linear between them and zero beyond."""
-        body = self.body
-        temperature = self.steady(flux_load(body, x, flux))
-        return values_at(body.surface, x) @ temperature[body.surface.point]

@@ -5,7 +5,7 @@ difference has what both theories leave out: `by_pressure` is the part of it tha
 finds under the finite elements' pressures. One rule judges it, as everything else.
 """
 
-from collections.abc import Set
+from collections.abc import Iterable, Set
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import judge
-from comparisons.common.progress import ProgressCallback, no_progress
+from comparisons.common.progress import ProgressCallback
 from comparisons.common.quantities import HEAT_QUANTITIES
 from comparisons.models.heat import (
     HeatedContact,
@@ -22,6 +22,7 @@ from comparisons.models.heat import (
     half_space_heat,
     half_spaces,
     peclet_numbers,
+    what_it_contains,
 )
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
@@ -35,7 +36,8 @@ def heat_study(
 ) -> HeatStudy:
     """Temperatures on every level of every model that was run, and the comparison."""
     callback("frictional heat")
-    figures, finest, contains = heat_figures(problem, runs, callback)
+    contains = what_it_contains(problem) if "finite_element" in runs else {}
+    figures, finest = heat_figures(problem, runs, effects=contains)
     first, peclet = next(iter(finest.values())), peclet_numbers(problem)
     found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
     return HeatStudy(*found, *_subsurface(problem, first))
@@ -44,35 +46,30 @@ def heat_study(
 def heat_figures(
     problem: Problem,
     runs: dict[str, ModelRun],
-    callback: ProgressCallback = no_progress,
-    without: Set[str] | None = None,
-) -> tuple[tuple[HeatFigure, ...], dict[str, HeatedContact], dict[str, str]]:
-    """The figures; both models' contacts on the finest level; and what the finite elements alone
-    have, in words. `without` leaves features out of all of these, and states no effects."""
-    histories, contains, moved, dropped = {}, {}, {}, {}
+    without: Set[str] = frozenset(),
+    effects: Iterable[str] = (),
+) -> tuple[tuple[HeatFigure, ...], dict[str, HeatedContact]]:
+    """The figures, and both models' contacts on the finest level. The finite elements are `without`
+    features (`what_it_contains`); the `effects` of some are stated."""
+    histories, moved, dropped = {}, {}, {}
     if "half_plane" in runs:
         levels = runs["half_plane"].levels
         histories["half_plane"] = [half_space_heat(problem, level) for level in levels]
     if "finite_element" in runs:
-        from comparisons.models.finite_element.heat import finite_element_heat, what_it_contains
+        from comparisons.models.finite_element.heat import finite_element_heat
 
-        levels, contains = runs["finite_element"].levels, what_it_contains(problem)
-        off = without or frozenset()
-        coarse, *_ = own = [finite_element_heat(problem, each, without=off) for each in levels]
+        levels = runs["finite_element"].levels
+        coarse, *_ = own = [finite_element_heat(problem, each, without=without) for each in levels]
         histories["finite_element"] = own
-        smaller = finite_element_heat(problem, levels[0], block=0.5, without=off)
-        moved = {
-            name: far_boundary(smaller.figures[name] / coarse.figures[name], 1.0)
-            for name in HEAT_QUANTITIES
-        }
-        for feature in contains if without is None else ():
-            callback(f"frictional heat without {contains[feature]}")
+        smaller = finite_element_heat(problem, levels[0], 0.5, without)
+        for name in HEAT_QUANTITIES:
+            moved[name] = far_boundary(smaller.figures[name] / coarse.figures[name], 1.0)
+        for feature in effects:
             bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
             dropped[feature] = list(zip(bare, own, strict=True))
     given = problem, runs, histories, moved, dropped
     figures = tuple(_figure(*given, name) for name in HEAT_QUANTITIES)
-    finest = {name: history[-1] for name, history in histories.items()}
-    return figures, finest, {k: v for k, v in contains.items() if k not in (without or ())}
+    return figures, {name: history[-1] for name, history in histories.items()}
 
 
 def _figure(

@@ -36,8 +36,8 @@ def finite_element_heat(
     problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
 ) -> HeatedContact:
     """As the half-spaces' `comparisons.models.heat.half_space_heat`, under the pressures of a
-    finite-element level; `block` scales the mesh of an unbounded body. What is left out `without`
-    the names of `what_it_contains` is of a half-space."""
+    finite-element level; `block` scales the mesh of an unbounded body; `without` names features
+    (`what_it_contains`) that are left out."""
     x, heat = level.grid.x, heat_of_friction(problem, level)
     x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
     heat = np.pad(heat, 1)
@@ -108,14 +108,3 @@ def _conduction(
     mesh = rounded(mesh, radius) if np.isfinite(radius) else mesh
     body = thermal_body(mesh, material, coating=layer, radius=radius)
     return Conduction(body, velocity, around, float(patches.mean()), settings.reach)
-
-
-def what_it_contains(problem: Problem) -> dict[str, str]:
-    """What the finite elements have and the half-space has not, in words."""
-    scene, found = problem.scene, {}
-    if scene.thickness is not None:
-        how = {"held": "at its bulk temperature", "insulated": "insulated"}[scene.heat.base]
-        found["thickness"] = f"the body's thickness, its base {how}"
-    if scene.coating is not None:
-        found["coating"] = "the coating"
-    return found | {"roller": "the roller as a disc"}

@@ -84,12 +84,12 @@ def solve_point(point: PointRequest) -> dict:
 
 
 def _solved(point: PointRequest) -> dict:
-    scene = resolve_tables(point.tables, name="point", folder=point.folder, source=point.source)
+    scene = resolve_tables(point.tables, name="point", **vars(point.origin))
     problem = problem_of(scene)
     plan, heats = make_plan(problem, MODELS), point.quantity in HEAT_QUANTITIES
     window = window_of(problem) if plan.stress and not heats else None
     friction = max(scene.friction)
-    for runs in _heated(problem) if heats else _refined(problem, plan, window):
+    for runs in _refined(problem, plan, window, heats):
         for run in runs:
             if not run.finest.solution.converged:
                 return failed(f"{run.name}: {NOT_CONVERGED}")
@@ -109,15 +109,18 @@ def _solved(point: PointRequest) -> dict:
 
 
 def _refined(
-    problem: Problem, plan: Plan, window: Window | None
+    problem: Problem, plan: Plan, window: Window | None, heats: bool
 ) -> Iterator[tuple[ModelRun, ModelRun]]:
-    """Both models on the first levels, then with one more each time, while there may be."""
+    """Both models on the first levels, then with one more each time, while there may be; of heat
+    both with the half-plane's pressures."""
     from comparisons.models.finite_element.bodies import BodyCache
     from comparisons.models.finite_element.level import finite_element_level
     from comparisons.models.finite_element.mesh import Refinement
     from comparisons.models.half_plane import half_plane_level
 
     def solved(pitch: float, half_block: bool = False) -> Level:
+        if heats:
+            return half_plane_level(problem, pitch, window, Stages())
         refinement, body_cache = Refinement(pitch, half_block), bodies(pitch)
         return finite_element_level(
             problem, plan, refinement, window, Stages(), body_cache=body_cache, fields=False
@@ -150,18 +153,6 @@ def _refined(
         pitch *= 0.5
 
 
-def _heated(problem: Problem) -> Iterator[tuple[ModelRun, ModelRun]]:
-    """As `_refined`, but both have the half-plane's pressures."""
-    from comparisons.models.half_plane import half_plane_level
-
-    pitch, levels = problem.pitches[0], []
-    for number in range(1, problem.scene.resolution.most + 1):
-        levels.append(half_plane_level(problem, pitch, None, Stages()))
-        if number >= len(problem.pitches):
-            yield tuple(ModelRun(name, tuple(levels)) for name in MODELS)
-        pitch *= 0.5
-
-
 def heat_errors(
     half_plane: ModelRun, finite_element: ModelRun, problem: Problem
 ) -> dict[str, PointError]:
@@ -169,7 +160,7 @@ def heat_errors(
 
     without = set() if problem.scene.finite_element.roller_shape == "circle" else {"roller"}
     runs = {run.name: run for run in (half_plane, finite_element)}
-    figures, *_ = heat_figures(problem, runs, without=without)
+    figures, _ = heat_figures(problem, runs, without)
     return {
         each.quantity: PointError(*each.values.values(), each.difference, each.uncertainty)
         for each in figures

@@ -48,8 +48,7 @@ class PointRequest:
     y: float
     quantity: str  # that the levels are refined for
     tables: dict | None  # the scene, SI; None where there is none with these values
-    folder: Path
-    source: str
+    origin: Origin
     why: str | None  # why there is none
     key: str  # hash of everything that shapes the answer
 
@@ -103,9 +102,7 @@ class MapRequest:
             why = str(error)
         parts = json.dumps([tables or [why], profile, self.quantity, program], sort_keys=True)
         key = hashlib.sha256(parts.encode()).hexdigest()[:24]
-        return PointRequest(
-            x, y, self.quantity, tables, self.origin.folder, self.origin.source, why, key
-        )
+        return PointRequest(x, y, self.quantity, tables, self.origin, why, key)
 
 
 def point_cache(out: Path) -> Cache:

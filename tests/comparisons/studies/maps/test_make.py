@@ -17,6 +17,7 @@ from comparisons.cli import main
 from comparisons.common.errors import ExitStatus
 from comparisons.common.processes import processes
 from comparisons.studies.maps.content import MAP, PICTURE, map_table
+from comparisons.studies.maps.groups import Origin
 from comparisons.studies.maps.make import TIMES, exit_status, make_map
 from comparisons.studies.maps.point import NOT_CONVERGED, solve_point
 from comparisons.studies.maps.request import FOLDER, PointRequest, point_cache, request_of
@@ -168,7 +169,7 @@ class Fragile(Executor):
 
 
 def point_at(x: float) -> PointRequest:
-    return PointRequest(x, 0.0, "peak_pressure", {}, Path("."), "made", None, f"key{x:g}")
+    return PointRequest(x, 0.0, "peak_pressure", {}, Origin("made", Path(".")), None, f"key{x:g}")
 
 
 class Solved(list[float]):

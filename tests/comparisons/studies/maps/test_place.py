@@ -40,7 +40,7 @@ def test_a_point_of_a_map_lies_there_with_its_own_error(name):
     )
     for number in (3 * columns + 4, 6 * columns + 1):
         point = request.points[number]
-        scene = resolve_tables(point.tables, name="point", folder=point.folder, source=name)
+        scene = resolve_tables(point.tables, name="point", **vars(point.origin))
         place = place_on(name, problem_of(scene))
         assert place.groups == pytest.approx((point.x, point.y), rel=0.01)
         quantity = content["quantity"]

@@ -30,7 +30,7 @@ COATED_HEAT = {f"coating_{name}": HEAT[f"body_{name}"] for name in ("density", "
 
 
 def found_at(tables: dict, quantity: str = "peak_pressure") -> dict:
-    point = PointRequest(0.0, 0.0, quantity, tables, HERE.folder, "m", None, "key")
+    point = PointRequest(0.0, 0.0, quantity, tables, HERE, None, "key")
     return solve_point(point)["found"]
 
 
