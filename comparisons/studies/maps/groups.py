@@ -224,7 +224,6 @@ def _set_coating(tables: dict, value: float, origin: Origin) -> None:
 
 
 def _set_conductivity(tables: dict, value: float, origin: Origin) -> None:
-    _section("coating", tables, origin)
     heat = _section("heat", tables, origin)
     heat["coating_conductivity"] = value * heat["body_conductivity"]
 
