@@ -191,20 +191,35 @@ def _without_main() -> Iterator[None]:
         sys.modules["__main__"] = script
 
 
+@contextmanager
+def beside_next(works: Works) -> Iterator[None]:
+    """The first `side_by_side` inside begins with these works, too; else the block ends with them.
+    They return nothing."""
+    _before.extend(works)
+    try:
+        yield
+        side_by_side([])
+    finally:
+        _before.clear()
+
+
 def side_by_side(works: Sequence[Callable[[], Result]]) -> list[Result]:
     """What each work returns, in their order; copies of this process carry them out, one a core.
 
     Works share what this process has in memory, and their answers go through pickle. They use no
     MPI, which survives no fork. They are carried out here on one core, where this is one of several
     processes or has several threads, and where copies cannot be made or do not answer."""
+    before = len(_before)
+    works = [*_before, *works]
+    _before.clear()
     count = min(copies(), len(works))
     if count > 1:
         with suppress(BrokenProcessPool, OSError), processes(count, works) as pool:
             with interrupts_later(), warnings.catch_warnings():
                 warnings.simplefilter("ignore", DeprecationWarning)  # of other threads: they wait
                 answers = pool.map(_copied, range(len(works)))
-            return list(answers)  # an error of the work itself comes again below
-    return [work() for work in works]
+            return list(answers)[before:]  # an error of the work itself comes again below
+    return [work() for work in works][before:]
 
 
 def copies() -> int:
@@ -216,6 +231,7 @@ def copies() -> int:
 
 
 _works: Works = ()  # of a copy
+_before: list[Callable[[], object]] = []  # that `side_by_side` begins with
 
 
 def _copied(number: int) -> object:

@@ -8,7 +8,7 @@ import numpy as np
 from comparisons.common.errors import one_line
 from comparisons.common.files import RECORD, published
 from comparisons.common.mpi import is_first
-from comparisons.common.processes import side_by_side
+from comparisons.common.processes import beside_next
 from comparisons.common.progress import ProgressCallback, Step
 from comparisons.common.provenance import as_json
 from comparisons.models.heat import HeatedContact
@@ -30,18 +30,20 @@ def write_files(outcome: Outcome, callback: ProgressCallback, fields: str = AUTO
     from comparisons.report.saved import FILE, save_shown
 
     with published(outcome.directory) as folder:
-        works = [partial(save_shown, folder / FILE, outcome)]
-        for name, level in _written(outcome).items():
-            (folder / name).mkdir()
-            works.append(partial(_write_level, folder / name, outcome, level, fields))
+        levels, works = _written(outcome), []
+        for name in sorted(levels, key=lambda name: levels[name].mesh is None):  # longest first
+            (folder / name).mkdir(parents=True, exist_ok=True)
+            works.append(partial(_write_level, folder / name, outcome, levels[name], fields))
+        works.append(partial(save_shown, folder / FILE, outcome))
         for name, contact in outcome.heat.contacts.items() if outcome.heat else ():
             write_temperatures(folder / name / "temperature.csv", contact)
         if outcome.problem.scene.run_in is not None:
             write_run_in_profile(folder / "run_in_profile.csv", outcome.problem.scene)
         (folder / "result.json").write_text(as_json(outcome.result), encoding="utf-8")
         callback("drawing the report")
-        side_by_side(works)
-        (folder / "report.html").write_text(render(outcome), encoding="utf-8")
+        with beside_next(works):
+            page = render(outcome)
+        (folder / "report.html").write_text(page, encoding="utf-8")
         files = sorted(str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file())
         record = outcome.record | {"files": [*files, RECORD]}
         (folder / RECORD).write_text(as_json(record), encoding="utf-8")
