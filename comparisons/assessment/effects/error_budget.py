@@ -35,7 +35,7 @@ from comparisons.assessment.verdict import Comparison, ToleranceCheck, is_decide
 from comparisons.common.cache import Cache
 from comparisons.common.mpi import from_first
 from comparisons.common.progress import Stages
-from comparisons.common.tasks import LATER, PERHAPS, Here, Tasks
+from comparisons.common.tasks import LAST, LATER, PERHAPS, Here, Tasks
 from comparisons.models.half_plane import expected_of, half_plane_level
 from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import Plan
@@ -142,7 +142,8 @@ def announce_effects(
     most = min(_most_levels(problem), len(half_plane.levels))
     for number in range(1, most + 1):
         if number <= LEAST_LEVELS:
-            solved.announce((each for split in splits for each in split.all), number)
+            solved.announce((each for split in splits for each in split.wholes), number, LATER)
+            solved.announce((each for split in splits for each in split.all), number, LAST)
         else:  # if the levels before it leave too much unknown
             solved.announce((each for split in splits for each in split.wholes), number, PERHAPS)
     _announce_sampling(problem, window, half_plane.levels, tasks)
@@ -186,24 +187,33 @@ def _refined(
     most = min(_most_levels(problem), len(solved.own.levels))
     every = dict.fromkeys(each for split in splits.values() for each in split.all)
     wholes = dict.fromkeys(each for split in splits.values() for each in split.wholes)
-    for number in range(1, most + 1):
-        finer = number > LEAST_LEVELS
-        if finer and _is_beyond(solved, number, wholes):
-            break
-        alone = finer and any(solved.is_open(each, number) for each in every if each not in wholes)
+
+    def take(number: int, alone: bool) -> None:
+        """A level into the history."""
         solved.prepare(wholes if alone else every, number)
+        new = {mu: contributions_of(solved, splits[mu], mu, number, alone) for mu in history}
+        for mu, parts in new.items():
+            history[mu][number - 1 : number] = [parts]
+
+    def errors() -> list[ModelError]:
+        by_friction = {mu: [row for row in rows if row.friction == mu] for mu in history}
+        given = problem, solved.window, runs
+        return [
+            e for mu, there in by_friction.items() for e in model_errors(*given, there, history[mu])
+        ]
+
+    for number in range(1, LEAST_LEVELS + 1):
+        solved.announce(every, number, LAST)
+    for number in range(1, most + 1):  # the wholes, which others need, before what splits them
+        if number > LEAST_LEVELS and _is_beyond(solved, number, wholes):
+            break
         try:
-            new = {mu: contributions_of(solved, splits[mu], mu, number, alone) for mu in history}
+            take(number, alone=True)
         except NotComputedError:
             if number <= LEAST_LEVELS:
                 raise
             break
-        for friction, parts in new.items():
-            history[friction].append(parts)
-        own = []
-        for friction, parts in history.items():
-            there = [row for row in rows if row.friction == friction]
-            own += model_errors(problem, solved.window, runs, there, parts)
+        own = errors()
         if number >= LEAST_LEVELS and _settled(rows, own):
             break
         if LEAST_LEVELS <= number < most and frugal:
@@ -212,6 +222,10 @@ def _refined(
                 left_out = f"level {number + 1} of the whole model: cannot change a verdict"
                 left_out += f" ({ASKED})"
                 break
+    for number in range(1, len(next(iter(history.values()))) + 1):
+        if number <= LEAST_LEVELS or not any(solved.is_open(each, number) for each in every):
+            take(number, alone=False)
+    own = errors()
     found = [parts.unsplit for of_friction in history.values() for parts in of_friction]
     unsplit = next(filter(None, found), None)
     return len(next(iter(history.values()))), own, unsplit, left_out
@@ -323,7 +337,7 @@ def _announce_sampling(
     cost = expected_of(grid.count)
     for first, key in enumerate(keys):
         given = problem, first, grid.pitch, window
-        tasks.add(key, _sampled, *given, seconds=cost.seconds, memory=cost.memory, urgency=LATER)
+        tasks.add(key, _sampled, *given, seconds=cost.seconds, memory=cost.memory, urgency=LAST)
     return keys
 
 

@@ -27,9 +27,6 @@ from comparisons.models.window import Window
 from fem.solver.mumps import FemError
 from meshes.block import MeshError
 
-# Levels on which variants share bodies. Beyond them the wholes alone are solved, side by side on
-# most machines, where the memory of a body that nothing shares counts.
-SHARED_LEVELS = 2
 CLEAR = 2.0  # pitches that contact stays away from the end of the pressures
 
 
@@ -121,6 +118,7 @@ class SolvedVariants:
         cost = expected_level("finite_element", problem, plan, pitch, self.patches)
         given = self.cache, key, problem, plan, self.window, variant, number, whole
         size = {"seconds": cost.seconds, "memory": cost.memory}
+        self.expected.setdefault((variant, number), cost.seconds)
         self.tasks.add(key, _level, *given, **size, urgency=urgency, shares=pitch)
         return key
 
@@ -163,8 +161,6 @@ def _solved(
     here.callback(f"error budget: finite elements with {words}, level {number}")
     pitch = problem.pitches[0] / 2.0 ** (number - 1)
     body_cache = here.held("bodies", pitch, BodyCache)  # those of other levels are dropped
-    if number > SHARED_LEVELS:
-        body_cache = None
     wanted = problem, plan, Refinement(pitch), window, Stages()
     try:
         level = finite_element_level(*wanted, body_cache=body_cache, fields=fields)

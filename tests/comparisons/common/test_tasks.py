@@ -122,6 +122,15 @@ def test_processes_share_different_things(beside):
     )
 
 
+@pytest.mark.parametrize(("seconds", "alone"), [(1e-9, True), (1e9, False)])
+def test_a_task_waits_for_what_it_shares_if_that_is_free_soon(beside, seconds, alone):
+    """The second is worth a process of its own only where the first lasts much longer."""
+    for name, lasts in (("first", seconds), ("second", 1.0)):
+        beside.add(name, home, seconds=lasts, shares="body")
+    first, second = (beside.result(name) for name in ("first", "second"))
+    assert (first == second) is alone
+
+
 def test_what_has_no_memory_beside_the_others_waits(beside, tmp_path):
     beside.memory = 10.0
     for name in "ab":
