@@ -125,8 +125,8 @@ def test_processes_share_different_things(beside):
 @pytest.mark.parametrize(("seconds", "alone"), [(1e-9, True), (1e9, False)])
 def test_a_task_waits_for_what_it_shares_if_that_is_free_soon(beside, seconds, alone):
     """The second is worth a process of its own only where the first lasts much longer."""
-    for name, lasts in (("first", seconds), ("second", 1.0)):
-        beside.add(name, home, seconds=lasts, shares="body")
+    for name, lasts, urgency in (("first", seconds, FIRST), ("second", 1.0, LATER)):
+        beside.add(name, home, seconds=lasts, urgency=urgency, shares="body")
     first, second = (beside.result(name) for name in ("first", "second"))
     assert (first == second) is alone
 
