@@ -120,6 +120,17 @@ class Problem:
         hardness = np.inf if self.scene.hardness is None else self.scene.hardness
         return Constraints(load=load or self.hertz.load_per_length, hardness=hardness)
 
+    @property
+    def widest(self) -> Constraints:
+        """The constraints under which contact spreads as far as flow may take it: pressures are
+        then at most what a flat punch bears while friction shears the surface off, (1 + pi/2) k,
+        and that at which it does, k/mu; k = Y/sqrt 3 (Johnson 1985, sections 6.2 and 7.6)."""
+        plain, scene = self.constraints(), self.scene
+        if not scene.finite_element.plastic:
+            return plain
+        least = (1.0 + 0.5 * np.pi) / max(1.0, (1.0 + 0.5 * np.pi) * scene.friction[0])
+        return replace(plain, hardness=min(plain.hardness, least * scene.yielding.stress / 3**0.5))
+
 
 def mean_height(problem: Problem, grid: HatGrid) -> np.ndarray:
     """Heights (n,) [m] of the rough body's surface without load, averaged over each hat."""
@@ -149,7 +160,7 @@ def problem_of(scene: ResolvedScene, load: float | None = None) -> Problem:
     extent = -1.5 * hertz.half_width, 1.5 * hertz.half_width
     problem = Problem(scene, modulus, hertz, extent, pitches=())
     plain = scene.profile is None and scene.width is None and scene.hardness is None
-    plain = plain and scene.coating is None
+    plain = plain and scene.coating is None and not scene.finite_element.plastic
     if not plain or problem.coupling:
         problem = replace(problem, extent=_contact_extent(problem))
     problem = replace(problem, pitches=_pitches(problem))
@@ -212,12 +223,12 @@ def _contact_extent(problem: Problem) -> tuple[float, float]:
     if not start < 0.0 < stop:
         raise SceneError(f"{scene.source}: load.position: the roller's centre is off the body")
     # this far out the surface is below the roller even if the highest peak stood there
-    outermost = 2.0 * half_width + np.sqrt(2.0 * scene.roller_radius * relief)
+    outermost = max(2.0 * half_width, problem.hertz.load_per_length / problem.widest.hardness)
+    outermost += np.sqrt(2.0 * scene.roller_radius * relief)
     while True:
         low, high = max(start, -outermost), min(stop, outermost)
         touching = (low, high)
-        most = np.inf if scene.hardness is None else scene.hardness * (high - low)
-        if problem.hertz.load_per_length < FULL * most:
+        if problem.hertz.load_per_length < FULL * problem.widest.hardness * (high - low):
             touching, slack = _search_extent(problem, low, high)
             if touching[0] > low + slack and touching[1] < high - slack:
                 break
@@ -257,7 +268,7 @@ def _touched(problem: Problem, ends: tuple[float, float], layered: bool) -> tupl
     """First and last contact [m] in a range by SEARCH_HATS hats, on half-plane or layers."""
     grid = HatGrid.within(*ends, np.ptp(ends) / SEARCH_HATS)
     operator = nearest_operator(problem.scene, grid) if layered else _half_plane(problem, grid)
-    solution = pressed_on(problem, grid, operator)
+    solution = pressed_on(problem, grid, operator, problem.widest)
     patches = contact_patches(grid.x, solution.pressure, solution.gap)
     return float(patches[0, 0]), float(patches[-1, 1])
 
@@ -266,10 +277,15 @@ def _half_plane(problem: Problem, grid: HatGrid) -> CoupledHalfPlane:
     return CoupledHalfPlane(grid.count, grid.pitch, problem.modulus, problem.coupling)
 
 
-def pressed_on(problem: Problem, grid: HatGrid, operator: ModelOperator) -> ContactSolution:
-    """The contact of a problem on an analytic operator."""
+def pressed_on(
+    problem: Problem,
+    grid: HatGrid,
+    operator: ModelOperator,
+    constraints: Constraints | None = None,
+) -> ContactSolution:
+    """The contact of a problem on an analytic operator, by its own constraints or others."""
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)
-    return solve_on(operator, weighted_gap, grid.weights, problem.constraints())
+    return solve_on(operator, weighted_gap, grid.weights, constraints or problem.constraints())
 
 
 def _pitches(problem: Problem) -> tuple[float, ...]:

@@ -1,7 +1,5 @@
 """How deep every asperity of a solved contact is penetrated: elastic, plastic or cutting."""
 
-from itertools import pairwise
-
 import numpy as np
 
 from analytic.statistics.penetration import contact_kind, relative_penetration
@@ -12,15 +10,22 @@ from comparisons.models.problem import Problem
 STRAIN = "equivalent_plastic_strain"
 
 
-def patch_states(problem: Problem, level: Level) -> tuple[PatchState, ...]:
-    """Every patch of a level. Pressures belong to the nearest patch."""
+def patch_loads(level: Level) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Load [N/m], its centre [m] and peak pressure [Pa] (k,) of a level's patches. Pressures belong
+    to the nearest patch."""
     patches, x = level.patches, level.grid.x
-    wanted, carried = problem.scene.statistics, level.grid.weights * level.solution.pressure
-    middles = [0.5 * (one[1] + other[0]) for one, other in pairwise(patches)]
-    places = np.searchsorted(middles, x)
-    load = np.bincount(places, carried, minlength=len(patches))
+    carried = level.grid.weights * level.solution.pressure
+    places = np.searchsorted(0.5 * (patches[:-1, 1] + patches[1:, 0]), x)
+    load, moment = (np.bincount(places, each, len(patches)) for each in (carried, carried * x))
     peak = np.zeros(len(patches))
     np.maximum.at(peak, places, level.solution.pressure)
+    return load, moment / load, peak
+
+
+def patch_states(problem: Problem, level: Level) -> tuple[PatchState, ...]:
+    """Every patch of a level."""
+    patches, wanted = level.patches, problem.scene.statistics
+    load, _, peak = patch_loads(level)
     depth = relative_penetration(peak, problem.modulus)
     rule = wanted.metal, wanted.lubricated
     kinds = {

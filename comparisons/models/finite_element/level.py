@@ -68,7 +68,7 @@ def finite_element_level(
     if scene.finite_element.plastic:  # the body's own flow limits the pressure
         constraints = replace(constraints, hardness=np.inf)
     with stages.stage("contact", "finite elements: predicting the contact"):
-        guess = solve_on(model, weighted_gap, grid.weights, constraints)
+        guess = solve_on(model, weighted_gap, grid.weights, problem.widest)
     ranges, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure
     cost = expected(problem, plan, refinement, ranges)
     refuse_too_large(problem, cost, grid.pitch)

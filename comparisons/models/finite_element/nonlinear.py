@@ -49,14 +49,7 @@ def pressed_finitely(
     """
     rough, weights, x = operator.rough, grid.weights, grid.x
     found = finite_contact(problem, operator, linear, constraints, model)
-    ends = [0, -1]  # on few elements the linear contact may reach them, too
-    if np.any(found.pressure[ends] * (linear.pressure[ends] == 0.0)):
-        profile = problem.scene.profile
-        ended = profile is not None and (
-            x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
-        )
-        beyond = "the trace: take a longer one" if ended else "the pressure elements"
-        raise FemError(f"the contact at finite deformation reaches beyond {beyond}")
+    _refuse_cut_off(problem, grid, found.pressure, linear, "at finite deformation")
     counts = {
         "increments": len(found.solution.residuals),
         "newton_steps": found.solution.iterations,
@@ -83,6 +76,20 @@ def pressed_finitely(
         moved=found.displacement,
     )
     return on_undeformed_grid(problem, grid, found.place, depth, loaded)
+
+
+def _refuse_cut_off(
+    problem: Problem, grid: HatGrid, pressure: np.ndarray, linear: ContactSolution, how: str
+) -> None:
+    """Raise FemError where pressures (count,) [Pa] reach the grid's ends, and the linear ones do
+    not: on few elements these may."""
+    x, ends, profile = grid.x, [0, -1], problem.scene.profile
+    if np.any(pressure[ends] * (linear.pressure[ends] == 0.0)):
+        ended = profile is not None and (
+            x[0] - profile.x[0] < ENDS * grid.pitch or profile.x[-1] - x[-1] < ENDS * grid.pitch
+        )
+        beyond = "the trace: take a longer one" if ended else "the pressure elements"
+        raise FemError(f"the contact {how} reaches beyond {beyond}")
 
 
 def finite_contact(
@@ -122,15 +129,22 @@ def pressed_plastically(
     """The body flowing where it must, under its load and when the roller is gone again.
 
     gap  (count,) [m^2] initial, weighted by each hat
+
+    Raises FemError where a load is not reached, and where contact spreads to the grid's ends.
     """
     scene, rough, weights = problem.scene, operator.rough, grid.weights
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None
     metal = ElasticPlastic(scene.body, scene.yielding.stress, scene.yielding.hardening)
     loads, steps = (constraints.load, 0.0), flow_increments(problem, grid.pitch)
-    body, (loaded, released) = press_plastically(
-        rough, metal, gap, weights, loads, linear.pressure, friction, roller, steps
-    )
+    given = rough, metal, gap, weights
+    start = linear.pressure
+    body, (loaded, released) = press_plastically(*given, loads, start, friction, roller, steps)
+    still = None
+    if scene.stress is not None and scene.stress.bulge and scene.profile is not None:
+        _, [twin] = press_plastically(*given, loads[:1], start, 0.0, roller, steps)
+        still = twin.displacement
+    _refuse_cut_off(problem, grid, loaded.pressure, linear, "of the flowing body")
     own = rough.weighted(loaded.displacement)
     both = own if roller is None else own + roller.apply(loaded.pressure, -friction)
     counts = {
@@ -158,4 +172,5 @@ def pressed_plastically(
         fields.sy,
         others,
         moved=loaded.displacement,
+        still=still,
     )

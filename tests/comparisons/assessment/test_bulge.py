@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scenes import STEEL, changed, resolved
 
-from comparisons.assessment.bulge import bulges, energy_ahead
+from comparisons.assessment.bulge import bulges, elastic_energy
 from comparisons.common.quantities import MODELS
 from comparisons.report.figures.sections import bulge_picture
 from comparisons.report.figures.style import drawing
@@ -68,7 +68,8 @@ def test_both_models_carry_the_same_energy_ahead(smooth):
     own, other = (found["energy_ahead"][name] for name in MODELS)
     assert own == pytest.approx(other, abs=3e-3) and own > 0.55
     level, window = smooth.runs["half_plane"].finest, smooth.window
-    assert energy_ahead(smooth.problem, level, window, 0.0) == pytest.approx(0.5, abs=1e-6)
+    back, front = elastic_energy(smooth.problem, level, window, 0.0)
+    assert front == pytest.approx(back, rel=1e-6)
 
 
 def test_roughness_leaves_the_step_as_it_is():
@@ -116,7 +117,6 @@ def test_flow_raises_a_bulge_ahead_that_ends():
         (SLIDING, ("half_plane",), "takes the finite elements"),
         (changed(SLIDING, load={"friction": 0.0}), MODELS, "takes the finite elements, and fric"),
         (changed(SLIDING | WAVY, load={"friction": 0.3}), MODELS, "a second friction coefficient"),
-        (changed(SLIDING | WAVY, finite_element={"geometry": "rough"}), MODELS, "a flat boundary"),
     ],
 )
 def test_what_cannot_be_measured_says_why(tables, models, why, smooth):

@@ -8,7 +8,9 @@ from scenes import STEEL, changed, problem, resolved
 from comparisons.common.errors import ExitStatus, SolverError
 from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.cost import flow_increments
+from comparisons.models.finite_element.nonlinear import _refuse_cut_off
 from comparisons.runs.run import run
+from fem.solver.mumps import FemError
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -66,8 +68,40 @@ def test_steps_of_the_load_double_from_level_to_level():
     assert steps == [4, 4, 8, 16, 32]
 
 
-def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path):
-    scene = resolved(changed(TABLES, body={"yield_stress": 3e8, "hardening_modulus": 0.0}))
+def test_a_load_that_cannot_be_reached_ends_with_what_may_help(tmp_path, monkeypatch):
+    monkeypatch.setattr("fem.nonlinear.press_plastic.MOST_LINEAR_CONTACTS", 1)
+    scene = resolved(TABLES)
     with pytest.raises(SolverError, match=r"made\.toml: .*a lighter load, a higher body\.yield"):
         run(scene, tmp_path / "out", ("finite_element",))
     assert list(tmp_path.iterdir()) == []
+
+
+def deep(friction=0.0):
+    """Without the half-plane's hardness, at four times the load of first yield and coarse."""
+    body = {name: value for name, value in TABLES["body"].items() if name != "hardness"}
+    return changed(
+        TABLES | {"body": body},
+        load={"hertz_peak_pressure": 7e9, "friction": friction},
+        resolution={"pitch": "120 um"},
+        finite_element={"coupled": friction > 0.0},
+    )
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_contact_spreads_beyond_one_and_a_half_half_widths(friction):
+    """As far as flow takes it: pressures end before the grid does."""
+    found = run(resolved(deep(friction)), None, ("finite_element",))
+    level, a = found.runs["finite_element"].finest, found.problem.hertz.half_width
+    assert level.contact_length > 3.1 * a
+    assert not level.solution.pressure[[0, -1]].any()
+    assert level.solution.pressure.max() < 4.0 * YIELD_STRESS
+
+
+def test_contact_that_leaves_the_grid_is_refused(outcome):
+    """The grid is wide enough for what the surface bears when it is sheared off: no scene leaves
+    it, and a change that did would be said."""
+    level = outcome.runs["finite_element"].finest
+    given = outcome.problem, level.grid
+    _refuse_cut_off(*given, level.solution.pressure, level.solution, "here")
+    with pytest.raises(FemError, match="contact here reaches beyond the pressure elements"):
+        _refuse_cut_off(*given, level.solution.pressure + 1.0, level.solution, "here")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from blocks import hooke
+from scipy.integrate import trapezoid
 from scipy.optimize import minimize
 
 from analytic.exact.hertz import hertz_from_peak_pressure, hertz_stress
@@ -281,3 +282,77 @@ def test_load_beyond_the_limit_is_said(small, monkeypatch):
     scene = Scene(small, 7.2, 6, reach=1.5)
     with pytest.raises(FemError, match=r"load of .* N/m was not reached"):
         scene.press([1.0])
+
+
+@pytest.fixture(scope="module")
+def slid(small):
+    """Pressed to 2.4 Y in 24 steps of one increment while it slides, and released."""
+    scene = Scene(small, 2.4, 6, support=Support("bonded", "free"), hardening=20.0)
+    return scene, *scene.press([*np.linspace(0.0, 1.0, 25)[1:], 0.0], 0.3, increments=1)
+
+
+def surface_flux(body, displacement):
+    """Integral [m^2] of the displacement out of the body through its whole boundary."""
+    strain = body.strain(displacement)
+    return float(body.areas.ravel() @ (strain[:, 0] + strain[:, 1]))
+
+
+def test_what_is_raised_beside_the_groove_is_what_came_from_it(slid):
+    """Flow keeps the volume, and residual stresses have the mean zero but for the base's reactions:
+    what is left is the elastic strain across the plane, (1 - 2 nu) of the flow there."""
+    _, body, (*_, released) = slid
+    top = body.body.surface.point
+    x, raised = body.body.nodes[top, 0], -released.displacement[top, 1]
+    grooved, ridged = (trapezoid(np.clip(sign * raised, 0.0, None), x) for sign in (-1.0, 1.0))
+    across = -(released.state.strain[:, 0] + released.state.strain[:, 1])
+    stress, _ = body.stress(released.displacement, released.state)
+    base = np.sum(body.force_of(stress) * body.body.nodes) * (1.0 + NU) / STEEL.youngs_modulus
+    exact = (1.0 - 2.0 * NU) * (base - float(body.areas.ravel() @ across))
+    assert surface_flux(body, released.displacement) == pytest.approx(exact, abs=1e-7 * grooved)
+    assert abs(exact) < 0.2 * grooved and ridged > 0.1 * grooved
+
+
+def test_work_is_elastic_energy_and_what_flow_takes(slid):
+    """The work of pressures and tractions over the steps; flow takes Y k + H k^2/2 of it by the
+    yield criterion alone, whatever the path, once the steps are small."""
+    scene, body, contacts = slid
+    pressed, area = contacts[:-1], body.areas.ravel()
+    force = [scene.pressed.load(each.pressure, 0.3) for each in pressed]
+    moved = [each.displacement for each in pressed]
+    work = 0.5 * np.sum(force[0] * moved[0])  # elastic so far
+    for k in range(1, len(pressed)):
+        work += 0.5 * np.sum((force[k] + force[k - 1]) * (moved[k] - moved[k - 1]))
+    last = pressed[-1]
+    (sx, sz, txz), sy = (each.T for each in body.stress(last.displacement, last.state))
+    square = sx**2 + sz**2 + sy**2 + 2.0 * txz**2
+    elastic = (1.0 + NU) * square - NU * (sx + sz + sy) ** 2
+    strain = last.state.equivalent
+    taken = area @ (strain + 0.5 * 20.0 * strain**2)
+    total = area @ elastic / (2.0 * STEEL.youngs_modulus) + taken
+    assert not pressed[0].state.equivalent.any() and taken > 0.05 * work
+    assert total == pytest.approx(work, rel=2e-3)
+
+
+def bulge(scene, contact):
+    """Largest height ahead of the load's centre over that behind it, by its distance."""
+    body = scene.pressed.body
+    top, s = body.surface.point, np.linspace(0.5, 4.0, 141)
+    x, raised = body.nodes[top, 0], -contact.displacement[top, 1]
+    centre = scene.x @ contact.pressure / contact.pressure.sum()
+    across = np.interp(centre + s, x, raised) - np.interp(centre - s, x, raised)
+    return across
+
+
+def test_the_bulge_on_another_mesh(small):
+    """Triangles of gmsh in place of divided rectangles; without friction both sides are alike."""
+    window = (-2.0, 2.0, 1.2, 0.14)
+    other = build_block(BlockSpec(12.0, 6.0, np.array([[-2.0, 2.0]]), 1.0 / 12.0, 0.3, window))
+    found = []
+    for mesh in (small, other):
+        scene = Scene(mesh, 2.4, 6, hardening=10.0)
+        rise, even = (bulge(scene, scene.press([1.0], mu)[1][0]) for mu in (0.3, 0.0))
+        elastic = Scene(mesh, 2.4, 6, hardening=1e6)
+        elastic.metal = ElasticPlastic(elastic.metal.elastic, 1e3)
+        found.append(rise - bulge(elastic, elastic.press([1.0], 0.3)[1][0]))
+        assert np.abs(even).max() < 0.05 * found[-1].max()
+    assert found[0].max() == pytest.approx(found[1].max(), rel=0.05)
