@@ -151,10 +151,6 @@ class ElasticBody(MeshedBody):
         finally:
             matrix.destroy()  # as large as a third of the factor
 
-    def release_factor(self) -> None:
-        """Free the factor; the next solution makes it again."""
-        self.__dict__.pop("factor", None)
-
     @property
     def processes(self) -> int:
         """That share it."""

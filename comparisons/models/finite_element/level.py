@@ -13,7 +13,6 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
-from comparisons.common.processes import return_freed_memory
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import no_check, operator_check
@@ -52,15 +51,14 @@ def finite_element_level(
     The ranges to refine are predicted by the nearest analytic operator on the same pressure
     elements. Where contact spreads beyond them they are widened and the level is solved again.
     approach   [m] from first touch, prescribed in place of the load
-    body_cache shared by levels whose meshes and factors may be the same; None: factors are freed
-               once nothing here needs them
+    body_cache shared by levels whose meshes and factors may be the same
     check      compare the bodies' compliance with the analytic one first
     fields     give the stresses at all points of the mesh, too
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
     or FemError where a mesh or a factorisation fails.
     """
     scene, grid = problem.scene, problem.grid(refinement.pitch)
-    shared, body_cache = body_cache is not None, body_cache or BodyCache()
+    body_cache = body_cache or BodyCache()
     friction = scene.friction[0] if scene.finite_element.coupled else 0.0
     model = nearest_operator(scene, grid, friction)
     weighted_gap = grid.hat_integrals(problem.finite_element_gap, problem.knots)
@@ -124,10 +122,6 @@ def finite_element_level(
     )
     if window is None:
         return replace(level, peak_memory=peak_memory())
-    if finite and not shared:
-        for body in bodies.all:
-            body.release_factor()
-        return_freed_memory()
     with stages.stage("stresses", "finite elements: stresses"):
         frictions, asperities = scene.friction, problem.asperities
         stresses, mesh_field = stresses_of(pressed, frictions, window, asperities, fields)
