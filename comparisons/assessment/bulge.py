@@ -97,7 +97,8 @@ def _bulge(problem: Problem, runs: dict[str, ModelRun], window: Window, friction
     end_uncertainty  by the levels; None where one has no end
     half_plane    B of the half-plane there, exact for its pressure
     penetration, over_penetration, relative_penetration   h, height / h and h / R
-    slope         half the length of contact / R: of the roller at the contact's edges
+    contact       half its length: over R the slope of the roller at its edges
+    work_scale    P h [J/m]
     plastic_strain   the largest, None without flow
     work          int p v dx over the same of |v|: what the traction's rise stores or releases; None
                   of one friction coefficient, where v is not known by itself
@@ -126,7 +127,8 @@ def _bulge(problem: Problem, runs: dict[str, ModelRun], window: Window, friction
         "penetration": h,
         "over_penetration": whole["height"] / h,
         "relative_penetration": (a / radius) ** 2,
-        "slope": 0.5 * level.contact_length / radius,
+        "contact": 0.5 * level.contact_length,
+        "work_scale": problem.hertz.load_per_length * h,
         "plastic_strain": float(field.others[STRAIN].max()) if STRAIN in field.others else None,
         "work": float(load @ moved / (load @ np.abs(moved))) if several else None,
         "energy": ahead[-1],

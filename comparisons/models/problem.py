@@ -292,8 +292,10 @@ def _pitches(problem: Problem) -> tuple[float, ...]:
     """Pitches of the first levels: fine enough for the shortest wave, or for the smooth edge."""
     scene = problem.scene
     levels = scene.resolution.levels
-    if scene.resolution.pitch is not None:
-        return tuple(scene.resolution.pitch / 2.0**k for k in range(levels))
+    asked, elements = scene.resolution.pitch, scene.resolution.elements
+    if asked or elements:
+        asked = asked or problem.hertz.half_width / elements
+        return tuple(asked / 2.0**k for k in range(levels))
     finest = problem.hertz.half_width / SMOOTH_ELEMENTS
     if is_layered(scene):
         start, stop = _touched(problem, problem.extent, layered=True)

@@ -21,7 +21,7 @@ from comparisons.results.record import SCHEMA
 from comparisons.results.result_json import SCHEMA as RESULT_SCHEMA
 from comparisons.scenes.profile import KnownTrace
 from comparisons.scenes.resolve import resolve_tables
-from comparisons.scenes.scene import MOST_LEVELS, Resolution, ResolvedScene
+from comparisons.scenes.scene import MOST_LEVELS, ResolvedScene
 
 _IN_WORDS = {dict: "a table", list: "a list", str: "text", int: "a whole number"}
 
@@ -84,7 +84,7 @@ def _scene(path: Path, content: dict, levels: int, figures: dict) -> ResolvedSce
         raise InputError(f"{where}: is {effects!r}; allowed is from 0 to {MOST_LEVELS}")
     return replace(
         scene,
-        resolution=Resolution(scene.resolution.pitch, levels, most=levels),
+        resolution=replace(scene.resolution, levels=levels, most=levels),
         budget=replace(scene.budget, time=inf, levels=effects),
     )
 

@@ -161,12 +161,14 @@ class FiniteElementSettings:
 
 @dataclass(frozen=True)
 class Resolution:
-    """`pitch` [m] of the coarsest pressure elements (None: automatic); `levels` to begin with, and
-    the `most` where quantities are not resolved."""
+    """`pitch` [m] of the coarsest pressure elements, or `elements` of them on a half-width of the
+    smooth contact (None: automatic); `levels` to begin with, and the `most` where quantities are
+    not resolved."""
 
     pitch: float | None
     levels: int
     most: int = MOST_LEVELS
+    elements: float | None = None
 
 
 @dataclass(frozen=True)

@@ -14,14 +14,21 @@ def bulge_table(outcome: Outcome) -> TextTable | None:
         return TextTable("Not measured", ("because",), ((found["why"],),))
     a, rows = outcome.problem.hertz.half_width, []
     for entry in found["by_friction"]:
-        stated = "" if (size := entry["uncertainty"]) is None else f" ± {with_unit(size, 'm', 1)}"
         end = "beyond 20 a" if entry["end"] is None else significant(entry["end"] / a, 3)
-        energy = ", ".join(map(percent, entry["energy_ahead"].values()))
-        height, step = (with_unit(entry[name], "m", 3) for name in ("height", "half_plane"))
-        ratios = (entry["over_penetration"], entry["relative_penetration"], entry["at"] / a)
-        numbers = (significant(ratio, 3) for ratio in ratios)
-        cells = (plain(entry["friction"]), height + stated, step, *numbers, end)
-        rows.append((*cells, significant(entry["work"], 1), energy))
+        share = ", ".join(map(percent, entry["energy_ahead"].values()))
+        energy = f"{significant(entry['energy'] / entry['work_scale'], 3)} ({share})"
+        ends = (end, significant(entry["work"], 1), energy)
+        rows.append((plain(entry["friction"]), *_raised(entry, a), *ends))
+        for k, patch in enumerate(entry["patches"], 1):
+            rows.append((f"patch {k}, {patch['kind']}", *_raised(patch, a), "", "", ""))
     head = ("friction", "bulge", "half-plane's step", "bulge over h", "h/R", "at s/a")
-    head += ("half of it at s/a", "work", "energy ahead by model")
+    head += ("half of it at s/a", "work", "energy over P h (share ahead)")
     return TextTable("Finite elements", head, tuple(rows))
+
+
+def _raised(entry: dict, a: float) -> tuple[str, ...]:
+    """Bulge, step, both ratios and the place, of a whole contact or of a patch."""
+    stated = "" if (size := entry["uncertainty"]) is None else f" ± {with_unit(size, 'm', 1)}"
+    height, step = (with_unit(entry[name], "m", 3) for name in ("height", "half_plane"))
+    ratios = (entry["over_penetration"], entry["relative_penetration"], entry["at"] / a)
+    return height + stated, step, *(significant(ratio, 3) for ratio in ratios)

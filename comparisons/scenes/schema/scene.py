@@ -144,6 +144,7 @@ class ToleranceSection(SceneSection):
 
 class ResolutionSection(SceneSection):
     pitch: Length | None = None
+    elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
 

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 SWEEP, TABLE, PICTURE = "sweep.json", "sweep.csv", "sweep.svg"
 ZONE, ZONE_MAP = "quiescent_zone", "quiescent_zone.svg"
+BULGE, BULGE_CURVE = "bulge", "bulge.svg"
+LONG = ("distance", "rise", "patches")  # of a bulge's entries: left out
+FILES = (TABLE, PICTURE, ZONE_MAP, BULGE_CURVE, SWEEP)
 FOLDER = "sweep_points"
 SCHEMA = 1
 GOES_ON = "finished points are kept, the same command goes on from there"
@@ -43,7 +46,7 @@ def make_sweep(
 
     workers  processes; None: one a core
     Raises InputError for what cannot be written, and where no point has an answer."""
-    check_writable(out, (TABLE, PICTURE, ZONE_MAP, SWEEP))
+    check_writable(out, FILES)
     cache = Cache(out / FOLDER, "", {})
     cache.remove_leftovers()
     try:
@@ -61,7 +64,11 @@ def make_sweep(
     files = {TABLE: sweep_csv(content), PICTURE: sweep_picture(content), SWEEP: as_json(content)}
     if any(ZONE in point for point in content["points"]):
         files[ZONE_MAP] = zone_map(content)
-    publish(out, files, (TABLE, PICTURE, ZONE_MAP, SWEEP))
+    if any(BULGE in point for point in content["points"]):
+        from comparisons.studies.sweep.bulge_curve import bulge_curve
+
+        files[BULGE_CURVE] = bulge_curve(content)
+    publish(out, files, FILES)
     return content
 
 
@@ -82,6 +89,8 @@ def solved(point: SweepPoint, name: str) -> dict:
             for entry in (each for entries in zones.values() for each in entries):
                 entry["asperities"] = len(entry["asperities"])
             found[ZONE] = zones
+        if entries := (outcome.result["bulge"] or {}).get("by_friction"):
+            found[BULGE] = [{k: v for k, v in e.items() if k not in LONG} for e in entries]
     except (InputError, SolverError, ArithmeticError) as error:
         found = failed(str(error) or type(error).__name__)
     return {"found": found, "seconds": perf_counter() - began}
@@ -171,7 +180,7 @@ def sweep_table(content: dict, out: Path | None) -> "Group":
         table.add_row(*(cell.translate(PLAIN) for cell in cells))
     points = content["points"]
     whys = [point["why"] for point in points if point["status"] == FAILED]
-    maps = [ZONE_MAP] if any(ZONE in point for point in points) else []
+    maps = [f for k, f in ((ZONE, ZONE_MAP), (BULGE, BULGE_CURVE)) if any(k in p for p in points)]
     files = TABLE, PICTURE, *maps, SWEEP
     over = " x ".join(f"{len(each['values'])} of {each['field']}" for each in content["over"])
     return Group(

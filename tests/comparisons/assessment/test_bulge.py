@@ -111,6 +111,56 @@ def test_flow_raises_a_bulge_ahead_that_ends():
     assert np.max(found["rise"]) > 0.1 * a**2 / RADIUS  # higher than behind, in spite of the step
 
 
+FLOWING = {
+    "roller": {"radius": RADIUS, **STEEL},
+    "body": {**STEEL, "yield_stress": 1e9, "hardening_modulus": 10e9},
+    "load": {"hertz_peak_pressure": 5e9, "friction": 0.3},
+    "stress": {"points": [80, 30], "half_range": 3.0, "bulge": True},
+    "finite_element": {"plastic": True, "coupled": True},
+    "resolution": {"elements": 4.0, "levels": 2},
+    "budget": {"effects": False, "time": 1.0},
+}
+
+
+def test_the_bulge_depends_on_penetration_over_yield_strain():
+    """Half the strains by a roller of twice the radius at half the pressures: the same contact."""
+    one = solved(FLOWING)
+    tables = changed(FLOWING, roller={"radius": 2.0 * RADIUS}, body={"yield_stress": 0.5e9})
+    two = solved(changed(tables, load={"hertz_peak_pressure": 2.5e9}))
+    [first], [second] = (found.result["bulge"]["by_friction"] for found in (one, two))
+    assert second["contact"] == pytest.approx(first["contact"], rel=1e-6)
+    assert second["height"] == pytest.approx(0.5 * first["height"], rel=1e-4)
+    assert second["end"] == pytest.approx(first["end"], rel=1e-4)
+    assert second["energy"] == pytest.approx(0.25 * first["energy"], rel=1e-4)
+    assert second["plastic_strain"] == pytest.approx(0.5 * first["plastic_strain"], rel=1e-3)
+    assert second["relative_penetration"] == pytest.approx(0.25 * first["relative_penetration"])
+    assert first["contact"] > 1.5 * one.problem.hertz.half_width  # wider than what is elastic
+
+
+def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
+    """Elastic asperities of small slopes: about each centre the half-plane's step alone."""
+    rough = changed(SLIDING | WAVY, finite_element={"geometry": "rough"}, resolution={"levels": 3})
+    [found] = solved(changed(rough, resolution={"pitch": 10e-6})).result["bulge"]["by_friction"]
+    steps = np.array([each["half_plane"] for each in found["patches"]])
+    heights = np.array([each["height"] for each in found["patches"]])
+    assert len(steps) > 2 and (steps < 0.0).all()
+    assert np.abs(heights).max() < 0.1 * np.abs(steps).max()
+
+
+def test_patches_that_flow_raise_bulges_of_their_own():
+    wavy = {"kind": "sinusoid", "wavelength": 400e-6, "amplitude": 4e-6}
+    tables = changed(FLOWING, load={"hertz_peak_pressure": 2e9}, resolution={"pitch": 20e-6})
+    outcome = solved(tables | {"profile": wavy})
+    [found] = outcome.result["bulge"]["by_friction"]
+    patches, level = found["patches"], outcome.runs["finite_element"].finest
+    assert set(level.mesh_field.displacement) == {0.0, 0.3} and len(patches) == len(level.patches)
+    deepest = max(patches, key=lambda each: each["relative_penetration"])
+    assert deepest["kind"] in ("elastic", "plastic") and deepest["over_penetration"] > 0.05
+    shares = sum(each["penetration"] for each in patches)
+    assert shares == pytest.approx(found["penetration"], rel=1e-6)  # 4 P/(pi E*) of all loads
+    assert len(bulge_table(outcome).rows) == 1 + len(patches)
+
+
 @pytest.mark.parametrize(
     ("tables", "models", "why"),
     [
