@@ -77,9 +77,10 @@ def own_vertices(spec: BlockSpec) -> np.ndarray:
     """spec.vertices [m], their edges cut where `finest_size` is smaller."""
     given = np.asarray(spec.vertices, dtype=float)
     parts = parts_of(np.diff(given), spec)
-    edges = zip(given[:-1], given[1:], parts, strict=True)
-    pieces = [np.linspace(start, end, count, endpoint=False) for start, end, count in edges]
-    return np.concatenate([*pieces, given[-1:]])
+    edge = np.repeat(np.arange(len(parts)), parts)
+    number = np.arange(len(edge)) - np.repeat(np.cumsum(parts) - parts, parts)
+    cut = number * (np.diff(given) / parts)[edge] + given[edge]
+    return np.append(cut, given[-1])
 
 
 def local_edges(vertices: np.ndarray) -> np.ndarray:

@@ -321,7 +321,7 @@ def test_the_status_does_not_depend_on_who_reads_standard_error(redirections, ar
 
 def test_what_cannot_be_told_leaves_its_status(tmp_path):
     """Both streams full, and a plausibility warning in between."""
-    (tmp_path / "large.toml").write_text(SMALL.replace("0.01", "80"))
+    (tmp_path / "large.toml").write_text(SMALL.replace("0.01", "8"))
     given = ["run", str(tmp_path / "large.toml"), "--models", "half-plane", "--out"]
     done = with_streams("2>/dev/full", [*given, str(tmp_path / "out")])
     assert (done.returncode, done.stderr) == (ExitStatus.DONE, "")
