@@ -81,7 +81,7 @@ def elastic_energy(
         sy = griddata(mesh.points, mesh.others["sy"], tuple(np.meshgrid(window.x, window.z)))
     square = field.sx**2 + field.sz**2 + sy**2 + 2.0 * field.txz**2
     density = (1.0 + nu) * square - nu * (field.sx + field.sz + sy) ** 2
-    density /= 2.0 * body.youngs_modulus
+    density = np.nan_to_num(density / (2.0 * body.youngs_modulus))  # above a meshed profile: 0
     reach = min(window.x[-1] - centre, centre - window.x[0])
     up_to = cumulative_trapezoid(trapezoid(density, window.z, axis=0), window.x, initial=0.0)
     back, middle, front = np.interp(centre + reach * np.arange(-1, 2), window.x, up_to)

@@ -145,6 +145,7 @@ def test_patches_of_a_meshed_profile_have_the_step_and_no_bulge():
     heights = np.array([each["height"] for each in found["patches"]])
     assert len(steps) > 2 and (steps < 0.0).all()
     assert np.abs(heights).max() < 0.1 * np.abs(steps).max()
+    assert 0.5 < found["energy_ahead"]["finite_element"] < 0.9  # above the waves there is none
 
 
 def test_patches_that_flow_raise_bulges_of_their_own():
