@@ -147,6 +147,10 @@ class ResolutionSection(SceneSection):
     elements: Annotated[float, Number(DIMENSIONLESS, at_least=1.0, at_most=1e4)] | None = None
     levels: Annotated[int, Whole(2, 6)] = 3
 
+    def broken_rules(self) -> Iterator[tuple[str, str]]:
+        if self.pitch is not None and self.elements is not None:
+            yield "elements", "is given beside pitch; allowed is one of the two"
+
 
 class BudgetSection(SceneSection):
     time: Annotated[float, Number(TIME, above=0.0)] = 300.0

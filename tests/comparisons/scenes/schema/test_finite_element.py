@@ -220,6 +220,10 @@ def test_laws_of_elasticity_are_the_bodies_own():
             },
             "roller.law: is given beside rigid",
         ),
+        (
+            {"resolution": {"pitch": "1 um", "elements": 8}},
+            "resolution.elements: is given beside pitch; allowed is one of the two",
+        ),
     ],
 )
 def test_bodies_that_cannot_be(sections, complaint):
