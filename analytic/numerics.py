@@ -17,7 +17,8 @@ def check_positive(**named: float) -> None:
 
 def points_below(x: ArrayLike, z: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """x, z broadcast together as floats; ValueError for a z above the surface, below 0."""
-    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
+    # -0.0 + 0.0 is 0.0: angles must not count from the other side
+    x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float) + 0.0)
     if np.any(z < 0.0):
         raise ValueError("z must not be negative: it points into the body")
     return x, z

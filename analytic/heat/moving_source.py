@@ -139,13 +139,16 @@ def _cell_integrals(
     ):
         start = np.where(cells[part] == -1, 0, cells[part])[:, None]
         share = place if place[0] > 0.0 else 1.0 + place
-        value = _line_source(start + place, peclet, depth, reach)
+        value = line_source(start + place, peclet, depth, reach)
         found[0, part], found[1, part] = value @ weight, value @ (weight * share)
     return found[0], found[1]
 
 
-def _line_source(x: np.ndarray, peclet: float, depth: float, reach: float) -> np.ndarray:
-    """e^{-X} K0(R) at places x [pitches] before the source, or ln(reach / r) at rest."""
+def line_source(
+    x: np.ndarray, peclet: float, depth: float | np.ndarray, reach: float = np.inf
+) -> np.ndarray:
+    """e^{-X} K0(R) at places x before the source, or ln(reach / r) at rest: pi k T / Q. Lengths in
+    a unit of which `peclet` is -velocity / (2 kappa)."""
     distance = np.hypot(x, depth)
     if peclet == 0.0:
         return np.log(reach / distance)

@@ -44,8 +44,9 @@ TEMPERATURE = Dimension("a temperature", "K", "293 K")
 CONDUCTIVITY = Dimension("a thermal conductivity", "W/m/K", "46 W/m/K")
 DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
 SPECIFIC_HEAT = Dimension("a specific heat", "J/kg/K", "460 J/kg/K")
+EXPANSION = Dimension("a coefficient of thermal expansion", "1/K", "12 um/m/K")
 DIMENSIONLESS = Dimension("a number without unit", "", "0.3")
-OF_HEAT = (SPEED, TEMPERATURE, CONDUCTIVITY, DENSITY, SPECIFIC_HEAT)
+OF_HEAT = (SPEED, TEMPERATURE, CONDUCTIVITY, DENSITY, SPECIFIC_HEAT, EXPANSION)
 DIMENSIONS = (LENGTH, PRESSURE, LOAD, TIME, MEMORY, *OF_HEAT, DIMENSIONLESS)
 
 COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
@@ -66,7 +67,7 @@ COMMON_UNITS: dict[str, tuple[Dimension, Decimal]] = {
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.ASCII)
 _FACTOR = r"(?:[^\W\d]\w*|%)(?:\s*(?:\*\*|\^)\s*-?[1-9])?"
 # pint evaluates whatever arithmetic it is given; it is only shown products of named units
-_UNIT = re.compile(rf"{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*")
+_UNIT = re.compile(rf"(?:1\s*/\s*)?{_FACTOR}(?:\s*[*/]\s*{_FACTOR}|\s+{_FACTOR})*")
 _LONGEST_UNIT = 60
 
 

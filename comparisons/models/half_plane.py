@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from analytic.contact.end_stress import EndStress
 from analytic.contact.patches import contact_patches
 from analytic.grid import HatGrid
 from analytic.operators.half_plane import HalfPlane
 from analytic.operators.tangential import CoupledHalfPlane
 from analytic.stress.elements import FrictionStress
-from analytic.stress.field import friction_field
+from analytic.stress.field import FrictionField, friction_field
 from analytic.stress.maxima import stress_maxima
 from analytic.stress.points import friction_stress_at
 from analytic.stress_state import StressState
@@ -73,21 +74,9 @@ def _stresses(
 ) -> tuple[StressResult, ...]:
     """Extremes off the grid and, where asked for, `fields` on the window, one set a friction."""
     x, pressure = level.grid.x, level.solution.pressure
-    *shown, searched = (
-        friction_field(
-            x,
-            pressure,
-            (points.x[0], points.x[-1]),
-            points.z,
-            subdivisions=points.subdivisions(level.grid.pitch),
-            stride=points.stride(level.grid.pitch),
-        )
-        for points in (*([window] if fields else []), search_window(problem, window))
-    )
     ends = ends_of(problem, level.grid, level.solution)
-    *shown, searched = (
-        replace(f, stress=f.stress.plus(ends.parts(f.x, f.z[:, None]))) for f in (*shown, searched)
-    )
+    points = *([window] if fields else []), search_window(problem, window)
+    *shown, searched = (field_on(level, each, ends) for each in points)
     nu, results = problem.scene.body.poissons_ratio, []
     for friction in frictions:
         how = {"beside": ends.at(friction), "cells": problem.asperities}
@@ -97,6 +86,19 @@ def _stresses(
         field = shown[0].at(friction).stress if shown else None
         results.append(StressResult(friction, extremes, field, maxima))
     return tuple(results)
+
+
+def field_on(level: Level, points: Window, ends: EndStress) -> FrictionField:
+    """Stresses at a window's points, those next to the ends of contact included."""
+    found = friction_field(
+        level.grid.x,
+        level.solution.pressure,
+        (points.x[0], points.x[-1]),
+        points.z,
+        subdivisions=points.subdivisions(level.grid.pitch),
+        stride=points.stride(level.grid.pitch),
+    )
+    return replace(found, stress=found.stress.plus(ends.parts(found.x, found.z[:, None])))
 
 
 def stresses_at(

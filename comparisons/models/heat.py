@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 # and heat reaches farther than a thousand a before it is carried off: no unbounded body is as
 # large. At rest the scene's `reach` bounds it.
 SLOWEST, FASTEST = 1e-3, 1e4
+# For thermal stresses, of the body: kappa/V is ten a then, a fortieth of what is meshed
+LEAST_STRESSED = 0.05
 BODIES = ("body", "roller")
 # Of the roller's radius: the largest distance from the contact where it has its bulk temperature;
 # what is left of the disc farther off is a narrow lens.
@@ -121,6 +123,14 @@ def check_heat(problem: Problem) -> None:
                 f"the {body}: {why}; allowed is {low:.3g} m/s to {high:.3g} m/s here, Peclet "
                 f"numbers from {SLOWEST:g} to {FASTEST:g}"
             )
+    if (
+        scene.heat.expansion is not None
+        and (own := peclet_numbers(problem)["body"]) < LEAST_STRESSED
+    ):
+        raise SceneError(
+            f"{scene.source}: heat.stresses: is true at a Peclet number of {own:.3g} of the body; "
+            f"allowed is {LEAST_STRESSED:g} or more, as heat at rest stresses no half-plane"
+        )
     least = 4.0 * float(np.abs(problem.extent).max())
     if scene.heat.reach < least:
         raise SceneError(

@@ -17,7 +17,7 @@ from fem.body.coating import Coating
 from meshes.block import BlockMesh
 
 if TYPE_CHECKING:
-    from fem.body.elasticity import ElasticBody
+    from fem.body.elasticity import ElasticBody, MeshedBody
     from fem.stress.stress import NodalStress
 
 
@@ -112,15 +112,19 @@ class RecoverableField:
     @cached_property
     def recovered(self) -> MeshField:
         from fem.body.elasticity import meshed_body
+
+        body = meshed_body(self.mesh, self.material, self.degree, self.coating)
+        return MeshField.of(body, self.frictions, self.on(body), self.displacement, {})
+
+    def on(self, body: "MeshedBody") -> "tuple[NodalStress, ...]":
+        """Stresses of a body of this mesh, one set a friction."""
         from fem.body.surface import straight_down
         from fem.stress.stress import nodal_stresses
         from fem.stress.surface_load import SurfaceLoad
 
-        body = meshed_body(self.mesh, self.material, self.degree, self.coating)
         given = self.hats, self.pressure, np.array(self.frictions), straight_down
         beside = [self.ends.at(friction) for friction in self.frictions]
-        found = nodal_stresses(self.displacement, SurfaceLoad(body, *given), beside)
-        return MeshField.of(body, self.frictions, found, self.displacement, {})
+        return nodal_stresses(self.displacement, SurfaceLoad(body, *given), beside)
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ from importlib import import_module
 from pathlib import Path
 
 from comparisons.assessment.effects.catalogue import EFFECTS
+from comparisons.assessment.heat.figures import unit_of
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
 from comparisons.common.quantities import QUANTITIES
@@ -177,11 +178,10 @@ def _compared(result: Mapping) -> Iterable[Row]:
 
 
 def _of_heat(heat: Mapping | None) -> Iterable[Row]:
-    """Temperatures [K] and the part of the heat that enters the body, by both models."""
+    """Temperatures, the part of the heat that enters the body, stresses, by both models."""
     for name, row in heat["figures"].items() if heat else ():
-        unit = "" if name == "fraction_into_body" else "K"
         alone = max(row["own"].values()) if row["uncertainty"] is None else row["uncertainty"]
-        own = {"friction": heat["friction"], "unit": unit, "uncertainty": alone}
+        own = {"friction": heat["friction"], "unit": unit_of(name), "uncertainty": alone}
         yield {**row, **row["values"], **own}
 
 

@@ -169,7 +169,7 @@ def solve(
     if problem.scene.heat is not None:
         from comparisons.assessment.heat.study import heat_study
 
-        heat = heat_study(problem, runs, told)
+        heat = heat_study(problem, runs, window, told)
         result["heat"] = heat.as_dict()
     outcome = Outcome(
         problem=problem,

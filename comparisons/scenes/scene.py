@@ -237,7 +237,10 @@ class Heat:
     bulk_temperature: float  # [K] of both bodies
     base: str  # of a body with thickness: held at that temperature | insulated
     reach: float  # [m] from the contact to where a body that it stays on has that temperature
-    tolerance: float  # relative, of temperatures
+    tolerance: float  # relative, of temperatures and thermal stresses
+    # [1/K] of the body and its coating, whose thermal stresses are asked for; None: not
+    expansion: float | None = None
+    coating_expansion: float | None = None
 
     @property
     def velocities(self) -> tuple[float, float]:

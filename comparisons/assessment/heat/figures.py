@@ -6,11 +6,19 @@ import numpy as np
 
 from comparisons.assessment.verdict import Verdict
 from comparisons.models.heat import HeatedContact
+from comparisons.models.thermal_stress import HeatedStress
+
+UNITS = {"fraction_into_body": "", "tau1_heated": "Pa", "sx_heated": "Pa", "tau1_depth_heated": "m"}
+
+
+def unit_of(quantity: str) -> str:
+    """Of a figure's values."""
+    return UNITS.get(quantity, "K")
 
 
 @dataclass(frozen=True)
 class HeatFigure:
-    """A figure of one or both models; all but their values relative."""
+    """A figure of one or both models; all but their `values` and `elastic` relative."""
 
     quantity: str
     values: dict[str, float]
@@ -25,6 +33,8 @@ class HeatFigure:
     uncertainty: float | None = None  # of the difference, numerical
     tolerance: float | None = None
     verdict: Verdict | None = None
+    # of a stress with heat, by model: what it is without
+    elastic: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -39,6 +49,8 @@ class HeatStudy:
     # temperature [K] by each
     rules: dict[str, dict[str, float]]
     contains: dict[str, str]  # what the finite elements alone have, in words
+    # by model, on the finest level; empty where thermal stresses are not asked for
+    stresses: dict[str, HeatedStress] = field(repr=False)
     x: np.ndarray = field(repr=False)  # (n,) [m]
     z: np.ndarray = field(repr=False)  # (m,) [m]
     field: np.ndarray = field(repr=False)  # (2, m, n) [K] in body and roller, half-planes
@@ -51,5 +63,6 @@ class HeatStudy:
             "models": {name: each.figures for name, each in self.contacts.items()},
             "figures": {figure.quantity: asdict(figure) for figure in self.figures},
             "rules": self.rules,
+            "stresses": {name: each.as_dict() for name, each in self.stresses.items()},
             "contains": list(self.contains.values()),
         }

@@ -12,6 +12,7 @@ import numpy as np
 from analytic.heat.partition import layered_fraction, one_fraction
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
+from comparisons.assessment.heat.stresses import stress_figures
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import judge
 from comparisons.common.progress import ProgressCallback
@@ -26,21 +27,31 @@ from comparisons.models.heat import (
 )
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.window import Window
 
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 
 
 def heat_study(
-    problem: Problem, runs: dict[str, ModelRun], callback: ProgressCallback
+    problem: Problem,
+    runs: dict[str, ModelRun],
+    window: Window | None,
+    callback: ProgressCallback,
 ) -> HeatStudy:
-    """Temperatures on every level of every model that was run, and the comparison."""
+    """Temperatures on every level of every model that was run, with thermal stresses in the window
+    where they are asked for, and the comparison."""
     callback("frictional heat")
     contains = what_it_contains(problem) if "finite_element" in runs else {}
     figures, finest = heat_figures(problem, runs, effects=contains)
+    stresses = {}
+    if problem.scene.heat.expansion is not None:
+        callback("thermal stresses")
+        heated, stresses = stress_figures(problem, runs, window)
+        figures += heated
     first, peclet = next(iter(finest.values())), peclet_numbers(problem)
     found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
-    return HeatStudy(*found, *_subsurface(problem, first))
+    return HeatStudy(*found, stresses, *_subsurface(problem, first))
 
 
 def heat_figures(

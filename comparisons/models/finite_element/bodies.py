@@ -107,12 +107,7 @@ def bodies_of(
 
     spec = block_spec(problem, refinement, patches)
     beyond = 0.5 if refinement.half_block else np.inf
-    within = (
-        beyond * spec.half_width if scene.width is None else np.inf,
-        beyond * spec.depth if scene.thickness is None else np.inf,
-    )
-    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
-    support = Support(scene.base or "bonded", sides, within)
+    support = rough_support(problem, spec, beyond)
     with stages.stage("mesh", "finite elements: mesh"):
         flat = body_cache.mesh(spec)
         mesh = rough_mesh(problem, flat)
@@ -136,6 +131,17 @@ def bodies_of(
         support = Support("bonded", "free", (np.inf, beyond * wanted.depth))
     roller = body(mesh, shape, scene.roller, support)
     return BodyPair(rough, roller, 0.0)
+
+
+def rough_support(problem: Problem, spec: BlockSpec, beyond: float = np.inf) -> Support:
+    """How the rough body is held; where it is unbounded, everywhere `beyond` this part of it."""
+    scene = problem.scene
+    within = (
+        beyond * spec.half_width if scene.width is None else np.inf,
+        beyond * spec.depth if scene.thickness is None else np.inf,
+    )
+    sides = "free" if scene.width is not None else UNBOUNDED_SIDES
+    return Support(scene.base or "bonded", sides, within)
 
 
 def _key(spec: BlockSpec) -> Hashable:

@@ -6,10 +6,11 @@ temperature at the scene's `reach` from the contact, and where its rim comes in;
 what is heated is meshed.
 """
 
-from collections.abc import Set
+from collections.abc import Callable, Set
 
 import numpy as np
 
+from analytic.heat.moving_source import line_source
 from analytic.material import ThermalMaterial
 from analytic.numerics import runs_of
 from comparisons.models.heat import FARTHEST, HeatedContact, heat_of_friction
@@ -38,6 +39,15 @@ def finite_element_heat(
     """As the half-spaces' `comparisons.models.heat.half_space_heat`, under the pressures of a
     finite-element level; `block` scales the mesh of an unbounded body; `without` names features
     (`what_it_contains`) that are left out."""
+    return solved_heat(problem, level, block, without)[0]
+
+
+def solved_heat(
+    problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
+) -> tuple[HeatedContact, Callable[[np.ndarray], np.ndarray]]:
+    """`finite_element_heat`, and the rough body's temperature (k,) [K] of places (k, 2) [m] by its
+    elements' shape functions. Beyond the mesh of a half-plane, which moves, that of a line source;
+    of a layer that of the mesh's end."""
     x, heat = level.grid.x, heat_of_friction(problem, level)
     x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
     heat = np.pad(heat, 1)
@@ -58,7 +68,21 @@ def finite_element_heat(
         for each, temperature in zip(bodies, found.temperature, strict=True)
     ]
     inner = (values[1:-1] for values in (x, heat, into_body, *rises))
-    return HeatedContact(*inner, found.share)
+    body, nodal, velocity = bodies[0].body, found.temperature[0], settings.velocities[0]
+
+    def at(places: np.ndarray) -> np.ndarray:
+        if bodies[0].surroundings.base != "open":
+            half_width = body.mesh.spec.half_width
+            held = np.clip(places[:, 0], -half_width, half_width)
+            return body.at(np.column_stack([held, places[:, 1]]), nodal)
+        rise, rate = body.at(places, nodal), -0.5 * velocity / body.material.diffusivity
+        beyond, centre = np.isnan(rise), x @ into_body / into_body.sum()
+        away, z = (places[beyond] - (centre, 0.0)).T
+        share = found.share * heat.sum() * level.grid.pitch / (np.pi * body.material.conductivity)
+        rise[beyond] = share * line_source(away, rate, z)
+        return rise
+
+    return HeatedContact(*inner, found.share), at
 
 
 def _conduction(

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from comparisons.common.numbers import scale_of, significant
+from comparisons.common.numbers import scale_of, significant, with_unit
 from comparisons.common.quantities import LABELS
 from comparisons.report.figures import style
 from comparisons.report.figures.fields import colour_bar, cross, fill, layout, round_bands
@@ -12,10 +12,12 @@ HEIGHT = 1.9  # inches, of a field
 
 
 def heat_pictures(outcome: Outcome) -> list[style.Picture]:
-    """The surfaces' temperatures, then the field below either; nothing without [heat]."""
+    """The surfaces' temperatures, the stress along the surface where thermal stresses are asked
+    for, then the temperature below either; nothing without [heat]."""
     if outcome.heat is None:
         return []
-    return [_surfaces(outcome), *(_below(outcome, k) for k in range(2))]
+    along = [_along(outcome)] if outcome.heat.stresses else []
+    return [_surfaces(outcome), *along, *(_below(outcome, k) for k in range(2))]
 
 
 def _surfaces(outcome: Outcome) -> style.Picture:
@@ -49,6 +51,30 @@ def _surfaces(outcome: Outcome) -> style.Picture:
             "Rise of both surfaces above the bulk temperature, equal where they touch. Below, the "
             f"heat of friction and its part that enters the body. Largest: {largest}."
         ),
+    )
+
+
+def _along(outcome: Outcome) -> style.Picture:
+    drawn, stresses = style.figure(style.WIDE, 2.9), outcome.heat.stresses
+    (axes,) = style.stacked(drawn, [(0.22, 2.2)], 0.8)
+    unit = scale_of(next(iter(stresses.values())).x, "m")
+    largest = []
+    for name, each in stresses.items():
+        look = style.LINES[name]
+        thin = {**look, "linewidth": 0.5 * look["linewidth"]}
+        for sx, with_heat, line in zip(each.sx, ("", "without heat, "), (look, thin), strict=True):
+            axes.plot(each.x / unit.factor, sx / 1e6, label=with_heat + LABELS[name], **line)
+        both, alone = (with_unit(extremum.value, "Pa") for extremum in each.along)
+        largest.append(f"{LABELS[name]} {both}, without heat {alone}")
+    axes.set(ylabel="σx [MPa]", xlabel=f"x [{unit.name}]", xlim=each.x[[0, -1]] / unit.factor)
+    axes.legend(loc="lower right")
+    what = "Stress along the body's surface by contact and heat together, and by contact alone."
+    return style.Picture(
+        source=style.data_uri(drawn),
+        data=style.csv_link(drawn),
+        wide=True,
+        alternative=f"{what} Largest: {'; '.join(largest)}.",
+        caption=f"{what} Tension is positive. Largest: {'; '.join(largest)}.",
     )
 
 

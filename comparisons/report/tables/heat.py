@@ -1,6 +1,6 @@
 """Flash temperatures as a table, and in a sentence."""
 
-from comparisons.assessment.heat.figures import HeatFigure
+from comparisons.assessment.heat.figures import HeatFigure, unit_of
 from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.report.tables.text import TextTable
@@ -10,6 +10,9 @@ WORDS = {
     "flash_temperature": "largest rise in the contact",
     "mean_temperature": "mean rise, by heat",
     "fraction_into_body": "heat that enters the body",
+    "tau1_heated": "largest τ1 with heat",
+    "tau1_depth_heated": "its depth",
+    "sx_heated": "largest σx of the surface with heat",
 }
 RULES = {
     "equal_largest": "one fraction, largest temperatures equal (Blok)",
@@ -32,8 +35,10 @@ def heat_table(outcome: Outcome) -> TextTable | None:
 
 
 def _cells(figure: HeatFigure) -> tuple[str, ...]:
-    unit = "" if figure.quantity == "fraction_into_body" else "K"
+    unit = unit_of(figure.quantity)
     values = [with_unit(figure.values.get(name), unit) for name in MODELS]
+    for name, alone in figure.elastic.items():
+        values[MODELS.index(name)] += f" ({with_unit(alone, unit)} without)"
     if figure.difference is None:
         return *values, "", percent(*figure.own.values()), "", "not compared"
     judged = percent(figure.uncertainty), given_percent(figure.tolerance), figure.verdict
@@ -67,6 +72,17 @@ def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
         share = f"{share} ± {percent(effect['uncertainty'])}"
         found.append((f"the largest rise without {study.contains[feature]}", share))
     return [fact for fact in found if fact[1]]
+
+
+def thermal_line(outcome: Outcome) -> str | None:
+    """The largest stresses with heat in a line; None where they are not asked for."""
+    parts = []
+    for figure in (f for f in (outcome.heat and outcome.heat.figures) or () if f.elastic):
+        cells = zip(MODELS, _cells(figure), strict=False)
+        shown = " / ".join(cell for name, cell in cells if name in figure.values)
+        verdict = f", {figure.verdict}" if figure.verdict else ""
+        parts.append(f"{WORDS[figure.quantity]} {shown}{verdict}")
+    return "; ".join(parts) or None
 
 
 def heat_line(outcome: Outcome) -> str | None:

@@ -8,16 +8,26 @@ from comparisons.common.units import (
     CONDUCTIVITY,
     DENSITY,
     DIMENSIONLESS,
+    EXPANSION,
     SPECIFIC_HEAT,
     SPEED,
     TEMPERATURE,
 )
 from comparisons.scenes.scene import Heat
-from comparisons.scenes.schema.fields import Fraction, Length, Number, OneOf, SceneSection, allowed
+from comparisons.scenes.schema.fields import (
+    Fraction,
+    Length,
+    Number,
+    OneOf,
+    SceneSection,
+    Truth,
+    allowed,
+)
 
 Conductivity = Annotated[float, Number(CONDUCTIVITY, above=0.0)]
 Density = Annotated[float, Number(DENSITY, above=0.0)]
 SpecificHeat = Annotated[float, Number(SPECIFIC_HEAT, above=0.0)]
+Expansion = Annotated[float, Number(EXPANSION, above=0.0, at_most=1e-3)]
 CONSTANTS = ("conductivity", "density", "specific_heat")
 
 
@@ -40,6 +50,9 @@ class HeatSection(SceneSection):
     base: Annotated[str, OneOf(("held", "insulated"))] | None = None
     reach: Length | None = None
     tolerance: Fraction = 0.05
+    stresses: Annotated[bool, Truth()] = False
+    body_expansion: Expansion | None = None
+    coating_expansion: Expansion | None = None
 
     def broken_rules(self) -> Iterator[tuple[str, str]]:
         if self.slide_to_roll == 0.0:
@@ -54,12 +67,35 @@ class HeatSection(SceneSection):
                 "heat.base",
                 "is given for a half-plane, which has none; allowed with body.thickness",
             )
-        for name in (f"coating_{constant}" for constant in CONSTANTS):
+        yield from self._of_stresses(scene)
+        expansion = ("expansion",) if self.stresses else ()
+        for name in (f"coating_{constant}" for constant in (*CONSTANTS, *expansion)):
             given = getattr(self, name) is not None
             if given and scene.coating is None:
                 yield f"heat.{name}", "is given for a body without one; allowed with [coating]"
             if scene.coating is not None and not given:
                 yield f"heat.{name}", f"is missing; allowed is {allowed(type(self), name)}"
+
+    def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
+        """What thermal stresses lack, or cannot be added to."""
+        if not self.stresses:
+            for name in ("body_expansion", "coating_expansion"):
+                if getattr(self, name) is not None:
+                    yield f"heat.{name}", "is given without use; allowed with stresses = true"
+            return
+        if self.body_expansion is None:
+            needed = allowed(type(self), "body_expansion")
+            yield "heat.body_expansion", f"is missing for stresses = true; allowed is {needed}"
+        elements = scene.finite_element
+        for there, what in (
+            (scene.stress is None, "without [stress]; allowed with it"),
+            (scene.body.width is not None, "for a body of finite width; allowed without"),
+            (elements.nonlinear, "beside a nonlinear body; allowed for a linear elastic one"),
+            (elements.geometry == "rough", 'beside geometry = "rough"; allowed is "flat"'),
+            (elements.gap == "displaced", 'beside gap = "displaced"; allowed is "reference"'),
+        ):
+            if there:
+                yield "heat.stresses", f"is true {what}"
 
 
 def heat_of(table: HeatSection, radius: float) -> Heat:
@@ -78,4 +114,6 @@ def heat_of(table: HeatSection, radius: float) -> Heat:
         base=table.base or "held",
         reach=table.reach or radius,
         tolerance=table.tolerance,
+        expansion=table.body_expansion,
+        coating_expansion=table.coating_expansion,
     )

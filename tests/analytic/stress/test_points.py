@@ -30,6 +30,16 @@ def test_sum_of_the_elements(element, unit, size):
         assert np.abs(getattr(found, name) - expected).max() < 1e-14 * PRESSURE.max()
 
 
+@pytest.mark.parametrize("count", [20, 2000])  # one by one, and by the tree
+def test_the_surface_has_no_sign(count):
+    """A depth of -0.0 is the surface."""
+    load = np.tile(PRESSURE, 10)
+    nodes = np.arange(len(load)) * PITCH
+    x = np.concatenate([nodes[::40], np.linspace(0.0, nodes[-1], count)])
+    found, minus = (stress_at(nodes, load, 0.3, x, zero * np.ones_like(x)) for zero in (0.0, -0.0))
+    assert np.all(found.sx == minus.sx) and np.all(found.txz == minus.txz)
+
+
 @pytest.mark.parametrize("element", ["hat", "strip"])
 def test_any_level_carries_the_load(element):
     """The resultant of sz is -P and that of txz -friction P, shallow and deep."""

@@ -112,6 +112,17 @@ def test_finite_bodies_against_transforms(body, coating, base):
     assert list(what_it_contains(given)) == [name for name, has in contained.items() if has]
 
 
+def test_elements_follow_the_slower_of_body_and_coating():
+    """A thick coating that conducts slowly, Peclet number 330 of its own: 0.4 % at worst within
+    the contact; elements as the body's own diffusivity wants them err by 1.5 %."""
+    own = {f"coating_{name}": value for name, value in LAYER.items()}
+    given = made({}, SOFT | {"thickness": 100e-6}, **own, **INSULATOR, slide_to_roll=2.0, speed=4.0)
+    level = level_of(given)
+    found, exact = finite_element_heat(given, level), through_layers(given, level)
+    inside = np.flatnonzero(found.heat)[2:-2]
+    assert found.body[inside] == pytest.approx(exact[inside], abs=6e-3 * exact.max())
+
+
 def test_a_square_at_rest_is_a_half_space_with_its_reach():
     given = made(slide_to_roll=-2.0, reach=1e-3, **INSULATOR)
     level = level_of(given)

@@ -9,7 +9,8 @@ from scenes import PROFILES, STEEL, changed, resolved
 
 from comparisons.common.quantities import MODELS
 from comparisons.report.saved import read_outcome
-from comparisons.report.tables.heat import heat_facts, heat_line, heat_table
+from comparisons.report.tables.heat import heat_facts, heat_line, heat_table, thermal_line
+from comparisons.results.flat_table import rows_of
 from comparisons.runs.run import run
 
 CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
@@ -97,6 +98,63 @@ def test_one_model_alone():
     assert (figure.difference, figure.verdict) == (None, None)
     assert 0.0 < figure.own["half_plane"] < 0.05
     assert outcome.heat.peclet["body"] == 0.0
+
+
+STRESSED = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 1e9, "friction": [0.0, 0.1]},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": "12 um/m/K", **EQUAL},
+    "stress": {"points": [120, 40]},
+    "budget": {"effects": False},
+}
+
+
+@pytest.fixture(scope="module")
+def stressed(tmp_path_factory):
+    return run(resolved(STRESSED), tmp_path_factory.mktemp("stressed") / "out", MODELS)
+
+
+def test_thermal_stresses_by_both_models(stressed):
+    """Transforms and elements, whose meshes and boundaries differ, have one answer; without heat
+    it is that of the comparison."""
+    tau1, depth, along = stressed.heat.figures[3:]
+    for figure in (tau1, depth, along):
+        assert abs(figure.difference) < figure.uncertainty + 3e-3  # held 400 a away
+        assert figure.uncertainty < 0.05
+    assert tau1.verdict == depth.verdict == "agree"
+    own = stressed.runs["half_plane"].finest.stress(0.1).extremes["tau1"]
+    assert tau1.elastic["half_plane"] == own.value
+    assert depth.elastic["half_plane"] == own.z
+    # 2 mu p0 at the trailing edge (Johnson 1985, section 7.1), which heat takes back
+    assert along.elastic["half_plane"] == pytest.approx(0.2e9, rel=2e-3)
+    assert along.elastic["finite_element"] == pytest.approx(0.2e9, rel=1e-2)
+    assert max(along.values.values()) < 0.0
+
+
+def test_thermal_stresses_go_with_expansion_and_leave_temperatures(stressed):
+    less = changed(STRESSED, heat={"body_expansion": "1e-9 1/K"})
+    without = run(resolved(less), None, ("half_plane",)).heat
+    for figure in without.figures[3:]:
+        alone = figure.elastic["half_plane"]
+        assert figure.values["half_plane"] == pytest.approx(alone, rel=1e-3)
+    flash, *_ = without.figures
+    assert flash.values["half_plane"] == stressed.heat.figures[0].values["half_plane"]
+
+
+def test_thermal_stresses_in_every_output(stressed):
+    result = json.loads((stressed.directory / "result.json").read_text())
+    row = result["heat"]["figures"]["sx_heated"]
+    assert row["values"]["half_plane"] < 0.0 < row["elastic"]["half_plane"]
+    place = result["heat"]["stresses"]["finite_element"]["elastic"]["sx"]["x"]
+    assert place == pytest.approx(-stressed.problem.hertz.half_width, rel=2e-3)
+    page = (stressed.directory / "report.html").read_text()
+    assert "Stress along the body&#39;s surface by contact and heat together" in page
+    said = thermal_line(stressed)
+    assert "199." in said and "without)" in said and "agree" in said
+    rows = {each["quantity"]: each for each in rows_of(result, "made")}
+    assert rows["tau1_heated"]["unit"] == "Pa" and rows["tau1_depth_heated"]["unit"] == "m"
+    assert heat_table(read_outcome(stressed.directory)) == heat_table(stressed)
 
 
 def test_a_slab_is_no_half_space():

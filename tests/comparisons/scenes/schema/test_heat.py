@@ -54,6 +54,53 @@ def test_refused(fields, said):
     assert "\n" not in str(error.value)
 
 
+STRESSED = changed(HOT, heat={"stresses": True, "body_expansion": "12 um/m/K"}, stress={})
+
+
+@pytest.mark.parametrize("given", ["12 um/m/K", "12e-6 1/K", "12 ppm/K", 12e-6])
+def test_thermal_stresses_are_asked_for(given):
+    heat = resolved(changed(STRESSED, heat={"body_expansion": given})).heat
+    assert (heat.expansion, heat.coating_expansion) == (pytest.approx(12e-6), None)
+    assert resolved(HOT).heat.expansion is None
+
+
+COAT = {"thickness": 1e-5, "youngs_modulus": 4e11, "poissons_ratio": 0.2}
+FINITE = {"deformation": "finite", "coupled": True}
+OF_COAT = {f"coating_{name}": value for name, value in CONSTANTS.items()}
+
+
+@pytest.mark.parametrize(
+    ("sections", "said"),
+    [
+        ({"heat": {"body_expansion": "-1 um/m/K"}}, 'body_expansion: is "-1 um/m/K"; allowed'),
+        ({"heat": {"body_expansion": 0.1}}, "is 0.1; allowed is a coefficient of thermal"),
+        ({"heat": {"body_expansion": "12 um/m"}}, 'heat.body_expansion: is "12 um/m"'),
+        ({"heat": {"stresses": False}}, "is given without use; allowed with stresses = true"),
+        ({"heat": {"coating_expansion": 1e-5}}, "coating_expansion: is given for a body without"),
+        ({"coating": COAT, "heat": OF_COAT}, "coating_expansion: is missing; allowed is a"),
+        ({"body": {"width": "4 mm"}}, "heat.stresses: is true for a body of finite width"),
+        ({"finite_element": {"gap": "displaced"}}, 'stresses: is true beside gap = "displaced"'),
+        ({"finite_element": FINITE}, "is true beside a nonlinear body; allowed"),
+    ],
+)
+def test_thermal_stresses_refused(sections, said):
+    with pytest.raises(SceneError) as error:
+        resolved(changed(STRESSED, **sections))
+    assert said in str(error.value) and "\n" not in str(error.value)
+
+
+def test_thermal_stresses_take_what_they_need():
+    with pytest.raises(SceneError, match=r"is true without \[stress\]; allowed with it"):
+        resolved({name: table for name, table in STRESSED.items() if name != "stress"})
+    bare = {name: value for name, value in STRESSED["heat"].items() if name != "body_expansion"}
+    with pytest.raises(SceneError, match=r"heat\.body_expansion: is missing for stresses = true"):
+        resolved(STRESSED | {"heat": bare})
+    for fields in ({"slide_to_roll": -2.0}, {"speed": 1e-3}):
+        slow = problem(changed(STRESSED, heat=fields))
+        with pytest.raises(SceneError, match=r"is true at a Peclet number of .* 0\.05 or more"):
+            make_plan(slow, ("half_plane",))
+
+
 def test_refused_by_the_rest_of_the_scene():
     with pytest.raises(SceneError, match=r"heat: is given without friction; allowed with load\."):
         resolved(changed(HOT, load={"friction": 0.0}))

@@ -1,0 +1,56 @@
+"""Thermal stresses of coated bodies by finite elements."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scenes import STEEL, changed, problem
+
+from comparisons.common.progress import Stages
+from comparisons.models.finite_element.heat import solved_heat
+from comparisons.models.finite_element.level import finite_element_level
+from comparisons.models.finite_element.mesh import Refinement
+from comparisons.models.finite_element.thermal_stress import finite_element_stress
+from comparisons.models.plan import make_plan
+from comparisons.models.window import window_of
+
+CONSTANTS = {"conductivity": 46.0, "density": 7850.0, "specific_heat": 460.0}
+EQUAL = {f"{b}_{name}": v for b in ("body", "roller") for name, v in CONSTANTS.items()}
+PLAIN = {
+    "roller": {"radius": 7.5706e-3, **STEEL},
+    "body": dict(STEEL),
+    "load": {"hertz_peak_pressure": 1e9, "friction": 0.1},
+    "heat": {"speed": 10.0, "stresses": True, "body_expansion": 12e-6, **EQUAL},
+    "stress": {"points": [120, 40]},
+}
+OF_COAT = {f"coating_{name}": value for name, value in CONSTANTS.items()}
+COATED = changed(PLAIN, heat={**OF_COAT, "coating_expansion": 12e-6}) | {
+    "coating": {"thickness": "10 um", **STEEL}
+}
+
+
+def solved(tables):
+    """What `finite_element_stress` takes, on the coarsest level."""
+    given = problem(tables)
+    plan, window = make_plan(given, ("finite_element",)), window_of(given)
+    coarsest = Refinement(given.pitches[0])
+    level = finite_element_level(given, plan, coarsest, window, Stages())
+    return given, level, window
+
+
+def test_a_coating_counts_by_what_it_differs_in():
+    """One of the body's own material changes nothing; one that expands twice as much adds what a
+    layer that cannot expand along the surface bears, E alpha T / (1 - nu)."""
+    plain = finite_element_stress(*solved(PLAIN))
+    given, *rest = solved(COATED)
+    same = finite_element_stress(given, *rest)
+    pairs = zip([*same.tau1, *same.along], [*plain.tau1, *plain.along], strict=True)
+    for found, other in pairs:
+        assert found.value == pytest.approx(other.value, abs=5e6)  # of 1 GPa
+    heat = replace(given.scene.heat, coating_expansion=24e-6)
+    other = replace(given, scene=replace(given.scene, heat=heat))
+    more = finite_element_stress(other, *rest)
+    added = (more.sx[0] - more.sx[1]) - (same.sx[0] - same.sx[1])
+    temperature = solved_heat(given, rest[0])[1](np.column_stack([same.x, np.zeros_like(same.x)]))
+    held = -STEEL["youngs_modulus"] * 12e-6 * temperature / (1.0 - STEEL["poissons_ratio"])
+    assert np.linalg.norm(added - held) < 0.08 * np.linalg.norm(held)
