@@ -3,7 +3,7 @@
 The bulk temperature leaves no stress; the heat is steady, the body elastic.
 """
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -28,21 +28,19 @@ class HeatedStress:
     sx: np.ndarray  # (2, n) [Pa] of the surface there, tensile where positive
 
     @property
-    def along(self) -> list[Extremum]:
-        """Largest sx of the surface."""
-        return [Extremum(float(sx.max()), float(self.x[sx.argmax()]), 0.0) for sx in self.sx]
+    def figures(self) -> dict[str, float]:
+        """With heat [Pa], and their places [m]."""
+        return self._figures(0)
 
     @property
-    def figures(self) -> dict[str, list[float]]:
-        """With heat and without [Pa], [m]."""
-        tau1, depth = zip(*((each.value, each.z) for each in self.tau1), strict=True)
-        sx = [each.value for each in self.along]
-        return {"tau1_heated": tau1, "tau1_depth_heated": depth, "sx_heated": sx}
+    def elastic(self) -> dict[str, float]:
+        """The same without heat."""
+        return self._figures(1)
 
-    def as_dict(self) -> dict:
-        """For JSON: values [Pa] and their places [m]."""
-        found = zip(("heated", "elastic"), self.tau1, self.along, strict=True)
-        return {name: {"tau1": asdict(tau1), "sx": asdict(sx)} for name, tau1, sx in found}
+    def _figures(self, row: int) -> dict[str, float]:
+        tau1, sx = self.tau1[row], self.sx[row]
+        largest = {"tau1_heated": tau1.value, "tau1_depth_heated": tau1.z, "sx_heated": sx.max()}
+        return largest | {"tau1_position": tau1.x, "sx_position": self.x[sx.argmax()]}
 
 
 def surface_places(level: Level, window: Window, ends: EndStress) -> np.ndarray:

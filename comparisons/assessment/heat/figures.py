@@ -63,6 +63,8 @@ class HeatStudy:
             "models": {name: each.figures for name, each in self.contacts.items()},
             "figures": {figure.quantity: asdict(figure) for figure in self.figures},
             "rules": self.rules,
-            "stresses": {name: each.as_dict() for name, each in self.stresses.items()},
+            "stresses": {
+                n: {"heated": s.figures, "elastic": s.elastic} for n, s in self.stresses.items()
+            },
             "contains": list(self.contains.values()),
         }

@@ -12,7 +12,6 @@ import numpy as np
 from analytic.heat.partition import layered_fraction, one_fraction
 from comparisons.assessment.convergence import grid_convergence
 from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
-from comparisons.assessment.heat.stresses import stress_figures
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import judge
 from comparisons.common.progress import ProgressCallback
@@ -27,8 +26,10 @@ from comparisons.models.heat import (
 )
 from comparisons.models.level import ModelRun
 from comparisons.models.problem import Problem
+from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
 
+HEATED = ("tau1_heated", "tau1_depth_heated", "sx_heated")
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 
@@ -47,8 +48,9 @@ def heat_study(
     stresses = {}
     if problem.scene.heat.expansion is not None:
         callback("thermal stresses")
-        heated, stresses = stress_figures(problem, runs, window)
-        figures += heated
+        histories, moved = _stresses(problem, runs, window)
+        figures += tuple(_figure(problem, runs, histories, moved, {}, name) for name in HEATED)
+        stresses = {model: history[-1] for model, history in histories.items()}
     first, peclet = next(iter(finest.values())), peclet_numbers(problem)
     found = friction_of(problem), peclet, finest, figures, _rules(problem, first), contains
     return HeatStudy(*found, stresses, *_subsurface(problem, first))
@@ -74,7 +76,7 @@ def heat_figures(
         histories["finite_element"] = own
         smaller = finite_element_heat(problem, levels[0], 0.5, without)
         for name in HEAT_QUANTITIES:
-            moved[name] = far_boundary(smaller.figures[name] / coarse.figures[name], 1.0)
+            moved[name] = far_boundary(smaller.figures[name], coarse.figures[name])
         for feature in effects:
             bare = [finite_element_heat(problem, level, without={feature}) for level in levels]
             dropped[feature] = list(zip(bare, own, strict=True))
@@ -83,35 +85,55 @@ def heat_figures(
     return figures, {name: history[-1] for name, history in histories.items()}
 
 
+def _stresses(
+    problem: Problem, runs: dict[str, ModelRun], window: Window
+) -> tuple[dict[str, list[HeatedStress]], dict[str, float]]:
+    """On every level, and what the far boundary leaves of the finite elements' figures."""
+    histories, moved = {}, {}
+    if "half_plane" in runs:
+        levels = runs["half_plane"].levels
+        histories["half_plane"] = [half_plane_stress(problem, each, window) for each in levels]
+    if "finite_element" in runs:
+        from comparisons.models.finite_element.thermal_stress import finite_element_stress
+
+        levels = runs["finite_element"].levels
+        coarse, *_ = own = [finite_element_stress(problem, each, window) for each in levels]
+        histories["finite_element"] = own
+        smaller = finite_element_stress(problem, levels[0], window, beyond=0.5).figures
+        moved = {name: far_boundary(smaller[name], coarse.figures[name]) for name in HEATED}
+    return histories, moved
+
+
 def _figure(
     problem: Problem,
     runs: dict[str, ModelRun],
-    histories: dict[str, list[HeatedContact]],
+    histories: dict[str, list[HeatedContact | HeatedStress]],
     moved: dict[str, float],
     dropped: dict[str, list[tuple[HeatedContact, HeatedContact]]],
     name: str,
 ) -> HeatFigure:
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
-    is infinite, they discretise it each in its own way."""
+    is infinite, they discretise it each in its own way. All is relative to the finite elements'
+    value; of a stress to that without heat where this is larger, as heat may cancel it, and of a
+    depth to the contact's half-width."""
     values = {model: [each.figures[name] for each in h] for model, h in histories.items()}
-    own = {}
+    shown, own = {model: history[-1] for model, history in values.items()}, {}
+    elastic = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
+    size = max(abs(each[list(shown)[-1]]) for each in (shown, elastic) if each)
+    size = problem.hertz.half_width if name == "tau1_depth_heated" else size
     for model, history in values.items():
-        left = grid_convergence(history, FORMAL_ORDER).uncertainty / abs(history[-1])
-        domain = moved[name] if model == "finite_element" else 0.0
-        own[model] = left + iteration(runs[model].finest) + domain
+        left = grid_convergence(history, FORMAL_ORDER).uncertainty
+        left += moved[name] if model == "finite_element" else 0.0
+        own[model] = left / size + iteration(runs[model].finest)
     effects = {feature: _effect(pairs, name) for feature, pairs in dropped.items()}
-    shown = {model: history[-1] for model, history in values.items()}
     if len(values) < 2:
-        return HeatFigure(name, shown, own, effects=effects)
-    one, other = shown["half_plane"], shown["finite_element"]
-    difference = (one - other) / other
-    uncertainty = abs(1.0 + difference) * own["half_plane"] + own["finite_element"]
-    level = runs["finite_element"].finest
-    under_theirs = half_space_heat(problem, level).figures[name]
-    by_pressure = (one - under_theirs) / other
-    tolerance = problem.scene.heat.tolerance
-    verdict = judge(difference, uncertainty, tolerance)
-    found = by_pressure, effects, uncertainty, tolerance, verdict
+        return HeatFigure(name, shown, own, effects=effects, elastic=elastic)
+    difference, by_pressure = (shown["half_plane"] - shown["finite_element"]) / size, None
+    if not elastic:
+        under_theirs = half_space_heat(problem, runs["finite_element"].finest).figures[name]
+        by_pressure = (shown["half_plane"] - under_theirs) / size
+    judged = sum(own.values()), problem.scene.heat.tolerance
+    found = by_pressure, effects, *judged, judge(difference, *judged), elastic
     return HeatFigure(name, shown, own, difference, *found)
 
 

@@ -28,7 +28,6 @@ def finite_element_stress(
     expansion = np.where(body.coated, heat.coating_expansion or 0.0, heat.expansion)
     temperature = solved_heat(problem, level)[1]
     thermal, _ = thermal_stress(body, expansion, temperature(body.points))
-    body.release_factor()
     elastic = field.on(body)[field.frictions.index(friction)]
     both = replace(
         elastic,

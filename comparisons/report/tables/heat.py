@@ -1,7 +1,14 @@
 """Flash temperatures as a table, and in a sentence."""
 
 from comparisons.assessment.heat.figures import HeatFigure, unit_of
-from comparisons.common.numbers import given_percent, percent, plain, significant, with_unit
+from comparisons.common.numbers import (
+    UNKNOWN,
+    given_percent,
+    percent,
+    plain,
+    significant,
+    with_unit,
+)
 from comparisons.common.quantities import LABELS, MODELS
 from comparisons.report.tables.text import TextTable
 from comparisons.results.outcome import Outcome
@@ -76,12 +83,12 @@ def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
 
 def thermal_line(outcome: Outcome) -> str | None:
     """The largest stresses with heat in a line; None where they are not asked for."""
-    parts = []
-    for figure in (f for f in (outcome.heat and outcome.heat.figures) or () if f.elastic):
-        cells = zip(MODELS, _cells(figure), strict=False)
-        shown = " / ".join(cell for name, cell in cells if name in figure.values)
-        verdict = f", {figure.verdict}" if figure.verdict else ""
-        parts.append(f"{WORDS[figure.quantity]} {shown}{verdict}")
+    parts = [
+        f"{WORDS[each.quantity]} {' / '.join(c for c in _cells(each)[:2] if c != UNKNOWN)}, "
+        f"{each.verdict or 'not compared'}"
+        for each in (outcome.heat.figures if outcome.heat else ())
+        if each.elastic
+    ]
     return "; ".join(parts) or None
 
 

@@ -79,9 +79,8 @@ class HeatSection(SceneSection):
     def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """What thermal stresses lack, or cannot be added to."""
         if not self.stresses:
-            for name in ("body_expansion", "coating_expansion"):
-                if getattr(self, name) is not None:
-                    yield f"heat.{name}", "is given without use; allowed with stresses = true"
+            for name in {"body_expansion", "coating_expansion"} & self.model_fields_set:
+                yield f"heat.{name}", "is given without use; allowed with stresses = true"
             return
         if self.body_expansion is None:
             needed = allowed(type(self), "body_expansion")
