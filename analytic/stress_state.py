@@ -46,9 +46,7 @@ class StressState:
 
     def von_mises(self, poissons_ratio: float) -> np.ndarray:
         """Equivalent stress of von Mises [Pa], sy included.
-
-        With sy = nu (sx + sz): sqrt(3 tau1^2 + ((1 - 2 nu) (sx + sz)/2)^2).
-        """
+        With sy = nu (sx + sz): sqrt(3 tau1^2 + ((1 - 2 nu) (sx + sz)/2)^2)."""
         mean = 0.5 * (self.sx + self.sz)
         return np.hypot(np.sqrt(3.0) * self.tau1, (1.0 - 2.0 * poissons_ratio) * mean)
 

@@ -98,11 +98,9 @@ def carried_down(points: np.ndarray, triangles: np.ndarray, shift: np.ndarray) -
 
 def spread_bulges(bulge: np.ndarray, edge_of: np.ndarray) -> np.ndarray:
     """Extra shift (e,) [m] of the midpoints of inner edges beside top edges that bulge (e,) [m].
-
     A bulge b of a top edge of length s changes the determinant at its ends by 2 b s, not at the
     third corner; with the fraction f of b on the other two edges by (1 - 2 f) and 2 f of that.
-    These are equal at f = 1/4, which allows twice the bulge before inversion.
-    """
+    These are equal at f = 1/4, which allows twice the bulge before inversion."""
     extra = np.zeros(len(bulge))
     for k in range(3):
         for other in (edge_of[:, k - 1], edge_of[:, k - 2]):
@@ -160,11 +158,9 @@ def rounded(mesh: BlockMesh, radius: float) -> BlockMesh:
 
 def bent(mesh: BlockMesh, radius: float) -> BlockMesh:
     """Mesh of the sector of a disc of `radius` [m], from the mesh of a flat block.
-
     Its base is the inner arc and its sides are rays; a support holds them like the block's. All
     nodes are mapped exactly. Raises MeshError if the block is not flat, has a half-width above
-    WIDEST or a depth above DEEPEST of the radius, or if the elements are not fit to solve on.
-    """
+    WIDEST or a depth above DEEPEST of the radius, or if the elements are not fit to solve on."""
     half, depth = mesh.spec.half_width, mesh.spec.depth
     if mesh.shift.any():
         raise MeshError("only a flat block can be bent to a disc")

@@ -61,10 +61,8 @@ def thermal_spec(
 ) -> BlockSpec:
     """What `meshes.build.build_block` meshes for heat through `patches` (k, 2) [m], ascending and
     disjoint, whose ends become vertices; lengths as above [m], `layers` is n.
-
     `length` is kappa/V with the sign of the material's velocity, infinite at rest, by the smaller
-    kappa of body and coating. Raises MeshError where its layers are too thin to mesh.
-    """
+    kappa of body and coating. Raises MeshError where its layers are too thin to mesh."""
     if 2.0 * layers * np.sqrt(2.0 * half_width / abs(length)) > MOST_EDGES:
         raise MeshError(
             f"thermal layers of {abs(length):.3g} m (diffusivity over speed) are too thin to mesh "

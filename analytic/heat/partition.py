@@ -40,9 +40,7 @@ class HeatPartition:
 
 def divided(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> HeatPartition:
     """The partition of `heat` (n,) [W/m^2], which is positive at contacting nodes and 0 elsewhere.
-
-    Raises ArithmeticError where the solution does not settle.
-    """
+    Raises ArithmeticError where the solution does not settle."""
     nodes = np.flatnonzero(heat > 0.0)
     inverse = 1.0 / (_symbol(first) + _symbol(second))
     flux = np.zeros(len(heat))

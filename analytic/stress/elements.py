@@ -148,10 +148,8 @@ def _strip_stretch(
     left: np.ndarray, x: np.ndarray, right: np.ndarray, z: np.ndarray, product: np.ndarray
 ) -> np.ndarray:
     """(2/pi) (asinh v - v z^2/(r1 r2)), v = 2 a x/(r1 r2) >= 0, for `product` = r1 r2.
-
     Deep below the strip both terms tend to v: there v - asinh v is summed as a series, and
-    1 - z^2/(r1 r2) formed from (r1 r2)^2 - z^4 = (x^2 - a^2)^2 + 2 z^2 (x^2 + a^2).
-    """
+    1 - z^2/(r1 r2) formed from (r1 r2)^2 - z^4 = (x^2 - a^2)^2 + 2 z^2 (x^2 + a^2)."""
     v = (left - right) * x / product
     fraction = z**2 / product
     square = np.minimum(v, 0.1) ** 2

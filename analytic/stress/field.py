@@ -100,9 +100,7 @@ def _grid(
 
 def graded_depths(depth: float, count: int, first: float) -> np.ndarray:
     """`count` levels from 0 to `depth` [m], the first at `first` [m], growing by a fixed ratio.
-
-    Raises ValueError where equal steps already exceed `depth`: 0 < first <= depth/(count - 1).
-    """
+    Raises ValueError where equal steps already exceed `depth`: 0 < first <= depth/(count - 1)."""
     intervals = count - 1
     if count < 3:
         raise ValueError(f"count must be at least 3, not {count}")

@@ -30,12 +30,9 @@ def stress_at(
     element: Element = "hat",
 ) -> StressState:
     """Stresses [Pa] at x, z [m] (broadcast together), z >= 0, tension positive.
-
     x_nodes (n,) [m] uniform and ascending, pressure (n,) [Pa] positive in compression. The
     traction in +x is friction * pressure.
-
-    Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element.
-    """
+    Raises ValueError for a grid that is not uniform, for z < 0 and for an unknown element."""
     return friction_stress_at(x_nodes, pressure, x, z, element).at(friction)
 
 

@@ -106,10 +106,8 @@ def _divided(
     coefficients: np.ndarray, twice: np.ndarray, norm: np.ndarray, work: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Real b0, b1 of sum c_k s^k = b0 + b1 s, where s^2 = `twice` s - `norm`.
-
     From three coefficients on, by b_k = c_k + `twice` b_(k+1) - `norm` b_(k+2) and, to end with,
-    b0 = c_0 - `norm` b_2; `work` is written over.
-    """
+    b0 = c_0 - `norm` b_2; `work` is written over."""
     *lower, before, last = coefficients
     second = twice * last
     second += before

@@ -168,12 +168,10 @@ def near_stress(
 
 def _bends(x: np.ndarray, z: np.ndarray, load: np.ndarray, bend: np.ndarray) -> np.ndarray:
     """The stresses (4, points) of a load that is linear between nodes, lengths in pitches.
-
     x (points, nodes), z (points, 1), `load` and its change of slope c at each node (points, nodes).
     With y = x + i z, I = (1/pi) sum c y ln y and I' = (1/pi) sum c ln y. As sum c = 0, angles count
     from the vertical and lengths from half the span of the nodes; sum c |x| = 2 p(x) is taken from
-    the load itself, which leaves terms of the order of the depth in sz.
-    """
+    the load itself, which leaves terms of the order of the depth in sz."""
     distance = np.abs(x)
     rise = np.arctan2(z, distance)
     square = x * x

@@ -278,10 +278,7 @@ def _half_plane(problem: Problem, grid: HatGrid) -> CoupledHalfPlane:
 
 
 def pressed_on(
-    problem: Problem,
-    grid: HatGrid,
-    operator: ModelOperator,
-    constraints: Constraints | None = None,
+    problem: Problem, grid: HatGrid, operator: ModelOperator, constraints: Constraints | None = None
 ) -> ContactSolution:
     """The contact of a problem on an analytic operator, by its own constraints or others."""
     weighted_gap = grid.hat_integrals(problem.gap, problem.knots)

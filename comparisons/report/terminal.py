@@ -14,7 +14,7 @@ from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.answers import answer_facts, answer_rows
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
-from comparisons.report.tables.heat import heat_line, thermal_line
+from comparisons.report.tables.heat import heat_line
 from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
 from comparisons.report.tables.quiescent_zone import zone_line
@@ -195,8 +195,6 @@ def _facts(outcome: Outcome) -> "Table":
         rows.append(("quiescent zone", zone))
     if (heat := heat_line(outcome)) is not None:
         rows.append(("heat", heat))
-    if (thermal := thermal_line(outcome)) is not None:
-        rows.append(("thermal", thermal))
     if (flow := outcome.flow).ratio is not None:
         rows.append(("yield", yield_text(flow)))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}

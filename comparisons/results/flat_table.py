@@ -25,7 +25,7 @@ from importlib import import_module
 from pathlib import Path
 
 from comparisons.assessment.effects.catalogue import EFFECTS
-from comparisons.assessment.heat.figures import unit_of
+from comparisons.assessment.heat.figures import UNITS
 from comparisons.common.errors import InputError, one_line
 from comparisons.common.files import whole_file, write_whole
 from comparisons.common.quantities import QUANTITIES
@@ -181,7 +181,7 @@ def _of_heat(heat: Mapping | None) -> Iterable[Row]:
     """Temperatures, the part of the heat that enters the body, stresses, by both models."""
     for name, row in heat["figures"].items() if heat else ():
         alone = max(row["own"].values()) if row["uncertainty"] is None else row["uncertainty"]
-        own = {"friction": heat["friction"], "unit": unit_of(name), "uncertainty": alone}
+        own = {"friction": heat["friction"], "unit": UNITS.get(name, "K"), "uncertainty": alone}
         yield {**row, **row["values"], **own}
 
 

@@ -238,8 +238,7 @@ class Heat:
     base: str  # of a body with thickness: held at that temperature | insulated
     reach: float  # [m] from the contact to where a body that it stays on has that temperature
     tolerance: float  # relative, of temperatures and thermal stresses
-    # [1/K] of the body and its coating, whose thermal stresses are asked for; None: not
-    expansion: float | None = None
+    expansion: float | None = None  # [1/K] of the body; None: no thermal stresses are asked for
     coating_expansion: float | None = None
 
     @property

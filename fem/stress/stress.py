@@ -46,8 +46,7 @@ class FurtherStress:
 @dataclass(frozen=True)
 class NodalStress:
     """Stresses at the nodes of a body, and what interpolates them; or c of them, which adds an axis
-    before the components.
-    """
+    before the components."""
 
     nodes: StressNodes  # their mesh points, and the nodes of each triangle
     poissons_ratio: np.ndarray  # (k,) at the nodes

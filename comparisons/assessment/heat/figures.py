@@ -8,12 +8,9 @@ from comparisons.assessment.verdict import Verdict
 from comparisons.models.heat import HeatedContact
 from comparisons.models.thermal_stress import HeatedStress
 
-UNITS = {"fraction_into_body": "", "tau1_heated": "Pa", "sx_heated": "Pa", "tau1_depth_heated": "m"}
-
-
-def unit_of(quantity: str) -> str:
-    """Of a figure's values."""
-    return UNITS.get(quantity, "K")
+# of all but temperatures
+UNITS = {"fraction_into_body": "", "tau1_heated": "Pa", "tau1_depth_heated": "m", "sx_heated": "Pa"}
+HEATED = tuple(UNITS)[1:]  # with thermal stresses
 
 
 @dataclass(frozen=True)

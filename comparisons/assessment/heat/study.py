@@ -11,7 +11,7 @@ import numpy as np
 
 from analytic.heat.partition import layered_fraction, one_fraction
 from comparisons.assessment.convergence import grid_convergence
-from comparisons.assessment.heat.figures import HeatFigure, HeatStudy
+from comparisons.assessment.heat.figures import HEATED, HeatFigure, HeatStudy
 from comparisons.assessment.uncertainty import far_boundary, iteration
 from comparisons.assessment.verdict import judge
 from comparisons.common.progress import ProgressCallback
@@ -29,16 +29,12 @@ from comparisons.models.problem import Problem
 from comparisons.models.thermal_stress import HeatedStress, half_plane_stress
 from comparisons.models.window import Window
 
-HEATED = ("tau1_heated", "tau1_depth_heated", "sx_heated")
 FORMAL_ORDER = 1.0  # next to the ends of contact, where the fluxes are infinite
 DEPTHS, COLUMNS = 60, 600  # of the subsurface field
 
 
 def heat_study(
-    problem: Problem,
-    runs: dict[str, ModelRun],
-    window: Window | None,
-    callback: ProgressCallback,
+    problem: Problem, runs: dict[str, ModelRun], window: Window | None, callback: ProgressCallback
 ) -> HeatStudy:
     """Temperatures on every level of every model that was run, with thermal stresses in the window
     where they are asked for, and the comparison."""

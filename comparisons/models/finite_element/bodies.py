@@ -55,11 +55,9 @@ class BodyPair:
 
 class BodyCache:
     """The latest meshes and factored bodies: what asks for the same again shares them.
-
     Loads, friction coefficients and profiles in the gap change neither, but for a load that changes
     where the contact may be. Few are held: the next
-    request is mostly the same, or older ones never return.
-    """
+    request is mostly the same, or older ones never return."""
 
     def __init__(self) -> None:
         self._meshes: OrderedDict[Hashable, BlockMesh] = OrderedDict()

@@ -1,8 +1,7 @@
 """Flash temperatures as a table, and in a sentence."""
 
-from comparisons.assessment.heat.figures import HeatFigure, unit_of
+from comparisons.assessment.heat.figures import UNITS, HeatFigure
 from comparisons.common.numbers import (
-    UNKNOWN,
     given_percent,
     percent,
     plain,
@@ -42,7 +41,7 @@ def heat_table(outcome: Outcome) -> TextTable | None:
 
 
 def _cells(figure: HeatFigure) -> tuple[str, ...]:
-    unit = unit_of(figure.quantity)
+    unit = UNITS.get(figure.quantity, "K")
     values = [with_unit(figure.values.get(name), unit) for name in MODELS]
     for name, alone in figure.elastic.items():
         values[MODELS.index(name)] += f" ({with_unit(alone, unit)} without)"
@@ -81,25 +80,17 @@ def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
     return [fact for fact in found if fact[1]]
 
 
-def thermal_line(outcome: Outcome) -> str | None:
-    """The largest stresses with heat in a line; None where they are not asked for."""
-    parts = [
-        f"{WORDS[each.quantity]} {' / '.join(c for c in _cells(each)[:2] if c != UNKNOWN)}, "
-        f"{each.verdict or 'not compared'}"
-        for each in (outcome.heat.figures if outcome.heat else ())
-        if each.elastic
-    ]
-    return "; ".join(parts) or None
-
-
 def heat_line(outcome: Outcome) -> str | None:
-    """The largest rise in a line; None without [heat]."""
-    if outcome.heat is None:
-        return None
-    figure = outcome.heat.figures[0]
-    values = (f"{significant(v)} K ({LABELS[name]})" for name, v in figure.values.items())
-    said = f"flash temperature {', '.join(values)}"
-    if figure.verdict is None:
-        return said
-    difference = _difference(figure, figure.difference)
-    return f"{said}: {difference} ± {percent(figure.uncertainty)}, {figure.verdict}"
+    """The largest rise in a line, and largest stresses with heat; None without [heat]."""
+    said = []
+    for figure in outcome.heat.figures if outcome.heat else ():
+        if figure.quantity != "flash_temperature" and not figure.elastic:
+            continue
+        cells = zip(_cells(figure), MODELS, strict=False)
+        values = (f"{cell} ({LABELS[name]})" for cell, name in cells if name in figure.values)
+        name = WORDS[figure.quantity] if figure.elastic else "flash temperature"
+        said.append(f"{name} {', '.join(values)}")
+        if figure.verdict is not None:
+            difference = _difference(figure, figure.difference)
+            said[-1] += f": {difference} ± {percent(figure.uncertainty)}, {figure.verdict}"
+    return "; ".join(said) or None

@@ -79,19 +79,20 @@ class HeatSection(SceneSection):
     def _of_stresses(self, scene: SceneSection) -> Iterator[tuple[str, str]]:
         """What thermal stresses lack, or cannot be added to."""
         if not self.stresses:
-            for name in {"body_expansion", "coating_expansion"} & self.model_fields_set:
-                yield f"heat.{name}", "is given without use; allowed with stresses = true"
+            for name in ("body_expansion", "coating_expansion"):
+                if getattr(self, name) is not None:
+                    yield f"heat.{name}", "is given without use; allowed with stresses = true"
             return
         if self.body_expansion is None:
             needed = allowed(type(self), "body_expansion")
             yield "heat.body_expansion", f"is missing for stresses = true; allowed is {needed}"
         elements = scene.finite_element
+        moved = elements.geometry == "rough" or elements.gap == "displaced"
         for there, what in (
             (scene.stress is None, "without [stress]; allowed with it"),
             (scene.body.width is not None, "for a body of finite width; allowed without"),
             (elements.nonlinear, "beside a nonlinear body; allowed for a linear elastic one"),
-            (elements.geometry == "rough", 'beside geometry = "rough"; allowed is "flat"'),
-            (elements.gap == "displaced", 'beside gap = "displaced"; allowed is "reference"'),
+            (moved, "beside a rough boundary or a displaced gap; allowed on a flat boundary"),
         ):
             if there:
                 yield "heat.stresses", f"is true {what}"

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from moving_band import band_maximum, band_mean
 
-from analytic.heat.moving_source import band_maximum, band_mean
 from analytic.material import ThermalMaterial
 from comparisons.assessment.convergence import grid_convergence
 from fem.heat.body import thermal_body

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from moving_band import band_maximum
 from scenes import STEEL, problem
 
 from analytic.contact.problem import ContactSolution
@@ -170,8 +171,6 @@ def test_a_fast_roller_is_a_half_space():
 
 def test_largest_temperature_of_a_band():
     """A band of uniform pressure: Jaeger's, 0.5 % by finite elements."""
-    from analytic.heat.moving_source import band_maximum
-
     given = made(slide_to_roll=2.0, **INSULATOR)
     level = level_of(given)
     half = 100e-6
