@@ -37,8 +37,7 @@ def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarra
 
 
 def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
-    """Number of equal edges on the refined range [start, end] [m]. Raises MeshError if its length
-    is not a whole number of surface_size."""
+    """Edges of surface_size on the refined range [start, end] [m]; MeshError if not whole."""
     lengths = (end - start) / spec.surface_size
     whole = max(1, round(lengths))
     if abs(lengths - whole) > WHOLE_EDGES_TOLERANCE + 1e-9 * whole:

@@ -98,8 +98,7 @@ def fill(
 
 
 def answer(task: tuple) -> tuple[int, bytes, bytes, float]:
-    """Exit status, complaint, pickled results and processor seconds of a copy of this process that
-    does the task."""
+    """Exit status, complaint, pickled results and processor seconds of a fork for the task."""
     with TemporaryFile() as complaint, TemporaryFile() as output:
         parent, child = os.getpid(), os.fork()
         if child == 0:

@@ -125,8 +125,7 @@ def refuse_inverted(points: np.ndarray, triangles: np.ndarray, top: np.ndarray) 
     )
 
 
-# At 0.8 R the surface's elements are stretched to 5/3 of their length along x, at 0.7 R of depth
-# they are squeezed to 0.3 of it.
+# At 0.8 R the surface's elements are 5/3 as long as along x, at 0.7 R of depth 0.3 as long.
 WIDEST, DEEPEST = 0.8, 0.7
 
 

@@ -1,10 +1,34 @@
-"""Largest and mean temperature of Jaeger's band in closed form, in units of its half-width l."""
+"""Temperature of Jaeger's moving band in closed form, in units of its half-width l.
+
+A band of uniform flux q on |x| < l, of Peclet number Pe = V l / (2 kappa), heats the surface to
+
+    T = 2 kappa q / (pi k V) [I(X + Pe) - I(X - Pe)],   I(u) = int_0^u e^{-s} K0(|s|) ds
+      = 1 + u e^{-u} (K0(u) - K1(u)) for u > 0,   1 - |u| e^{|u|} (K0 + K1)(|u|) for u < 0
+
+(Jaeger 1942; Carslaw and Jaeger 1959, section 10.7), X = V x / (2 kappa).
+"""
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 from scipy.special import k0e, k1e
 
-from analytic.heat.moving_source import band_surface
+
+def band_surface(x: ArrayLike, peclet: float) -> np.ndarray:
+    """k T / (q l) at places x [l]; peclet = V l / (2 kappa) > 0."""
+    place = np.asarray(x, dtype=float)
+    front, rear = peclet * (place + 1.0), peclet * (place - 1.0)
+    ahead = rear > 0.0  # both terms near 1 there: the difference of what they lack
+    total = _integral(front, ahead) - _integral(rear, ahead)
+    return total / (np.pi * peclet)
+
+
+def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
+    """I(u) as above, less 1 where `ahead`."""
+    size = np.abs(u).clip(1e-300)
+    front = size * np.exp(-2.0 * size) * (k0e(size) - k1e(size)) + np.where(ahead, 0.0, 1.0)
+    behind = 1.0 - size * (k0e(size) + k1e(size))
+    return np.where(u == 0.0, 0.0, np.where(u > 0.0, front, behind))
 
 
 def band_maximum(peclet: float) -> tuple[float, float]:

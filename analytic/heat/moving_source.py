@@ -5,11 +5,7 @@ X = V x / (2 kappa), Z = V z / (2 kappa), R = hypot(X, Z), a line source of Q [W
 
     T = Q / (pi k) e^{-X} K0(R)
 
-above the temperature far away (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7). A band of
-uniform flux q on |x| < l, of Peclet number Pe = V l / (2 kappa), heats the surface to
-
-    T = 2 kappa q / (pi k V) [I(X + Pe) - I(X - Pe)],   I(u) = int_0^u e^{-s} K0(|s|) ds
-      = 1 + u e^{-u} (K0(u) - K1(u)) for u > 0,   1 - |u| e^{|u|} (K0 + K1)(|u|) for u < 0.
+above the temperature far away (Jaeger 1942; Carslaw and Jaeger 1959, section 10.7).
 """
 
 from dataclasses import dataclass
@@ -18,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.fft import irfft, next_fast_len, rfft
-from scipy.special import k0e, k1e
+from scipy.special import k0e
 
 from analytic.material import ThermalMaterial
 
@@ -26,23 +22,6 @@ from analytic.material import ThermalMaterial
 # next cells; in the two cells that meet there after x = t^POWER, which leaves nothing singular.
 _FAR, _FAR_POINTS, _NEXT_POINTS = 8, 6, 16
 _POWER, _SINGULAR_POINTS = 8, 72
-
-
-def band_surface(x: ArrayLike, peclet: float) -> np.ndarray:
-    """k T / (q l) at places x [l]; peclet = V l / (2 kappa) > 0."""
-    place = np.asarray(x, dtype=float)
-    front, rear = peclet * (place + 1.0), peclet * (place - 1.0)
-    ahead = rear > 0.0  # both terms near 1 there: the difference of what they lack
-    total = _integral(front, ahead) - _integral(rear, ahead)
-    return total / (np.pi * peclet)
-
-
-def _integral(u: np.ndarray, ahead: np.ndarray) -> np.ndarray:
-    """I(u) as in the head of this module, less 1 where `ahead`."""
-    size = np.abs(u).clip(1e-300)
-    front = size * np.exp(-2.0 * size) * (k0e(size) - k1e(size)) + np.where(ahead, 0.0, 1.0)
-    behind = 1.0 - size * (k0e(size) + k1e(size))
-    return np.where(u == 0.0, 0.0, np.where(u > 0.0, front, behind))
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,6 @@ class HeatPartition:
     first: np.ndarray  # (n,) [K] rise of its surface above its bulk temperature
     second: np.ndarray  # the same of the other
     fraction: float  # of the heat that enters the first
-    mismatch: float  # largest difference of the two surfaces' temperatures at a contacting node [K]
 
 
 def divided(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> HeatPartition:
@@ -69,8 +68,7 @@ def divided(first: HeatedSurface, second: HeatedSurface, heat: np.ndarray) -> He
             f"the partition of the heat is found to {error / goal:.1e} of its goal"
         )
     rises = first.rise(flux), second.rise(heat - flux)
-    mismatch = np.abs(rises[0] - rises[1])[nodes].max()
-    return HeatPartition(flux, *rises, float(flux.sum() / heat.sum()), float(mismatch))
+    return HeatPartition(flux, *rises, float(flux.sum() / heat.sum()))
 
 
 def _symbol(surface: HeatedSurface) -> np.ndarray:

@@ -1,8 +1,7 @@
 """Thermal stresses in a half-plane that passes a steady source of heat, in plane strain.
 
 The potential of displacement of the temperature T0 e^{-mz} at a wave number, and Airy's function
-that takes its tractions off the free surface (Boley and Weiner, Theory of Thermal Stresses, 1960,
-chapters 3 and 9), give with
+that frees the surface (Boley and Weiner, Theory of Thermal Stresses, 1960, ch. 3, 9), give with
 
     w  wave number > 0 [rad/m]       m  sqrt(w^2 + i w V/kappa), d = m - w
     T0 transform of the surface's T  C  E alpha / (1 - nu) [Pa/K]
@@ -26,16 +25,14 @@ from analytic.material import Material
 from analytic.numerics import for_each
 from analytic.stress_state import StressState
 
-# Length of the FFT's ring over that of the line, and over kappa/V: surface stresses are right to
-# 1e-3 of the largest.
+# Length of the FFT's ring over the line's, and over kappa/V: stresses are right to 3e-3 of the top
 RING, LAYERS = 32, 200.0
 
 
 def thermal_stress(
     surface: HeatedSurface, flux: np.ndarray, depths: np.ndarray, body: Material, expansion: float
 ) -> StressState:
-    """Stresses (m, n) [Pa] at depths (m,) [m] below the nodes under fluxes (n,) [W/m^2] at them;
-    `expansion` alpha [1/K]."""
+    """Stresses (m, n) [Pa] at depths (m,) [m] below nodes with fluxes (n,) [W/m^2]; alpha [1/K]."""
     pitch, depths = surface.pitch, np.asarray(depths, dtype=float)
     stress = np.zeros((3, len(depths), len(flux)))
     if surface.velocity == 0.0:

@@ -61,8 +61,7 @@ def convolve(source: np.ndarray, start: int, grid: StressGrid, parts: np.ndarray
 def half_line(
     depths: np.ndarray, reach: int, subdivisions: int, element: Element
 ) -> Callable[[slice], np.ndarray]:
-    """Re I, Im I, z Re I', z Im I' of a unit element at the offsets 0 … reach, by levels. (4,
-    levels, reach + 1)."""
+    """Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) of a unit element, by levels."""
     x = np.arange(reach + 1) / subdivisions
     # Next to the element stand few points, with the slowest formulas: all such levels at once.
     shallow = int(np.searchsorted(depths, NEAREST_FAR))
@@ -121,8 +120,7 @@ def _mirror(even: np.ndarray, odd: np.ndarray, whole: np.ndarray) -> None:
 
 
 def on_grid(load: np.ndarray, subdivisions: int) -> tuple[np.ndarray, int]:
-    """A load (n,) with zeros between its nodes, from the first one loaded to the last, and the
-    step of the first."""
+    """A load (n,) with zeros between its nodes, from the first one loaded on, and its step."""
     loaded = np.flatnonzero(load)
     if len(loaded) == 0:
         return np.zeros(0), 0

@@ -89,8 +89,7 @@ def strip_between(
 
 
 def hat_at(x: np.ndarray, z: np.ndarray) -> FrictionStress:
-    """Under unit p and q at 0 that fall linearly to zero at -1 and 1, by x and z >= 0 in pitches.
-    Finite everywhere, the surface included."""
+    """Under unit p and q at 0 that fall linearly to zero at -1 and 1; x and z >= 0 in pitches."""
     parts = np.empty((4, *x.shape))
     near = np.hypot(x, z) < NEAREST_FAR
     parts[:, near] = _hat_closed(x[near], z[near])

@@ -10,8 +10,7 @@ With tension positive, z into the body, p in compression and q = p acting in +x,
 (Johnson 1985, section 2.5). Away from the load I = (1/pi) sum_k M_k / (w - c)^(k+1). I and z I'
 are right to rounding of the largest of the four stresses; a far smaller component may cancel.
 
-Translation. A box of half-width b about c, in u = (w - c)/b, has for the load inside and far
-outside
+Translation. A box of half-width b about c has, in u = (w - c)/b, for the load inside and far out
 
     outer  I = 1/(pi b) sum_k M_k / u^(k+1)        inner  I = 1/(pi b) sum_l L_l u^l
 
@@ -130,8 +129,7 @@ def stresses(potential: np.ndarray, derivative: np.ndarray) -> np.ndarray:
     )
 
 
-# Coefficients of an expansion: with the boxes of `analytic.stress.tree` the rest is less than 1e-15
-# of the load.
+# Coefficients of an expansion: of boxes of `analytic.stress.tree` the rest is below 1e-15 of it.
 ORDER = 56
 _K = np.arange(ORDER)
 

@@ -253,8 +253,7 @@ _TREE_ELEMENTS, _TREE_PAIRS = 64, 20_000
 
 
 def line_stress(line: LoadedLine, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m]. Idle
-    nodes at the ends cost nothing."""
+    """sx, sz, txz under p and sx under q, each the line's load (4, m) [Pa], at x, z (m,) [m]."""
     loaded = np.flatnonzero(line.load)
     if len(loaded) == 0:
         return np.zeros((4, len(x)))

@@ -62,8 +62,7 @@ def _load(scene: ResolvedScene, modulus: float) -> float:
 
 
 def _pitch(scene: ResolvedScene, half_width: float) -> float:
-    """[m], the sample spacing over a power of two, so that hats nest in samples, or times one where
-    the contact has too many."""
+    """[m], the sample spacing over a power of two, or times one where there would be too many."""
     spacing = scene.profile.spacing
     wanted = min(_wanted(scene.profile), half_width / SMOOTH_HATS)
     wanted = max(wanted, 2.0 * half_width / MOST_HATS)

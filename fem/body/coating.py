@@ -11,8 +11,7 @@ from meshes.block import BlockMesh
 
 @dataclass(frozen=True)
 class Coating:
-    """A layer of another `material`, elastic or thermal, on the body; `thickness` [m] as in the
-    flat block's mesh."""
+    """A layer of another `material`, elastic or thermal; `thickness` [m] as in the flat mesh."""
 
     material: Material | ThermalMaterial
     thickness: float

@@ -199,8 +199,7 @@ class ElasticBody(MeshedBody):
 def meshed_body(
     mesh: BlockMesh, material: Material, degree: int = 2, coating: Coating | None = None
 ) -> MeshedBody:
-    """A block with displacements of `degree`. Raises ValueError if an element crosses the lower
-    side of the coating."""
+    """A block with displacements of `degree`. ValueError: one crosses the coating's lower side."""
     numbering = nodes_of(mesh, degree)
     return MeshedBody(mesh, material, coating, coated_triangles(mesh, coating), numbering)
 

@@ -20,8 +20,7 @@ from fem.body.sums import matrix_of
 from fem.body.triangle import edge_shapes
 from meshes.block import BlockMesh, BlockSpec
 
-# Points closer than this part of the block, edge or hat are the same. The smallest elements of a
-# block are 1e-6 of it.
+# Points closer than this part of the block, edge or hat are the same; elements are 1e-6 or more.
 SAME_POINT = 1e-9
 
 # On edges with a central midpoint the integrand has degree 5 with cubic displacements and a linear

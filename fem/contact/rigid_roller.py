@@ -24,8 +24,7 @@ from fem.contact.terms import ContactTerms
 # s, s' and s'' of places x
 Roller = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
-# Part of the radius beyond which a circle continues as a straight line of slope 2: without contact,
-# but hats may lie beneath.
+# Part of the radius beyond which a circle goes on straight, slope 2: hats without contact lie there
 STEEPEST = 2.0 / np.sqrt(5.0)
 
 

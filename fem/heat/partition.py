@@ -84,8 +84,7 @@ class FrictionalHeat:
         self._held = np.concatenate([*(each.held for each in bodies), np.zeros(count, dtype=bool)])
 
     def steady(self, heat: np.ndarray, bulk: tuple[float, float] = (0.0, 0.0)) -> Partition:
-        """Partition of `heat` (m,) [W/m^2] at x, linear between. Raises FemError if nothing holds
-        a body's temperature."""
+        """Partition of `heat` (m,) [W/m^2] at x, linear between. FemError: nothing holds a body."""
         free, whole = ~self._held, np.zeros(len(self._held))
         inner = self._matrix[free][:, free]
         whole[free] = solve_once(inner, self._load(heat, bulk)[free], symmetric=False)

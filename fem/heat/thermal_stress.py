@@ -42,8 +42,7 @@ def thermal_stress(
 def thermal_load(
     body: MeshedBody, expansion: float | np.ndarray, temperature: np.ndarray
 ) -> np.ndarray:
-    """Nodal forces (n, 2) [N/m] of a temperature [K] at the mesh's points; alpha [1/K] as of
-    `thermal_stress`."""
+    """Nodal forces (n, 2) [N/m] of a temperature [K] at the mesh's points; alpha as above."""
     at, weight = collapsed_gauss(body.degree + 2)
     jacobian = jacobians(body.points[body.mesh.triangles], at)
     area = np.abs(np.linalg.det(jacobian)) * weight

@@ -24,17 +24,6 @@ WEIGHTS = ((), (0.5 * (1.0 - DIAGONAL),), LAST)  # a, below the diagonal
 SAME_STEP = 1e-9  # relative difference of steps that share a factor
 
 
-def doubling_times(first: float, last: float, steps: int = 8) -> np.ndarray:
-    """Times (k,) [s] from 0: `steps` of `first` [s], as many to each further doubling of the time,
-    up to `last` or just beyond: for fluxes that begin at once, whose temperatures go with roots of
-    time."""
-    times = [first * np.arange(steps + 1)]
-    while times[-1][-1] < last * (1.0 - SAME_STEP):
-        start = times[-1][-1]
-        times.append(start + start / steps * np.arange(1, steps + 1))
-    return np.concatenate(times)
-
-
 def march(
     capacity: csr_matrix,
     matrix: csr_matrix,

@@ -33,8 +33,7 @@ NEAR = 0.7  # of the largest value: cells whose own are below it are not sampled
 # Samples on a point that elements share differ by rounding, which must not choose the elements of
 # the polynomial: it uses those around all of them.
 ALIKE = 1e-8
-# Largest misfit of the polynomial at its nodes, relative to the maximum: beyond it the sample is
-# better.
+# Largest misfit of the polynomial at its nodes, over the maximum: beyond it the sample is better.
 MISFIT = 0.01
 STEP = 1e-4  # of the patch's size, between values that give its slopes and bends
 FLAT = 1e-6  # slope at its top, relative to the maximum, per unit of the patch's size
@@ -124,8 +123,7 @@ def maxima(
 def highest_node(
     body: ElasticBody, nodal: NodalStress, across: np.ndarray, window: Window
 ) -> Extremum:
-    """The largest von Mises stress at a node, where the stress `across` the plane (k,) [Pa] at the
-    nodes does not follow from the others."""
+    """The largest von Mises stress at a node, with a stress `across` the plane (k,) [Pa] there."""
     points = body.points[nodal.nodes.point]
     rough = von_mises(StressState(*nodal.estimate().T), across)
     rough[~_inside(points, window)] = -np.inf
@@ -254,8 +252,7 @@ def _smooth_maximum(
     quantity: Quantity,
     start: Extremum,
 ) -> Extremum | None:
-    """Largest value of the polynomials through `stress` (k, 3) at `points`; None if they do not
-    fit."""
+    """Largest value of the polynomials through `stress` (k, 3) at `points`; None: a misfit."""
 
     def of(values: np.ndarray) -> np.ndarray:
         return quantity(MaterialStress(*values.T, np.full(len(values), nu)))

@@ -105,8 +105,7 @@ Found = TypeVar("Found")
 
 
 def _once(make: Callable[[MeshedBody], Found]) -> Callable[[MeshedBody], Found]:
-    """`make`, but once for a body: loads, friction coefficients and what lies in the gap share what
-    it returns."""
+    """`make`, but once for a body: loads, friction coefficients and gaps share what it returns."""
     known: WeakKeyDictionary[MeshedBody, Found] = WeakKeyDictionary()
 
     @wraps(make)
@@ -194,8 +193,7 @@ def patches_of(body: MeshedBody) -> Patches:
 
 
 def _around(touch: csr_matrix) -> tuple[np.ndarray, np.ndarray]:
-    """Elements around each vertex, as compressed rows: starts (count + 1,) and elements; by which
-    element touches which vertex."""
+    """Elements around each vertex as compressed rows, starts (count + 1,) and elements."""
     count = touch.shape[0]
     few = np.diff(touch.indptr) < LEAST_ELEMENTS
     around = touch[few] @ touch.T @ touch
@@ -321,8 +319,7 @@ class _NearKinks:
     points: np.ndarray
 
     def subtract_from(self, stress: np.ndarray, sampled: np.ndarray) -> None:
-        """Take the stress of the kinks' displacement, interpolated on the elements, off sx, sz, txz
-        (p, q, …, 3)."""
+        """Take the stress of the kinks' interpolated displacement off sx, sz, txz (p, q, …, 3)."""
         near = np.flatnonzero(self.weights.count[self.patches.patch])
         element = self.patches.element[near]
         moved = self._displacement(self.patches.patch[near], self.body.elements[element])
@@ -331,8 +328,7 @@ class _NearKinks:
     def surface_samples(
         self, load: SurfaceLoad, displacement: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Patch (s,), place (s, q, 2) and stress (s, q, …, 3) without kinks on the surface's
-        edges."""
+        """Patch (s,), place (s, q, 2), stress without kinks (s, q, …, 3) on the surface's edges."""
         body, (patch, edge) = self.body, self.patches.beside.T
         point = body.top.point[2 * edge[:, None] + np.arange(3)]
         node = body.surface.point[body.degree * edge[:, None] + np.arange(body.degree + 1)]
@@ -372,8 +368,7 @@ class _NearKinks:
 
 
 def _stress(body: MeshedBody, element: np.ndarray, moved: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) from displacements (r, k, …, 2) of their
-    nodes."""
+    """sx, sz, txz (r, q, …, 3) [Pa] in elements (r,) from nodal displacements (r, k, …, 2)."""
     corner = body.points[body.mesh.triangles[element]]
     flat = moved.reshape(*moved.shape[:2], int(np.prod(moved.shape[2:])))
     slope = gradients(corner, flat, at, straight=not body.curved)

@@ -170,8 +170,7 @@ def evaluate(body: MeshedBody, nodal: NodalStress, x: np.ndarray, z: np.ndarray)
 def evaluate_all(
     body: MeshedBody, nodal: Sequence[NodalStress], x: np.ndarray, z: np.ndarray
 ) -> list[StressState]:
-    """Several stresses at the same points, which are looked for once; and evaluated once where
-    they are known together."""
+    """Several stresses at the same points, evaluated at once where they are known together."""
     x, z = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(z, dtype=float))
     element, at = body.locator(np.column_stack([x.ravel(), z.ravel()]))
     inside, fields, known = element >= 0, [], {}

@@ -42,8 +42,7 @@ class HeatStudy:
     peclet: dict[str, float]
     contacts: dict[str, HeatedContact]  # by model, on the finest level
     figures: tuple[HeatFigure, ...]
-    # part of the heat into the body that older rules give the whole contact, and the flash
-    # temperature [K] by each
+    # part of the heat into the body, and flash temperature [K], by older rules' one fraction
     rules: dict[str, dict[str, float]]
     contains: dict[str, str]  # what the finite elements alone have, in words
     # by model, on the finest level; empty where thermal stresses are not asked for

@@ -109,9 +109,8 @@ def _figure(
     name: str,
 ) -> HeatFigure:
     """One quantity. Both models' uncertainties add up: next to the ends of contact, where the flux
-    is infinite, they discretise it each in its own way. All is relative to the finite elements'
-    value; of a stress to that without heat where this is larger, as heat may cancel it, and of a
-    depth to the contact's half-width."""
+    is infinite, they discretise it each in its own way. All is over the finite elements' value; of
+    stresses over that without heat where it is larger, as heat may cancel it; of depths over a."""
     values = {model: [each.figures[name] for each in h] for model, h in histories.items()}
     shown, own = {model: history[-1] for model, history in values.items()}, {}
     elastic = {m: h[-1].elastic[name] for m, h in histories.items() if name in HEATED}
@@ -160,8 +159,7 @@ def _rules(problem: Problem, contact: HeatedContact) -> dict[str, dict[str, floa
 def _subsurface(
     problem: Problem, contact: HeatedContact
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places, depths and rises in both half-spaces, half as far again as the grid, on every so many
-    of its nodes that a picture shows."""
+    """Places, depths and rises in both half-spaces, half as far again as the grid: a picture."""
     pitch, half_width = float(contact.x[1] - contact.x[0]), problem.hertz.half_width
     beside = len(contact.x) // 4
     fluxes = [

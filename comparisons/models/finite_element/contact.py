@@ -116,8 +116,7 @@ def solve_mutual(
     start: np.ndarray,
     tolerance: float = KKT_TOLERANCE,
 ) -> ContactSolution:
-    """The contact of the finite elements; if the iteration with the model does not converge, on
-    their whole matrix."""
+    """The contact of the finite elements; by their whole matrix if iteration fails to settle."""
     solver, dense = solve_contact, DenseCompliance
     if operator.coupled:
         solver, dense = solve_coupled, DenseCoupledCompliance

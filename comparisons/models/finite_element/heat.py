@@ -46,8 +46,7 @@ def solved_heat(
     problem: Problem, level: Level, block: float = 1.0, without: Set[str] = frozenset()
 ) -> tuple[HeatedContact, Callable[[np.ndarray], np.ndarray]]:
     """`finite_element_heat`, and the rough body's temperature (k,) [K] of places (k, 2) [m] by its
-    elements' shape functions. Beyond the mesh of a half-plane, which moves, that of a line source;
-    of a layer that of the mesh's end."""
+    shape functions; beyond its mesh a moving half-plane has a line source's, a layer its end's."""
     x, heat = level.grid.x, heat_of_friction(problem, level)
     x = np.concatenate([[x[0] - level.grid.pitch], x, [x[-1] + level.grid.pitch]])
     heat = np.pad(heat, 1)

@@ -20,8 +20,7 @@ from fem.stress.stress import evaluate_all
 def finite_element_stress(
     problem: Problem, level: Level, window: Window, beyond: float = np.inf
 ) -> HeatedStress:
-    """Under the pressures of a level and the heat of their friction; an unbounded body is held
-    `beyond` this part of its mesh."""
+    """Of a level; an unbounded body is held `beyond` this part of its mesh."""
     heat, friction, field = problem.scene.heat, friction_of(problem), level.mesh_field
     made = field.mesh, field.material, rough_support(problem, field.mesh.spec, beyond)
     body = elastic_body(*made, degree=field.degree, coating=field.coating)

@@ -102,8 +102,7 @@ def close_up_picture(outcome: Outcome) -> style.Picture:
 
 
 def _norm(outcome: Outcome) -> str:
-    """How far the half-plane's pressures are from the scene's own finite elements, and from the
-    whole model where that is another."""
+    """How far the half-plane's pressures are from the finite elements', and the whole model's."""
     if outcome.budget is None:
         return ""
     friction = outcome.deciding_friction

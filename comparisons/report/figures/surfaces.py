@@ -96,8 +96,7 @@ def surface_picture(outcome: Outcome) -> style.Picture:
 
 
 def draw_surfaces(axes: "Axes", outcome: Outcome, across: tuple[float, float], unit: Scale) -> None:
-    """Every model's surfaces under load over `across` [m], x in `unit`; filled as those of the
-    last model."""
+    """Every model's surfaces under load over `across` [m], x in `unit`; filled as the last's."""
     drawn: dict[str, tuple[np.ndarray, ...]] = {}
     for name, level in reversed(outcome.levels(outcome.deciding_friction).items()):
         found = surfaces_of(outcome.problem, level)

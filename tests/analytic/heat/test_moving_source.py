@@ -4,13 +4,13 @@ import json
 
 import numpy as np
 import pytest
-from moving_band import band_maximum, band_mean
+from moving_band import band_maximum, band_mean, band_surface
 from scenes import DATA
 from scipy.integrate import quad
 from scipy.interpolate import CubicSpline
 from scipy.special import k0e
 
-from analytic.heat.moving_source import HeatedSurface, band_surface
+from analytic.heat.moving_source import HeatedSurface
 from analytic.material import ThermalMaterial
 
 JAEGER = json.loads((DATA / "h_heat.json").read_text())["jaeger"]

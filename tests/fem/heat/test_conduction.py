@@ -4,10 +4,9 @@ import json
 
 import numpy as np
 import pytest
-from moving_band import band_maximum
+from moving_band import band_maximum, band_surface
 from scenes import DATA
 
-from analytic.heat.moving_source import band_surface
 from analytic.material import ThermalMaterial
 from fem.body.coating import Coating
 from fem.body.surface import boundary_points

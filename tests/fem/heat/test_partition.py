@@ -4,15 +4,16 @@ from functools import cache
 
 import numpy as np
 import pytest
+from doubling_times import doubling_times
+from moving_band import band_surface
 
-from analytic.heat.moving_source import HeatedSurface, band_surface
+from analytic.heat.moving_source import HeatedSurface
 from analytic.heat.partition import divided
 from analytic.material import ThermalMaterial
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.partition import FrictionalHeat
 from fem.heat.surface_heat import flux_load, values_at
-from fem.heat.transient import doubling_times
 from meshes.build import build_block
 from meshes.thermal_layer import thermal_spec
 

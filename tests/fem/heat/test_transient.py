@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from doubling_times import doubling_times
 from scenes import DATA
 from scipy.special import erfc
 
@@ -12,7 +13,6 @@ from fem.body.coating import Coating
 from fem.heat.body import thermal_body
 from fem.heat.conduction import Conduction, Surroundings
 from fem.heat.surface_heat import flux_load
-from fem.heat.transient import doubling_times
 
 UNIT = ThermalMaterial(1.0, 1.0, 1.0)
 INSULATED = Surroundings("insulated", "insulated")
