@@ -16,9 +16,8 @@ LEAST_LEFTOVER = 0.45
 
 
 def graded_line(start: float, end: float, size: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Points (n + 1,) from start to end [m], start < end, spaced by size(t) [m]. The density 1/size
-    is integrated over cells short enough for a law of slope one at most; each edge holds the same
-    part of the integral."""
+    """Points (n + 1,) from start to end [m], start < end, spaced by size(t) [m]. Of 1/size, summed
+    over cells short enough for a law of slope one at most, each edge holds the same part."""
     cells = np.array([start, end])
     while True:
         middle = 0.5 * (cells[:-1] + cells[1:])
@@ -70,8 +69,7 @@ def sizes_on(spec: BlockSpec, axis: int, at: float) -> Callable[[np.ndarray], np
 
 def top_nodes(spec: BlockSpec) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, with both corners and the ends of a coating's core.
-    Raises MeshError if a refined range is not a whole number of edges or leaves too short a
-    rest."""
+    Raises MeshError if a refined range is no whole number of edges or leaves too short a rest."""
 
     size = sizes_on(spec, 1, 0.0)
     half, pieces = spec.half_width, []
@@ -106,8 +104,7 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
 @dataclass(frozen=True)
 class Outline:
     """Straight lines of vertices, and the regions between them that gmsh fills. A region is given
-    by the lines around it, in the positive sense of rotation in (x, z): k + 1 for line k in its own
-    direction, -(k + 1) against it."""
+    by the lines around it, in positive sense in (x, z): k + 1 for line k, -(k + 1) against it."""
 
     points: np.ndarray  # (n, 2) [m]
     lines: tuple[np.ndarray, ...]  # numbers of the points on each line, both ends included

@@ -5,8 +5,7 @@ Rough body: the shift of the top side continues into the depth as the solution w
     d2w/dx2 + STRETCH^2 d2w/dz2 = 0,   w = -height on top, w = 0 at the base, free on the sides,
 
 by linear elements on the same triangles. A component of wavelength L decays over the depth
-STRETCH L / (2 pi) and compresses elements by its slope / STRETCH only, so that profiles steeper
-than one are possible.
+STRETCH L / (2 pi) and compresses elements by its slope / STRETCH: slopes above one are possible.
 
 Disc of radius R [m], z into the roller as for every body, with the sagitta s(x) [m]:
 

@@ -2,8 +2,7 @@
 
 Of the potential I of one element (`analytic.stress.potential`) Im I and z Re I' are even along the
 surface, Re I and z Im I' odd. The transform of a real sequence that is even plus odd about 0 has
-those of the two as real and imaginary part: two transforms a level give the spectra of all four
-stresses, the latter two of them over i.
+those of the two as real and imaginary part: two transforms a level give all four, two over i.
 
     S  grid points that the load spans      N  length of the circular convolution
 """
@@ -95,9 +94,8 @@ def half_line(
 
 
 def mirrored_spectra(halves: np.ndarray, size: int) -> tuple[np.ndarray, ...]:
-    """Spectra of an element's stresses, those of txz under p and of sx under q over i, on a closed
-    line of `size` >= 2 reach points. From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on
-    its right."""
+    """Spectra of an element's stresses, those of txz under p and of sx under q over i, on a ring of
+    `size` >= 2 reach. From Re I, Im I, z Re I', z Im I' (4, levels, reach + 1) on the right."""
     _, levels, count = halves.shape
     whole = np.empty((2, levels, size))
     whole[:, :, count : size - count + 1] = 0.0

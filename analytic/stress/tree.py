@@ -148,8 +148,7 @@ def near_stress(
     line: LoadedLine, nearest: np.ndarray, rest: np.ndarray, z: np.ndarray, box: np.ndarray
 ) -> np.ndarray:
     """The four stresses (4, points) of the elements in each point's near boxes on the finest level.
-    At places (points,) `rest` from the node of number `nearest`, and z below, in pitches. Elements
-    beyond the line's ends carry nothing."""
+    At places (points,) `rest` from the node of number `nearest`, and z below, in pitches."""
     unique, which = np.unique((box - NEIGHBOURS) * LEAF, return_inverse=True)
     index = unique[:, None] + np.arange(-1, (2 * NEIGHBOURS + 1) * LEAF + 1)
     loaded = (index >= 0) & (index < len(line.load))

@@ -2,8 +2,7 @@
 
 The contact stays where it is, the surfaces pass it; the pressure is that of one moment and taken as
 steady. That is exact where the contact stays on the rough body (slide-to-roll ratio -2). Else
-asperities move with the body: each heats it for longer than here, and the roller no longer in one
-place."""
+asperities move with the body: each heats it for longer than here, the roller in many places."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING

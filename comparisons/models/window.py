@@ -80,9 +80,8 @@ def window_of(problem: Problem) -> Window:
 
 
 def search_window(problem: Problem, window: Window) -> Window:
-    """Points from which the search for extremes inside a window starts, whatever its density. As
-    dense along x as the coarsest level's pressures, a tenth of the shortest wave; depths from a
-    fraction of that by a fixed ratio."""
+    """Points from which the search for extremes inside a window starts, whatever its density: along
+    x the coarsest level's pressures, a tenth of the shortest wave; depths by a fixed ratio."""
     spacing = min(problem.pitches[0], window.extent)
     last = round(window.extent / spacing)
     depth = window.z[-1]

@@ -14,7 +14,7 @@ from comparisons.report.figures.running_in import area
 from comparisons.report.headline import headline
 from comparisons.report.tables.answers import answer_facts, answer_rows
 from comparisons.report.tables.comparison import comparison_rows, coupling_line, figure_rows
-from comparisons.report.tables.heat import heat_line
+from comparisons.report.tables.heat import heat_lines
 from comparisons.report.tables.model_error import model_error_rows, not_modelled_line
 from comparisons.report.tables.problem import in_mm
 from comparisons.report.tables.quiescent_zone import zone_line
@@ -193,8 +193,7 @@ def _facts(outcome: Outcome) -> "Table":
         rows.append(("coupling", moved))
     if (zone := zone_line(outcome)) is not None:
         rows.append(("quiescent zone", zone))
-    if (heat := heat_line(outcome)) is not None:
-        rows.append(("heat", heat))
+    rows += [("heat", line) for line in heat_lines(outcome)]
     if (flow := outcome.flow).ratio is not None:
         rows.append(("yield", yield_text(flow)))
     seconds = {LABELS[name]: sum(run.seconds.values()) for name, run in outcome.runs.items()}

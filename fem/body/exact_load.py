@@ -22,8 +22,7 @@ def forces_of(
     mesh: BlockMesh, stress: Callable, body_force: Callable | None = None, degree: int = 2
 ) -> np.ndarray:
     """Nodal forces (n, 2) [N/m] of the boundary tractions of a stress field and of a body force.
-    `stress`(x, z) gives sx, sz, txz [Pa]; `body_force`(x, z) two components [N/m^3]; `degree` is
-    that of the displacement."""
+    `stress`(x, z) gives sx, sz, txz [Pa]; `body_force`(x, z) [N/m^3]; degree: displacement's."""
     elements = nodes_of(mesh, degree).elements
     points = real_points(mesh)
     turn = np.sign(double_areas(points, mesh.triangles))

@@ -123,8 +123,7 @@ def _factors(part: np.ndarray, degree: int) -> tuple[np.ndarray, np.ndarray]:
 class Locator:
     """Finds the elements that hold points, on a mesh of `points` (n, 2) and `triangles` (m, 6).
     From the element with the nearest centre it walks across the edge behind which the point lies,
-    rarely more than twice on a graded mesh. Newton's method inverts the map of `curved`
-    elements."""
+    rarely more than twice on a graded mesh. Newton's method inverts the map of `curved` ones."""
 
     def __init__(self, points: np.ndarray, triangles: np.ndarray, curved: bool) -> None:
         self.points, self.triangles, self.curved = points, triangles, curved

@@ -92,8 +92,7 @@ class DeformedSurface:
     def __call__(
         self, x: np.ndarray, on: tuple[np.ndarray, np.ndarray] | None = None
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """r [m], its slope without jumps and that one's own slope [1/m] at places x (k,) [m], where
-        they are `on` the edges."""
+        """r [m], its slope without jumps, and that one's [1/m], at x (k,) [m] `on` the edges."""
         edge, t = on or self.edge(x)
         node = 2 * edge[:, None] + np.arange(3)
         rise = (edge_shapes(t) * self.z[node]).sum(axis=1)
@@ -104,8 +103,7 @@ class DeformedSurface:
 
 class PairContact:
     """Contact of a rough body with an elastic roller, on the hats (count + 2,) [m] of the
-    undeformed rough body; displacements as of `TwoBodies`. Raises ValueError if a hat sticks out of
-    the surface."""
+    undeformed rough body; displacements as of `TwoBodies`. ValueError: a hat leaves the surface."""
 
     def __init__(
         self, body: ElasticBody, hats: np.ndarray, roller: ElasticBody, friction: float = 0.0
@@ -188,8 +186,7 @@ class PairContact:
         return surface, along_edges(self._body.surface.edges, *own.edge(below)), own
 
     def _of_roller(self, node: np.ndarray, value: np.ndarray) -> list[csr_matrix]:
-        """Rows (q, 2n) that take x and z at points under hats from the roller's surface nodes (q,
-        3) with factors (q, 3)."""
+        """Rows (q, 2n): x, z at points under hats from surface nodes (q, 3) by factors (q, 3)."""
         number = self._first + self._roller.surface.point[node]
         row, shape = np.arange(len(node))[:, None], (len(node), 2 * self._count)
         return [matrix_of(value, row, 2 * number + axis, shape) for axis in (0, 1)]

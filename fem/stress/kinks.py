@@ -88,8 +88,7 @@ class Kinks:
         return [jump * both - jump.conj() * steep]
 
     def _around(self, kink: np.ndarray, where: np.ndarray) -> tuple[np.ndarray, ...]:
-        """w, ln w (0 at the kink), f and the tangent; the logarithm's branch cut points out of the
-        body."""
+        """w, ln w (0 at the kink), f and the tangent; the logarithm's branch cut points out."""
         tangent, jump = self.tangent[kink], self.jump[kink]
         w = (where - self.place[kink]) / tangent
         log, square = np.empty_like(w), w.real**2 + w.imag**2  # thrice as fast as numpy's complex

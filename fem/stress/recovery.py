@@ -130,8 +130,7 @@ def stress_nodes(body: MeshedBody) -> StressNodes:
 @dataclass(frozen=True)
 class Patches:
     """The elements around each vertex, and the edges between vertices. An end of an edge on a side
-    of the block, with half a patch, has no share of the stress in the middle if the other end has a
-    whole one."""
+    of the block, with half a patch, has no share in the middle if the other end has a whole one."""
 
     vertex: np.ndarray  # (v,) the stress node in the middle of each patch
     coated: np.ndarray  # (v,) whether it belongs to the coating

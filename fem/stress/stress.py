@@ -27,8 +27,7 @@ Beside = Callable[[np.ndarray, np.ndarray], StressState]
 
 @dataclass(frozen=True)
 class FurtherStress:
-    """Stresses `of` x and depth [m] [Pa], along and across a `surface` z(x) [m], which the body's
-    displacement does not have; c of them."""
+    """c stresses `of` x and depth [m] [Pa], along a `surface` z(x) [m], not in the displacement."""
 
     surface: CubicSpline
     of: tuple[Beside, ...]
@@ -45,8 +44,7 @@ class FurtherStress:
 
 @dataclass(frozen=True)
 class NodalStress:
-    """Stresses at the nodes of a body, and what interpolates them; or c of them, which adds an axis
-    before the components."""
+    """Stresses at the nodes of a body, and what interpolates them; c of them on a further axis."""
 
     nodes: StressNodes  # their mesh points, and the nodes of each triangle
     poissons_ratio: np.ndarray  # (k,) at the nodes

@@ -39,8 +39,7 @@ class BodyPair:
     rough: ElasticBody  # the rough body
     # the roller's own body; None: rigid, or the rough body's block serves for both
     roller: ElasticBody | None
-    # of the rough body's own compliance that an elastic roller without a body of its own adds: the
-    # ratio of their moduli, 0 for a rigid one
+    # of the rough body's compliance that a roller without a body adds: moduli's ratio, 0 if rigid
     roller_share: float
 
     @property

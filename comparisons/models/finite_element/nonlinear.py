@@ -26,8 +26,7 @@ from fem.stress.stress import at_mesh_points
 
 # What is left of the contact conditions after the last increment of flow.
 FLOW_TOLERANCE = 1e-6
-# Residuals of a contact at finite deformation, over the displacements. Figures were seen to move by
-# 5e-5 where it is 1e-6.
+# Residuals of a contact at finite deformation, over the displacements; 1e-6 moves figures by 5e-5.
 FINITE_TOLERANCE = 1e-7
 ENDS = 3.0  # pitches from the pressures' outermost nodes to the end of the trace that bounds them
 

@@ -17,7 +17,7 @@ WORDS = {
     "mean_temperature": "mean rise, by heat",
     "fraction_into_body": "heat that enters the body",
     "tau1_heated": "largest τ1 with heat",
-    "tau1_depth_heated": "its depth",
+    "tau1_depth_heated": "depth of that τ1",
     "sx_heated": "largest σx of the surface with heat",
 }
 RULES = {
@@ -80,8 +80,8 @@ def heat_facts(outcome: Outcome) -> list[tuple[str, str]]:
     return [fact for fact in found if fact[1]]
 
 
-def heat_line(outcome: Outcome) -> str | None:
-    """The largest rise in a line, and largest stresses with heat; None without [heat]."""
+def heat_lines(outcome: Outcome) -> list[str]:
+    """The largest rise in a line, and largest stresses with heat in others."""
     said = []
     for figure in outcome.heat.figures if outcome.heat else ():
         if figure.quantity != "flash_temperature" and not figure.elastic:
@@ -93,4 +93,4 @@ def heat_line(outcome: Outcome) -> str | None:
         if figure.verdict is not None:
             difference = _difference(figure, figure.difference)
             said[-1] += f": {difference} ± {percent(figure.uncertainty)}, {figure.verdict}"
-    return "; ".join(said) or None
+    return said

@@ -32,8 +32,7 @@ CONSTANTS = ("conductivity", "density", "specific_heat")
 
 
 class HeatSection(SceneSection):
-    """By default the roller slides over the body and takes the contact with it: the body sees a
-    moving source, the roller one at rest."""
+    """By default the roller takes the contact with it: the body sees a moving source."""
 
     speed: Annotated[float, Number(SPEED, above=0.0)]
     slide_to_roll: Annotated[float, Number(DIMENSIONLESS, at_least=-2.0, at_most=2.0)] = 2.0
