@@ -9,7 +9,6 @@ Whoever waits may prepare what it will need: imports take as long as a small run
 import multiprocessing
 import os
 import sys
-import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -33,7 +32,6 @@ Held = TypeVar("Held")
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
 WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
 PREPARATION = 0.2  # seconds that forked processes save where they have something to prepare
-SAVED = 0.5  # of its seconds at most, where a process holds what a task shares with its last one
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 # Urgencies: others wait for the first kind, nothing for the fifth, and the last may turn out to be
 # for nothing.
@@ -90,9 +88,7 @@ class Tasks:
     _tasks: dict[str, _Task] = field(default_factory=dict)
     _workers: dict[Connection, Worker] = field(default_factory=dict)
     _held: dict[Connection, object] = field(default_factory=dict)
-    _since: dict[Connection, float] = field(default_factory=dict)  # when they began [s]
-    _done: float = 0.0  # expected seconds of what is done, and those that it took
-    _spent: float = 0.0
+    _done: float = 0.0
     _share: float = 0.0
 
     def __post_init__(self) -> None:
@@ -112,11 +108,12 @@ class Tasks:
     ) -> None:
         """Make a task known: `work(here, *given)`, of expected seconds and bytes. The lower its
         urgency, the sooner it begins; of equal ones what `shares` the same with the last task of a
-        process goes there, if there is a choice; then the longest. A known key does nothing."""
+        process goes there, if there is a choice; then the longest. Known keys may become urgent."""
         if key not in self._tasks:
             task = _Task(work, given, seconds, memory, urgency, shares)
             self._tasks[key] = self._waiting[key] = task
             self._hand_out()
+        self._tasks[key].urgency = min(self._tasks[key].urgency, urgency)
 
     def result(self, key: str) -> object:
         """The answer of a known task, waited for, then forgotten; raises what its work raised."""
@@ -169,8 +166,6 @@ class Tasks:
             for key, task in order:
                 if self._running and taken + task.memory > self.memory:
                     continue
-                if task.shares not in (None, own) and self._is_worth_waiting(task):
-                    continue
                 try:
                     pipe.send((task.work, task.given))
                 except OSError:
@@ -178,18 +173,7 @@ class Tasks:
                 else:
                     del self._waiting[key]
                     self._running[pipe], self._held[pipe] = key, task.shares or self._held.get(pipe)
-                    self._since[pipe] = time.monotonic()
                 break
-
-    def _is_worth_waiting(self, task: _Task) -> bool:
-        """Whether a process at work holds what the task shares, and will be free sooner than
-        another could make it anew, at the pace of the tasks so far."""
-        now, pace = time.monotonic(), self._spent / self._done if self._done else 1.0
-        return any(
-            self._held.get(pipe) == task.shares
-            and pace * (self._tasks[key].seconds - SAVED * task.seconds) < now - self._since[pipe]
-            for pipe, key in self._running.items()
-        )
 
     def _collect(self) -> None:
         """Wait for what the processes have to say."""
@@ -203,7 +187,6 @@ class Tasks:
             if kind == "stage":
                 self._tell(content)
             else:
-                self._spent += time.monotonic() - self._since[pipe]
                 self._answer(self._running.pop(pipe), *content)
 
     def _lose(self, pipe: Connection) -> None:

@@ -122,13 +122,15 @@ def test_processes_share_different_things(beside):
     )
 
 
-@pytest.mark.parametrize(("seconds", "alone"), [(1e-9, True), (1e9, False)])
-def test_a_task_waits_for_what_it_shares_if_that_is_free_soon(beside, seconds, alone):
-    """The second is worth a process of its own only where the first lasts much longer."""
-    for name, lasts, urgency in (("first", seconds, FIRST), ("second", 1.0, LATER)):
-        beside.add(name, home, seconds=lasts, urgency=urgency, shares="body")
-    first, second = (beside.result(name) for name in ("first", "second"))
-    assert (first == second) is alone
+def test_a_known_task_becomes_more_urgent_and_not_less(worth, tmp_path):
+    path = tmp_path / "order"
+    with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
+        tasks.processes = 1
+        for name, urgency in (("f", FIRST), ("b", LATER), ("s", PERHAPS), ("s", FIRST), ("s", 9)):
+            tasks.add(name, noted, path, name, seconds=1.0 + (name == "f"), urgency=urgency)
+        for name in "fbs":
+            tasks.result(name)
+    assert path.read_text() == "fsb"
 
 
 def test_what_has_no_memory_beside_the_others_waits(beside, tmp_path):
