@@ -27,16 +27,17 @@ def refined(
     window: Window | None,
     cache: Cache,
     tasks: Tasks,
-    after_half_plane: Callable[[ModelRun], None] | None = None,
+    after_half_plane: Callable[[ModelRun], Callable[[], None]] | None = None,
 ) -> tuple[dict[str, ModelRun], str]:
     """The runs of the plan's models, and why their refinement stopped.
 
     The levels that the scene asks for are known to `tasks` from the start, further ones when they
     are found necessary. Levels in the `cache` of a stopped run are not computed again; their
     expected time counts.
-    after_half_plane  called with the half-plane on the levels asked for, while others are solved"""
+    after_half_plane  called with the half-plane on the levels asked for, while others are solved;
+                      what it returns is called once levels leave a judged quantity unresolved"""
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
-    patches, check = np.array([problem.extent]), None
+    patches, check, further = np.array([problem.extent]), None, None
 
     def expected(name: str, number: int) -> ExpectedCost:
         pitch = problem.pitches[0] / 2.0 ** (number - 1)
@@ -71,7 +72,7 @@ def refined(
     if "half_plane" in levels:
         levels["half_plane"] += [tasks.result(key) for key in keys[1:]]
         if after_half_plane is not None:
-            after_half_plane(ModelRun("half_plane", tuple(levels["half_plane"])))
+            further = after_half_plane(ModelRun("half_plane", tuple(levels["half_plane"])))
     open_questions: dict[str, float] = {}
     for number in count(1):
         missing = [name for name, done in levels.items() if len(done) < number]
@@ -95,6 +96,9 @@ def refined(
         if why is not None:
             names = ", ".join(open_questions) or "judged quantities"
             return runs, f"{names} not resolved to a third of the tolerance: {why}"
+        if further and number > 1 and (open_questions or unresolved(problem, runs, window)):
+            further()
+            further = None
 
 
 def unresolved(

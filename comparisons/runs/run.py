@@ -232,9 +232,9 @@ def solved(
         half_planes[len(half_plane.levels)] = half_plane
         return moved(len(half_plane.levels)) if plan.coupling else ()
 
-    def announce(half_plane: ModelRun) -> None:
+    def announce(half_plane: ModelRun) -> Callable[[], None]:
         given = problem, plan, window, half_plane, coupled(half_plane), cache, tasks
-        announce_effects(*given)
+        return announce_effects(*given)
 
     half_planes: dict[int, ModelRun] = {}
     ahead = announce if plan.compares else None

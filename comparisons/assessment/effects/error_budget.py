@@ -14,8 +14,9 @@ The model error and its uncertainty are stated for every figure in any case.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from analytic.profile import Profile
 from comparisons.assessment.effects.contributions import (
@@ -130,23 +131,32 @@ def announce_effects(
     couplings: tuple[Coupling, ...],
     cache: Cache,
     tasks: Tasks,
-) -> None:
+) -> Callable[[], None]:
     """Make known to the tasks what `error_budget` will ask for, as far as the half-plane alone, on
     the levels that the scene asks for, can tell: they may begin before the finite elements are
-    done. Should the half-plane's finest level select other effects, these are solved then."""
+    done. Should the half-plane's finest level select other effects, these are solved then.
+
+    To be called where the scene's own finite elements leave a figure open on the least levels is
+    what is returned: so will the whole, whose further level need not wait until it does. A process
+    then stays with the bodies of one level."""
     selection = _selected(problem, plan, half_plane, couplings)
     patches = half_plane.levels[0].patches
     solved = SolvedVariants(problem, window, None, cache, tasks, patches)
     splits = [split_variants(problem, selection, mu) for mu in problem.scene.friction]
     solved.keep(split.whole for split in splits)
+    wholes = [each for split in splits for each in split.wholes]
+    every = [each for split in splits for each in split.all]
     most = min(_most_levels(problem), len(half_plane.levels))
-    for number in range(1, most + 1):
-        if number <= LEAST_LEVELS:
-            solved.announce((each for split in splits for each in split.wholes), number, LATER)
-            solved.announce((each for split in splits for each in split.all), number, LAST)
-        else:  # if the levels before it leave too much unknown
-            solved.announce((each for split in splits for each in split.wholes), number, PERHAPS)
+
+    def announce(splitting: int, further: int) -> None:
+        for number in range(1, most + 1):
+            is_further = number > LEAST_LEVELS
+            solved.announce(wholes, number, further if is_further else LATER)
+            solved.announce(() if is_further else every, number, splitting)
+
+    announce(LAST, PERHAPS)
     _announce_sampling(problem, window, half_plane.levels, tasks)
+    return partial(announce, LATER, LATER)
 
 
 def _selected(

@@ -5,13 +5,13 @@ from dataclasses import replace
 import pytest
 
 from comparisons.assessment.comparison import compared
-from comparisons.assessment.effects.error_budget import error_budget
+from comparisons.assessment.effects.error_budget import announce_effects, error_budget
 from comparisons.assessment.refinement import refined
 from comparisons.assessment.verdict import ToleranceCheck, is_decided, validity_verdict
 from comparisons.common.cache import Cache, kinds_of
 from comparisons.common.quantities import MODELS
-from comparisons.common.tasks import Tasks
-from comparisons.models.level import Level
+from comparisons.common.tasks import LATER, PERHAPS, Tasks
+from comparisons.models.level import Level, ModelRun
 from comparisons.models.plan import make_plan
 
 SMALL = {"resolution": {"pitch": 12e-6, "levels": 3}, "finite_element": {"block": 40}}
@@ -100,3 +100,21 @@ def test_a_verdict_is_fixed_where_no_finer_solution_turns_it(value, uncertainty,
 )
 def test_a_difference_is_decided_where_no_effect_turns_it(difference, uncertainty, size, decided):
     assert is_decided(difference, uncertainty, size, 0.02) == decided
+
+
+@pytest.mark.parametrize(("tolerance", "urgency"), [(0.2, PERHAPS), (0.008, LATER)])
+def test_its_own_elements_say_whether_a_third_level_of_the_whole_is_likely(
+    problem_with, tmp_path, tolerance, urgency
+):
+    """It then waits for nothing: the second level of the scene's own leaves a figure open."""
+    changed = {"tolerance": dict.fromkeys(JUDGED, tolerance), "budget": {"time": 20.0}}
+    problem = problem_with(**SMALL, roller=RIGID, profile=WAVY, **changed)
+    plan, cache = make_plan(problem, MODELS), Cache(tmp_path, "waves", kinds_of(Level))
+    tasks = Tasks()
+
+    def announced(half_plane: ModelRun):
+        return announce_effects(problem, plan, None, half_plane, (), cache, tasks)
+
+    refined(problem, plan, None, cache, tasks, announced)
+    wholes = {key: task for key, task in tasks._tasks.items() if key.startswith("whole-")}
+    assert [task.urgency for key, task in wholes.items() if key.endswith("-3")] == [urgency]
