@@ -60,12 +60,14 @@ def refined(
         levels["half_plane"].append(tasks.result(keys[0]))
         patches = levels["half_plane"][0].patches
     if "finite_element" in levels:
-        time, budget = 0.0, problem.scene.budget
+        time, budget, within = 0.0, problem.scene.budget, []
         for number in asked:
             cost = expected("finite_element", number)
             time += cost.seconds
             if time > budget.time or cost.memory > min(budget.memory, tasks.machine):
                 break  # it may not come to that
+            within.append(number)
+        for number in reversed(within):  # idle processes begin with the longest
             add("finite_element", number)
         if plan.domain_check:
             add("finite_element", 1, FAR_BOUNDARY_CHECK)
