@@ -9,6 +9,7 @@ ratio.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,7 +38,7 @@ class StressState:
         """Stress across the plane [Pa], nu (sx + sz) in plane strain."""
         return poissons_ratio * (self.sx + self.sz)
 
-    @property
+    @cached_property
     def tau1(self) -> np.ndarray:
         """Principal shear in the plane [Pa], sqrt(((sx - sz)/2)^2 + txz^2) >= 0. sy is sometimes an
         extreme principal stress near the surface; the largest shear over all directions can then
