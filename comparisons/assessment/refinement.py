@@ -1,6 +1,7 @@
 """Both models on ever finer levels, until every judged quantity is resolved or the budget spent."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
@@ -37,7 +38,7 @@ def refined(
     after_half_plane  called with the half-plane on the levels asked for, while others are solved;
                       what it returns is called once levels leave a judged quantity unresolved"""
     levels: dict[str, list[Level]] = {name: [] for name in plan.models}
-    patches, check, further = np.array([problem.extent]), None, None
+    patches, further = np.array([problem.extent]), None
 
     def expected(name: str, number: int) -> ExpectedCost:
         pitch = problem.pitches[0] / 2.0 ** (number - 1)
@@ -53,6 +54,13 @@ def refined(
         shares = None if name == "half_plane" else problem.pitches[0] / 2.0 ** (number - 1)
         tasks.add(key, _level, *given, **size, urgency=urgency, shares=shares)
         return key
+
+    def checked(runs: dict[str, ModelRun]) -> dict[str, ModelRun]:
+        """The runs with the far boundary at half the distance."""
+        if plan.domain_check:
+            check = tasks.result(FAR_BOUNDARY_CHECK)
+            runs["finite_element"] = replace(runs["finite_element"], far_boundary_check=check)
+        return runs
 
     asked = range(1, len(problem.pitches) + 1)
     if "half_plane" in levels:  # first, while nothing else is in memory
@@ -80,16 +88,11 @@ def refined(
         missing = [name for name, done in levels.items() if len(done) < number]
         for name, key in [(name, add(name, number)) for name in missing]:
             levels[name].append(tasks.result(key))
-        if number == 1 and plan.domain_check:
-            check = tasks.result(FAR_BOUNDARY_CHECK)
-        runs = {
-            name: ModelRun(name, tuple(done[:number]), check if name == "finite_element" else None)
-            for name, done in levels.items()
-        }
+        runs = {name: ModelRun(name, tuple(done[:number])) for name, done in levels.items()}
         if number >= len(problem.pitches):
             before, open_questions = open_questions, unresolved(problem, runs, window)
             if not open_questions:
-                return runs, "every judged quantity is resolved"
+                return checked(runs), "every judged quantity is resolved"
         why = _spent(problem, plan, runs, tasks.machine)
         if why is None and open_questions and _stuck(before, open_questions):
             why = "refinement no longer lowers their uncertainty"
@@ -97,7 +100,7 @@ def refined(
             why = f"{number} levels are the most"
         if why is not None:
             names = ", ".join(open_questions) or "judged quantities"
-            return runs, f"{names} not resolved to a third of the tolerance: {why}"
+            return checked(runs), f"{names} not resolved to a third of the tolerance: {why}"
         if further and number > 1 and (open_questions or unresolved(problem, runs, window)):
             further()
             further = None

@@ -9,6 +9,7 @@ Whoever waits may prepare what it will need: imports take as long as a small run
 import multiprocessing
 import os
 import sys
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -107,8 +108,9 @@ class Tasks:
         shares: object = None,
     ) -> None:
         """Make a task known: `work(here, *given)`, of expected seconds and bytes. The lower its
-        urgency, the sooner it begins; of equal ones what `shares` the same with the last task of a
-        process goes there, if there is a choice; then the longest. Known keys may become urgent."""
+        urgency, the sooner it begins; of equal ones first what `shares` nothing with the last task
+        of another process, then the longest, where a process stays with what shares the same for as
+        long as all of that takes longer. Known keys may become urgent."""
         if key not in self._tasks:
             task = _Task(work, given, seconds, memory, urgency, shares)
             self._tasks[key] = self._waiting[key] = task
@@ -161,9 +163,7 @@ class Tasks:
         idle = [pipe for pipe in self._workers if pipe not in self._running]
         for pipe in sorted(idle, key=lambda pipe: self._held.get(pipe) not in shared):
             taken = sum(self._tasks[key].memory for key in self._running.values())
-            own, others = self._held.get(pipe), set(self._held.values())
-            order = sorted(self._waiting.items(), key=lambda item: _place(item[1], own, others))
-            for key, task in order:
+            for key, task in self._order(pipe):
                 if self._running and taken + task.memory > self.memory:
                     continue
                 try:
@@ -174,6 +174,24 @@ class Tasks:
                     del self._waiting[key]
                     self._running[pipe], self._held[pipe] = key, task.shares or self._held.get(pipe)
                 break
+
+    def _order(self, pipe: Connection) -> list[tuple[str, _Task]]:
+        """The queue of a process."""
+        own = self._held.get(pipe)
+        others = {held for other, held in self._held.items() if other is not pipe}
+        together = defaultdict(list)
+        for task in self._waiting.values():
+            together[task.urgency, task.shares].append(task.seconds)
+
+        def place(item: tuple[str, _Task]) -> tuple:
+            task = item[1]
+            sharing = together[task.urgency, task.shares]
+            length = sum(sharing) if task.shares == own else max(sharing)
+            if task.shares is None:
+                return task.urgency, False, -task.seconds, 0.0
+            return task.urgency, task.shares in others, -length, -task.seconds
+
+        return sorted(self._waiting.items(), key=place)
 
     def _collect(self) -> None:
         """Wait for what the processes have to say."""
@@ -211,12 +229,6 @@ class Tasks:
         if self._done:
             self._share = max(self._share, self._done / (self._done + left))
         self.callback(Step(stage, self._share))
-
-
-def _place(task: _Task, own: object, others: set) -> tuple:
-    """In the queue of a process that holds `own`, while processes hold `others`."""
-    away = 0 if task.shares in (None, own) else 1 + (task.shares in others)
-    return task.urgency, away, -task.seconds
 
 
 @contextmanager

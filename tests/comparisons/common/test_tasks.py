@@ -99,16 +99,17 @@ def test_the_urgent_come_first_then_the_long(worth, tmp_path):
     assert path.read_text() == "flsp"
 
 
-def test_what_shares_with_the_last_task_of_a_process_goes_there(worth, tmp_path):
+@pytest.mark.parametrize(("other", "order"), [(2.5, "fsbt"), (4.0, "fbst")])
+def test_a_process_stays_with_what_shares_while_that_takes_longer(worth, tmp_path, other, order):
     path = tmp_path / "order"
+    given = {"f": (9.0, 1), "b": (other, 2), "s": (2.0, 1), "t": (1.0, 1)}
     with tasks_of_a_run(lambda stage: None, GIGABYTES) as tasks:
         tasks.processes = 1
-        for name, seconds, urgency in (("f", 5.0, FIRST), ("b", 4.0, LATER), ("s", 1.0, LATER)):
-            shares = 2 if name == "b" else 1
-            tasks.add(name, noted, path, name, seconds=seconds, urgency=urgency, shares=shares)
-        for name in "fbs":
+        for name, (seconds, shares) in given.items():
+            tasks.add(name, noted, path, name, seconds=seconds, shares=shares)
+        for name in given:
             tasks.result(name)
-    assert path.read_text() == "fsb"
+    assert path.read_text() == order
 
 
 def test_processes_share_different_things(beside):
