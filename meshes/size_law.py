@@ -90,7 +90,7 @@ def local_edges(vertices: np.ndarray) -> np.ndarray:
 
 
 def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """The law without s_max [m] at points x, z [m] (any equal shapes)."""
+    """The law without s_max [m] at points x, z [m] (shapes that broadcast)."""
     x, z = np.asarray(x, dtype=float), np.asarray(z, dtype=float)
     if spec.vertices is None:
         starts, ends = np.asarray(spec.intervals, dtype=float).reshape(-1, 2).T
@@ -112,7 +112,7 @@ def uncapped_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
 
 
 def wanted_size(spec: BlockSpec, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-    """Wanted element edge s [m] at points x, z [m] (any equal shapes)."""
+    """Wanted element edge s [m] at points x, z [m] (shapes that broadcast)."""
     return np.minimum(uncapped_size(spec, x, z), largest_size(spec))
 
 
@@ -168,6 +168,7 @@ TRIANGLES_PER_EQUILATERAL = 1.17
 # A box is small enough when the size varies by less than this part of its mean within it.
 VARIATION = 0.5
 MOST_BOXES = 2_000_000  # at once; each holds several elements
+GAUSS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
 
 def estimate_unknowns(spec: BlockSpec) -> int:
@@ -183,51 +184,49 @@ def _estimated(pickled: bytes) -> int:
     spec = pickle.loads(pickled)
     half, depth = spec.half_width, spec.depth
     low, high = (-half, half) if spec.interface is None else core(spec)
-    filled = [[low, high, 0.0, spec.interface or depth]]
-    layered = 0.0
+    filled, layered = [[low, high, 0.0, spec.interface or depth]], []
     if spec.interface is not None:
         filled.append([-half, half, spec.interface, depth])
-        beside = ([-half, low, 0.0, 0.0], [high, half, 0.0, 0.0])
-        columns = sum(integral_of_power(spec, side, -1.0) for side in beside)
-        layered = 2.0 * LAYERS * columns
-    inside = sum(integral_of_power(spec, box, -2.0) for box in filled)
-    triangles = layered + TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0) * inside
-    across = [[-half, half, z, z] for z in (0.0, depth)]
-    upright = [[x, x, 0.0, depth] for x in (-half, half)]
-    outer_edges = sum(integral_of_power(spec, side, -1.0) for side in across + upright)
+        layered = [[-half, low, 0.0, 0.0], [high, half, 0.0, 0.0]]
+    outer = [[-half, half, z, z] for z in (0.0, depth)]
+    outer += [[x, x, 0.0, depth] for x in (-half, half)]
     # Euler: v - e + m = 1 and 2 e = 3 m + b give v + e = 1 + 2 m + b.
-    return round(2.0 * (1.0 + 2.0 * triangles + outer_edges))
+    triangles = [TRIANGLES_PER_EQUILATERAL * 4.0 / np.sqrt(3.0)] * len(filled)
+    factors = [2.0 * each for each in triangles + [2.0 * LAYERS] * len(layered)] + [1.0] * 4
+    return round(2.0 * (1.0 + sum_of_integrals(spec, filled + layered + outer, factors)))
 
 
-def integral_of_power(spec: BlockSpec, box: list[float], power: float) -> float:
-    """Integral of wanted_size ** power over a box x0, x1, z0, z1 [m], or a side without extent.
-    Boxes are bisected across their longer extent until the law, whose slope is at most the growth,
-    is nearly constant in each or capped throughout; then three Gauss points each way."""
-    nodes, weights = np.polynomial.legendre.leggauss(3)
-    boxes = np.array([box], dtype=float)
-    cap = largest_size(spec)
-    total = 0.0
+def sum_of_integrals(spec: BlockSpec, boxes: list[list[float]], factors: list[float]) -> float:
+    """Of wanted_size ** -2 over boxes x0, x1, z0, z1 [m] and of wanted_size ** -1 along those of no
+    width or no height, each times its factor. Boxes are bisected across their longer extent until
+    the law, whose slope is at most the growth, is nearly constant in each or capped throughout;
+    then three Gauss points each way."""
+    boxes, cap, even = np.column_stack([boxes, factors]), largest_size(spec), []
     while len(boxes):
         if len(boxes) > MOST_BOXES:
             raise MeshError(
                 f"elements of {spec.surface_size:.3g} m in a body of {spec.depth:.3g} m are too "
                 "many to count"
             )
-        centre_x, centre_z = boxes[:, :2].mean(axis=1), boxes[:, 2:].mean(axis=1)
-        half_x, half_z = 0.5 * np.diff(boxes[:, :2]).ravel(), 0.5 * np.diff(boxes[:, 2:]).ravel()
-        change = spec.growth * np.hypot(half_x, half_z)
-        size = uncapped_size(spec, centre_x, centre_z)
+        x, half_x, z, half_z = centres(boxes)
+        change, size = spec.growth * np.hypot(half_x, half_z), uncapped_size(spec, x, z)
         done = (change <= VARIATION * np.minimum(size, cap)) | (size - change >= cap)
-        x = centre_x[done, None, None] + half_x[done, None, None] * nodes[:, None]
-        z = centre_z[done, None, None] + half_z[done, None, None] * nodes
-        x, z = np.broadcast_arrays(x, z)
-        mean = np.einsum("nij,i,j->n", wanted_size(spec, x, z) ** power, weights, weights) / 4.0
-        width, height = (np.where(h > 0.0, 2.0 * h, 1.0) for h in (half_x, half_z))
-        total += float((mean * (width * height)[done]).sum())
-
-        left, right = boxes[~done].copy(), boxes[~done].copy()
-        wide = half_x[~done] >= half_z[~done]
-        left[wide, 1] = right[wide, 0] = centre_x[~done][wide]
-        left[~wide, 3] = right[~wide, 2] = centre_z[~done][~wide]
+        even.append(boxes[done])
+        left, right, wide = boxes[~done], boxes[~done], (half_x >= half_z)[~done]
+        left[wide, 1] = right[wide, 0] = x[~done][wide]
+        left[~wide, 3] = right[~wide, 2] = z[~done][~wide]
         boxes = np.concatenate([left, right])
-    return total
+    even = np.concatenate(even)
+    x, half_x, z, half_z = centres(even)
+    at = (x[:, None] + half_x[:, None] * GAUSS)[..., None], (z[:, None] + half_z[:, None] * GAUSS)
+    density = 1.0 / wanted_size(spec, at[0], at[1][:, None])
+    density[(half_x > 0.0) & (half_z > 0.0)] **= 2
+    mean = (density @ GAUSS_WEIGHTS) @ GAUSS_WEIGHTS / 4.0
+    width, height = (np.where(half > 0.0, 2.0 * half, 1.0) for half in (half_x, half_z))
+    return float((even[:, 4] * mean * width * height).sum())
+
+
+def centres(boxes: np.ndarray) -> tuple[np.ndarray, ...]:
+    """x and half the width, z and half the height (n,) [m] of boxes x0, x1, z0, z1."""
+    x0, x1, z0, z1 = boxes.T[:4]
+    return 0.5 * (x0 + x1), 0.5 * (x1 - x0), 0.5 * (z0 + z1), 0.5 * (z1 - z0)
