@@ -4,8 +4,13 @@ Each function hides one difference and names it."""
 
 import inspect
 import logging
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from importlib.metadata import distribution
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +23,25 @@ if TYPE_CHECKING:
     from petsc4py.PETSc import Mat
 
 _COMPILED: dict[tuple, tuple] = {}  # by 0.5's compiler, in this process
+
+
+@contextmanager
+def quick_versions() -> Iterator[None]:
+    """While dolfinx is loaded: 0.5's ufl and ffcx load pkg_resources, as slow as all the rest,
+    for their own version. Asked for anything else, what stands for it gives way to the module."""
+    name, stand_in = "pkg_resources", ModuleType("pkg_resources")
+
+    def real(wanted: str) -> object:
+        sys.modules.pop(name, None)
+        return getattr(import_module(name), wanted)
+
+    vars(stand_in).update(get_distribution=distribution, __getattr__=real)
+    sys.modules.setdefault(name, stand_in)
+    try:
+        yield
+    finally:
+        if sys.modules.get(name) is stand_in:
+            del sys.modules[name]
 
 
 def quiet_compiler() -> None:

@@ -1,8 +1,7 @@
 """A block to mesh, its mesh of six-node triangles with their edges, and structured meshes.
 
 The block occupies |x| <= half_width, 0 <= z <= depth, z into the body. Its top side z = 0 is
-the mean line; a rough boundary is the top side moved to z = -height(x).
-"""
+the mean line; a rough boundary is the top side moved to z = -height(x)."""
 
 from dataclasses import dataclass, field
 

@@ -47,22 +47,11 @@ def interval_edges(spec: BlockSpec, start: float, end: float) -> int:
     return whole * edges_per_size(spec)
 
 
-def refined_nodes(spec: BlockSpec) -> list[np.ndarray]:
-    """Ascending x [m] of the vertices on each refined range; spec.vertices are one range."""
-    if spec.vertices is not None:
-        return [own_vertices(spec)]
-    return [
-        np.linspace(start, end, interval_edges(spec, start, end) + 1)
-        for start, end in np.asarray(spec.intervals, dtype=float)
-    ]
-
-
 def sizes_on(spec: BlockSpec, axis: int, at: float) -> Callable[[np.ndarray], np.ndarray]:
     """Wanted sizes [m] on the line x = at (axis 0) or z = at (axis 1), at z or x [m]."""
 
     def wanted(place: np.ndarray) -> np.ndarray:
-        line = np.full_like(place, at)
-        return wanted_size(spec, *((line, place) if axis == 0 else (place, line)))
+        return wanted_size(spec, *((at, place) if axis == 0 else (place, at)))
 
     return wanted
 
@@ -70,7 +59,6 @@ def sizes_on(spec: BlockSpec, axis: int, at: float) -> Callable[[np.ndarray], np
 def top_nodes(spec: BlockSpec) -> np.ndarray:
     """Ascending x [m] of the vertices on z = 0, with both corners and the ends of a coating's core.
     Raises MeshError if a refined range is no whole number of edges or leaves too short a rest."""
-
     size = sizes_on(spec, 1, 0.0)
     half, pieces = spec.half_width, []
     reached = -half
@@ -89,7 +77,12 @@ def top_nodes(spec: BlockSpec) -> np.ndarray:
     low, high = (-half, half) if spec.interface is None else core(spec)
     fill(low)
     reached = low
-    for inside in refined_nodes(spec):
+    if spec.vertices is None:
+        ranges = np.asarray(spec.intervals, dtype=float)
+        inner = [np.linspace(*each, interval_edges(spec, *each) + 1) for each in ranges]
+    else:
+        inner = [own_vertices(spec)]
+    for inside in inner:
         fill(inside[0])
         pieces.append(inside[:-1])
         reached = inside[-1]

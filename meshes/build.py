@@ -188,8 +188,7 @@ def build_block(spec: BlockSpec, *, timeout: float = 600.0) -> BlockMesh:
     timeout   of gmsh [s]
 
     Raises MeshError if spec cannot be meshed, if gmsh fails or runs out of time, or if the elements
-    are not fit to solve on.
-    """
+    are not fit to solve on."""
     began = time.perf_counter()
     check_spec(spec)
     unit = spec.surface_size

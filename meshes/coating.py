@@ -3,8 +3,7 @@
 The core of the coating, the range of x under the refined ranges, is filled like the rest of the
 block, with elements no larger than t / LAYERS, where t = spec.interface is the thickness [m].
 Beside it, where the size law asks for larger ones, LAYERS layers of stretched elements go on to the
-sides of the block. They cost next to nothing, and the size law resolves the displacements there.
-"""
+sides of the block. They cost next to nothing, and the size law resolves the displacements there."""
 
 import numpy as np
 

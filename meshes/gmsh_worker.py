@@ -2,8 +2,7 @@
 
 Reads the arguments of `fill` from standard input, pickled, one after the other. Each is done by a
 copy of this process that has gmsh loaded already and leaves nothing behind. Its exit status, what
-it wrote to standard error and its results, pickled themselves, go to standard output, pickled.
-"""
+it wrote to standard error and its results, pickled themselves, go to standard output, pickled."""
 
 import ctypes
 import os

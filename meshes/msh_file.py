@@ -1,7 +1,6 @@
 """The real body's mesh as a gmsh file (MSH 2.2, binary), and back.
 
-All readers know format 2.2 with its named sides; meshio writes 4.1 with empty entities.
-"""
+All readers know format 2.2 with its named sides; meshio writes 4.1 with empty entities."""
 
 import io
 import json

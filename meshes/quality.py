@@ -6,8 +6,7 @@ least_jacobian        smallest scaled Jacobian at any corner,
                       (curved) edges there; 1 for an equilateral triangle, <= 0 when inverted
 mean_jacobian         mean over the triangles of each one's smallest
 least_gamma           smallest 2 * inradius / circumradius; 1 for an equilateral triangle
-size_jump             largest ratio of the sizes (square root of area) of two neighbours
-"""
+size_jump             largest ratio of the sizes (square root of area) of two neighbours"""
 
 import numpy as np
 

@@ -16,8 +16,7 @@ about the centre (0, R), upright lines to rays.
 
 What lies near the contact in a disc (`rounded`): squares about the origin go to arcs about it, rays
 to curves that divide the disc's angle there, pi - 2 asin(r / 2R), as they divide pi. Base and sides
-become the arc that ends on the rim over the block's ends.
-"""
+become the arc that ends on the rim over the block's ends."""
 
 import time
 from collections.abc import Callable
@@ -46,8 +45,7 @@ def roughen(mesh: BlockMesh, height: Callable[[np.ndarray], np.ndarray]) -> Bloc
     a little with them, the rest stay straight. No point moves along x; base and sides stay.
 
     Raises MeshError if height is not finite, if an element is inverted (with the place and the
-    slope there), or if the elements are not fit to solve on.
-    """
+    slope there), or if the elements are not fit to solve on."""
     began, seconds = time.perf_counter(), mesh.quality.get("seconds", 0.0)
     flat, triangles = mesh.points, mesh.triangles
     top = np.flatnonzero(flat[:, 1] == 0.0)

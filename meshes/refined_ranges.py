@@ -1,8 +1,7 @@
 """Ranges of the surface to refine, from the patches of predicted contact.
 
 Their ends lie on the grid n * surface_size, where a pressure grid finds mesh vertices. If the
-solved contact reaches beyond them, it is added to the patches, and the body meshed again.
-"""
+solved contact reaches beyond them, it is added to the patches, and the body meshed again."""
 
 import numpy as np
 
@@ -36,8 +35,7 @@ def refined_ranges(
     patches (n, 2) [m] is the predicted contact, in any order, overlapping or of no length. Each is
     widened by margin [m] on both sides, extended to the grid n * surface_size, cut off at the sides
     of the body |x| = half_width [m], and joined with others fewer than MERGE_EDGES edges away.
-    Raises MeshError if a patch lies outside the body or no edge fits into it.
-    """
+    Raises MeshError if a patch lies outside the body or no edge fits into it."""
     patches = np.asarray(patches, dtype=float).reshape(-1, 2)
     if len(patches) == 0:
         return patches
@@ -51,7 +49,10 @@ def refined_ranges(
     ends = (patches + margin * np.array([-1.0, 1.0])) / surface_size
     edges = np.column_stack([np.floor(ends[:, 0] + ON_GRID), np.ceil(ends[:, 1] - ON_GRID)])
     edges[:, 1] = np.maximum(edges[:, 1], edges[:, 0] + 1)
-    last = last_grid_point(half_width / surface_size)
+    to_side = half_width / surface_size
+    last = np.floor(to_side + ON_GRID)
+    if ON_GRID < to_side - last < LEAST_REST:
+        last -= 1.0
     if last <= 0.0:
         raise MeshError(
             f"no surface edge of {surface_size:g} m fits into a body {2 * half_width:g} m wide"
@@ -59,13 +60,6 @@ def refined_ranges(
     edges[:, 0] = np.clip(edges[:, 0], -last, last - 1)
     edges[:, 1] = np.clip(edges[:, 1], 1 - last, last)
     return surface_size * merge(edges, gap=MERGE_EDGES - 0.5) + 0.0  # never -0
-
-
-def last_grid_point(edges_to_side: float) -> float:
-    """Largest whole n <= edges_to_side that leaves no rest or at least LEAST_REST."""
-    last = np.floor(edges_to_side + ON_GRID)
-    rest = edges_to_side - last
-    return float(last if abs(rest) <= ON_GRID or rest >= LEAST_REST else last - 1)
 
 
 def unrefined_contact(intervals: np.ndarray, active: np.ndarray, reach: float = 0.0) -> np.ndarray:

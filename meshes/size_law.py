@@ -17,8 +17,7 @@ Nomenclature (lengths in m)
     s_w     size asked for in the window;  d_w distance in the plane to the window
     s_max   a quarter of the block's smaller extent, half of what lies below a coating
     c       size in the core of the coating;  d_c distance in the plane to it (`meshes.coating`)
-    l       longest stretched element;  d_l depth below the coating
-"""
+    l       longest stretched element;  d_l depth below the coating"""
 
 import math
 import pickle

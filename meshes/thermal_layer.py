@@ -10,8 +10,7 @@ h/2, 2 n and g/sqrt(2): temperatures converge with order 2, as fluxes jump at th
 
 Nomenclature (lengths in m)
     L    kappa/|V|, infinite at rest      h   edge under the source      n   elements to a layer
-    d    distance to the nearest source   s   distance to an end of one  g   growth [-]
-"""
+    d    distance to the nearest source   s   distance to an end of one  g   growth [-]"""
 
 from collections.abc import Callable
 from itertools import pairwise

@@ -1,7 +1,6 @@
 """Stresses of a contact and of the heat of its friction together, and those of the half-plane.
 
-The bulk temperature leaves no stress; the heat is steady, the body elastic.
-"""
+The bulk temperature leaves no stress; the heat is steady, the body elastic."""
 
 from dataclasses import dataclass
 

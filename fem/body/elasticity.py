@@ -20,8 +20,7 @@ contact four times as wide as it is thick, n square cells of two triangles acros
 In a large block with 16 edges to a half-width the errors of the surface's slopes are 4e-2, 7e-4 and
 2e-4 with nu = 0.3 and degrees 1, 2, 3; 1, 6e-3 and 5e-4 with nu = 0.499999. Cubic displacements
 have 2.2 times the unknowns of quadratic ones; their factor takes 2.5 times the memory and 2.2 to
-3.3 times the time.
-"""
+3.3 times the time."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -60,8 +59,7 @@ class MeshedBody:
     nodes      (n, 2) [m] of the displacement, in the real body
     elements   (m, 3, 6 or 10) nodes of each triangle, in the order of `fem.body.triangle`
     unknowns   displacement components, the held ones included
-    curved     whether elements have curved edges
-    """
+    curved     whether elements have curved edges"""
 
     mesh: BlockMesh
     material: Material

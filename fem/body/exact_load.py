@@ -1,7 +1,6 @@
 """Nodal forces of exact stress fields, for the method of manufactured solutions.
 
-By a quadrature of its own on the boundary: independent of the surface loads that it tests.
-"""
+By a quadrature of its own on the boundary: independent of the surface loads that it tests."""
 
 from collections.abc import Callable
 

@@ -2,8 +2,7 @@
 
 Degree 1: the vertices, in the order of the mesh's points. Degree 2: the mesh's points. Degree 3:
 the vertices, two nodes to an edge, one to a triangle, in that order. The six points of an element
-give its shape, whatever the degree.
-"""
+give its shape, whatever the degree."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -74,8 +73,7 @@ def in_order(degree: int, order: np.ndarray, vertices: np.ndarray) -> np.ndarray
     """Places (m, k) of another program's nodes of each triangle among ours.
 
     order      (k, 3) barycentric coordinates of its nodes times the degree, in its order
-    vertices   (m, 3) place among our vertices of each of its vertices
-    """
+    vertices   (m, 3) place among our vertices of each of its vertices"""
     base = (degree + 1) ** np.arange(3)
     place = np.empty(base.sum() * degree + 1, dtype=np.int64)
     place[lattice(degree) @ base] = np.arange(len(lattice(degree)))

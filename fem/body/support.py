@@ -20,8 +20,7 @@ class Support:
     rollers 0.38 and 1.5 %, with free sides 0.41 and 1.6 %. The pressure changes by 1e-4.
 
     With a frictionless base and free sides the bottom point nearest to the middle is held
-    horizontally; a load with a horizontal resultant has no equilibrium then.
-    """
+    horizontally; a load with a horizontal resultant has no equilibrium then."""
 
     # "bonded": no displacement at the bottom; "frictionless": no vertical displacement
     base: Base = "bonded"

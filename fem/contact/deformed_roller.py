@@ -22,8 +22,7 @@ integrals are cut where edges of either body end: across the ends of the roller'
 would oscillate by 0.15 % of its peak, whatever the size of the elements.
 
 Nomenclature: X, Z place in the undeformed rough body [m], u displacement [m], p hat pressures [Pa],
-phi_i hats, N and M_a shape functions of the rough body's surface and of the roller's.
-"""
+phi_i hats, N and M_a shape functions of the rough body's surface and of the roller's."""
 
 import numpy as np
 from scipy.sparse import block_diag, csr_matrix, diags

@@ -14,8 +14,7 @@ Nomenclature
     p, H   hat pressures, hardness [Pa]       T      nodal forces of unit hats [m]
     d      approach [m]                       g, G   weighted gap [m^2], its constant part
     P      load [N/m]                         w      weights [m], integrals of the hats
-    k      mean stiffness [Pa], which makes all unknowns lengths
-"""
+    k      mean stiffness [Pa], which makes all unknowns lengths"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -50,8 +49,7 @@ class HatStates:
     the worst ones, is halved.
 
     pressure   guessed (count,) [Pa]: hats are open where it is zero, else in contact
-    load       P [N/m]; None if the approach is prescribed
-    """
+    load       P [N/m]; None if the approach is prescribed"""
 
     def __init__(
         self, pressure: np.ndarray, hardness: float, load: float | None, weights: np.ndarray

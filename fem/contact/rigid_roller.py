@@ -8,8 +8,7 @@ force is the gap's derivative. p is the vertical force per undeformed length of 
 the load, and p / (dx/dX) the pressure on the deformed surface.
 
 Nomenclature: X, Z place in the undeformed body [m], u displacement [m], s(x) rise of the roller
-above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions.
-"""
+above its lowest point [m], at x = 0, p hat pressures [Pa], phi_i hats, N shape functions."""
 
 from collections.abc import Callable, Sequence
 
@@ -59,8 +58,7 @@ class HatsOnSurface:
     x, z      (q, 2 nodes) take x and z at the q points from places of the nodes
     hats      (q, count) values of the hats
     weight    (q,) [m] of the points
-    weighted  (q, count) [m] hats times weight
-    """
+    weighted  (q, count) [m] hats times weight"""
 
     def __init__(
         self,

@@ -2,8 +2,7 @@
 
 Nomenclature: u displacement [m] of a body's n nodes, K stiffness [Pa], p hat pressures [Pa], g the
 body's part of the weighted gap [m^2], phi_i hat functions, B nodal forces of unit hats [m]
-(`fem.body.surface`).
-"""
+(`fem.body.surface`)."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -21,8 +20,7 @@ class Response(Protocol):
     held        (n, 2) whether the support holds a component
     symmetric   whether the tangent is symmetric
     softness    weights of the 2n forces that are left: of bodies that are one response, the
-                smallest modulus over their own; else 1
-    """
+                smallest modulus over their own; else 1"""
 
     held: np.ndarray
     symmetric: bool

@@ -9,8 +9,7 @@ An independent solver: it shares the mesh, the stiffness and the nodal forces of
 
 Nomenclature: u displacement [m], p hat pressures [Pa], d approach [m], K stiffness [Pa],
 B nodal forces of unit hats [m], G weighted initial gap [m^2], w weights [m], P load [N/m],
-H hardness [Pa]. PETSc wants the function >= 0 at a lower bound and <= 0 at an upper one.
-"""
+H hardness [Pa]. PETSc wants the function >= 0 at a lower bound and <= 0 at an upper one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -53,8 +52,7 @@ def solve_variational_inequality(
     load      P [N/m] > 0, and below what all hats bear at the `hardness` H [Pa]
 
     Reduced-space Newton (PETSc vinewtonrsls) with MUMPS' LU of the monolithic matrix; on one
-    process. Raises ValueError for a load that cannot be borne, FemError if it does not converge.
-    """
+    process. Raises ValueError for a load that cannot be borne, FemError if it does not converge."""
     from petsc4py import PETSc
 
     if not 0.0 < load < np.inf:

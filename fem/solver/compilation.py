@@ -47,7 +47,7 @@ def uninterrupted() -> Iterator[None]:
 @cache
 def load_dolfinx() -> None:
     """Import dolfinx and the compiled packages below it."""
-    with uninterrupted():
+    with uninterrupted(), compat.quick_versions():
         for name in ("dolfinx.mesh", "dolfinx.fem.petsc"):
             importlib.import_module(name)
 

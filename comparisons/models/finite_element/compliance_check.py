@@ -11,8 +11,7 @@ over the grid is removed. The differences name the error:
     geometry  as `block`, but the analytic surface does not model what the finite elements have
     neither   mesh and body are right; a difference in the contact is the contact's
 
-    h   pitch [m]      m   pressures      n   elements of the grid
-"""
+    h   pitch [m]      m   pressures      n   elements of the grid"""
 
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
@@ -150,8 +149,7 @@ def operator_check(
     """Compare on `grid`.
 
     model      the surface nearest to the scene's bodies, as `nearest_operator` gives it
-    intervals  (k, 2) [m] refined ranges of the rough body
-    """
+    intervals  (k, 2) [m] refined ranges of the rough body"""
     scene = problem.scene
     refined = _refined(grid, intervals)
     there = np.flatnonzero(refined)

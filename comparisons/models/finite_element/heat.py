@@ -3,8 +3,7 @@
 A body without a thickness goes on as a half-space beyond its mesh. That of a layer ends where the
 heat has gone into its base or been carried off. The roller is a disc of its radius and has its bulk
 temperature at the scene's `reach` from the contact, and where its rim comes in; of a fast one only
-what is heated is meshed.
-"""
+what is heated is meshed."""
 
 from collections.abc import Callable, Set
 

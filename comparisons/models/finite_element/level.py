@@ -3,8 +3,7 @@
 The rough body is a block: of the scene's own thickness and width where they are given, else so
 large that it stands for a half-plane. An elastic roller is a second body under the same pressures:
 a flat block, or a sector of its exact circle. The contact is solved on the sum of both surface
-compliances; analytic operators only predict it.
-"""
+compliances; analytic operators only predict it."""
 
 from dataclasses import replace
 
@@ -55,8 +54,7 @@ def finite_element_level(
     check      compare the bodies' compliance with the analytic one first
     fields     give the stresses at all points of the mesh, too
     Raises SceneError where the level would exceed the budget of memory or the machine's, MeshError
-    or FemError where a mesh or a factorisation fails.
-    """
+    or FemError where a mesh or a factorisation fails."""
     scene, grid = problem.scene, problem.grid(refinement.pitch)
     body_cache = body_cache or BodyCache()
     friction = scene.friction[0] if scene.finite_element.coupled else 0.0
@@ -134,8 +132,7 @@ def problem_of_approach(scene: ResolvedScene, callback: ProgressCallback) -> Pro
 
     Only a body with a datum has an approach: a layer on its base under a rigid roller. Each round
     meshes for the load of the one before and prescribes the approach there. Raises SceneError if
-    the rounds do not settle.
-    """
+    the rounds do not settle."""
     wanted = scene.load.value
     # a rigid body of the roller's shape would cut the surface over twice this half-width
     half_width = np.sqrt(scene.roller_radius * wanted)

@@ -1,7 +1,6 @@
 """The rough body where it is not linear: at finite deformation, or flowing.
 
-Both start from the linear solution.
-"""
+Both start from the linear solution."""
 
 from dataclasses import replace
 
@@ -44,8 +43,7 @@ def pressed_finitely(
 
     Pressures are Cauchy's, those on the deformed surface, at its displaced x; a contact length is
     that along x of the deformed configuration. Raises FemError where there is
-    no solution, and where contact reaches the grid's ends only at finite deformation.
-    """
+    no solution, and where contact reaches the grid's ends only at finite deformation."""
     rough, weights, x = operator.rough, grid.weights, grid.x
     found = finite_contact(problem, operator, linear, constraints, model)
     _refuse_cut_off(problem, grid, found.pressure, linear, "at finite deformation")
@@ -129,8 +127,7 @@ def pressed_plastically(
 
     gap  (count,) [m^2] initial, weighted by each hat
 
-    Raises FemError where a load is not reached, and where contact spreads to the grid's ends.
-    """
+    Raises FemError where a load is not reached, and where contact spreads to the grid's ends."""
     scene, rough, weights = problem.scene, operator.rough, grid.weights
     friction = scene.friction[0]
     roller = operator.parts[1].compliance if len(operator.parts) > 1 else None

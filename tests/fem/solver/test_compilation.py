@@ -144,3 +144,24 @@ def test_another_process_at_the_same_form_is_waited_for(monkeypatch, tmp_path):
     with pytest.raises(TimeoutError):
         compiled(make)
     assert 10.0 * (100 - len(busy)) > STALE_SECONDS
+
+
+def test_pkg_resources_is_not_loaded_for_a_version_alone():
+    """But is itself where something else of it is wanted."""
+    pytest.importorskip("pkg_resources")
+    quick = "with compat.quick_versions():\n    import pkg_resources"
+    script = f"""
+import sys, numpy
+from fem import compat
+{quick}
+assert pkg_resources.get_distribution("numpy").version == numpy.__version__
+assert "pkg_resources" not in sys.modules
+{quick}
+assert pkg_resources.parse_version("1.10") > pkg_resources.parse_version("1.9")
+import pkg_resources
+print(hasattr(pkg_resources, "WorkingSet"))
+"""
+    told = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", script], cwd=PROJECT, capture_output=True, text=True
+    )
+    assert told.stdout == "True\n", told.stderr
