@@ -126,8 +126,9 @@ def _environment() -> dict[str, str]:
 
 
 def start_worker() -> None:
-    """Start a worker, which loads gmsh while this process does something else."""
-    idle.append(GmshWorker(_environment()))
+    """Have a worker wait, which loads gmsh while this process does something else."""
+    if not any(worker.serves(_environment()) for worker in idle):
+        idle.append(GmshWorker(_environment()))
 
 
 def run_worker(task: tuple, timeout: float) -> tuple[np.ndarray, np.ndarray]:

@@ -32,6 +32,7 @@ Held = TypeVar("Held")
 
 # Seconds of work that are worth a process: one forked and a fresh one, which imports for itself.
 WORTH_A_FORK, WORTH_A_START = 0.1, 10.0
+SOON = 0.02  # seconds in which a task comes that is already known
 PREPARATION = 0.2  # seconds that forked processes save where they have something to prepare
 SHARE_OF_MEMORY = 0.8  # that side-by-side tasks may expect of the machine's
 # Urgencies: others wait for the first kind, nothing for the fifth, and the last may turn out to be
@@ -195,7 +196,8 @@ class Tasks:
 
     def _collect(self) -> None:
         """Wait for what the processes have to say."""
-        _prepare(self._left, lambda: wait(list(self._running), 0.0))
+        if all(self._tasks[key].urgency > AT_ONCE for key in self._running.values()):
+            _prepare(self._left, lambda: wait(list(self._running), 0.0))
         for pipe in wait(list(self._running)):
             try:
                 kind, content = pipe.recv()
@@ -259,8 +261,9 @@ def _prepare(steps: list[Preparation], is_wanted: Callable[[], object]) -> None:
 def _serve(preparations: Sequence[Preparation], pipe: Connection) -> None:
     """Work on what comes through the pipe, until it closes."""
     here = Here(lambda stage: pipe.send(("stage", str(stage))))
-    _prepare(list(preparations), pipe.poll)
+    left = list(preparations)
     while True:
+        _prepare(left, lambda: pipe.poll(SOON))
         work, given = pipe.recv()
         answer = answered(work, here, *given)
         return_freed_memory()

@@ -12,6 +12,7 @@ import numpy as np
 from analytic.contact.patches import contact_patches
 from analytic.contact.problem import KKT_TOLERANCE
 from comparisons.common.errors import SceneError
+from comparisons.common.mpi import from_first
 from comparisons.common.progress import ProgressCallback, Stages, peak_memory
 from comparisons.models.finite_element.bodies import BodyCache, bodies_of
 from comparisons.models.finite_element.compliance_check import no_check, operator_check
@@ -26,6 +27,8 @@ from comparisons.models.plan import Plan, make_plan
 from comparisons.models.problem import Problem, problem_of
 from comparisons.models.window import Window
 from comparisons.scenes.scene import ResolvedScene
+from fem.solver.compilation import load_dolfinx
+from meshes.build import start_worker
 from meshes.refined_ranges import merge, unrefined_contact
 
 START_TOLERANCE = 1e-5  # of the linear contact that finite deformation starts from
@@ -63,6 +66,9 @@ def finite_element_level(
     constraints = problem.constraints()
     if scene.finite_element.plastic:  # the body's own flow limits the pressure
         constraints = replace(constraints, hardness=np.inf)
+    with stages.stage("assembly", "finite elements: loading"):
+        from_first(start_worker)
+        load_dolfinx()
     with stages.stage("contact", "finite elements: predicting the contact"):
         guess = solve_on(model, weighted_gap, grid.weights, problem.widest)
     ranges, start = contact_patches(grid.x, guess.pressure, guess.gap), guess.pressure

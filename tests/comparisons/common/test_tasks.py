@@ -12,7 +12,7 @@ from scenes import PROJECT
 
 from comparisons.common import tasks as module
 from comparisons.common.processes import fresh_process
-from comparisons.common.tasks import FIRST, LATER, PERHAPS, Here, Tasks, tasks_of_a_run
+from comparisons.common.tasks import AT_ONCE, FIRST, LATER, PERHAPS, Here, Tasks, tasks_of_a_run
 
 GIGABYTES = 1e12
 
@@ -227,3 +227,26 @@ def test_forked_ones_end_with_this_one(tmp_path, sent):
     process.send_signal(sent)
     out, _ = process.communicate(timeout=60.0)  # returns when none of them holds the output
     assert out == ("ended\n" if sent == signal.SIGINT else "")
+
+
+def test_nothing_is_prepared_while_others_wait_for_a_task(worth):
+    done = []
+    with tasks_of_a_run(lambda stage: None, GIGABYTES, [lambda: done.append(1)]) as tasks:
+        tasks.processes = 2
+        tasks.add("first", home, urgency=AT_ONCE)
+        tasks.result("first")
+        assert done == []
+        tasks.add("next", home)
+        tasks.result("next")
+        assert done == [1]
+
+
+def test_a_process_prepares_between_its_tasks(worth, tmp_path):
+    mark, end = tmp_path / "prepared", time.monotonic() + 60.0
+    with tasks_of_a_run(lambda stage: None, GIGABYTES, (), [mark.touch]) as tasks:
+        tasks.processes = 1
+        tasks.add("first", number)
+        tasks.result("first")
+        while not mark.exists():
+            assert time.monotonic() < end
+            time.sleep(0.02)
