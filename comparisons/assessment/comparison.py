@@ -92,10 +92,9 @@ def field_norms(
     tau1: np.ndarray, reference: np.ndarray, problem: Problem, window: Window
 ) -> dict[str, float]:
     """Relative L2 norms of the difference of two fields (m, k), by the window's depths."""
-    weights = layer_thickness(window.z)[:, None]
-    depth = window.z[:, None] / problem.hertz.half_width
+    weights, depth = layer_thickness(window.z)[:, None], window.z / problem.hertz.half_width
     return {
-        f"tau1_field_{name}": relative_l2(tau1, reference, np.where(part, weights, 0.0))
+        f"tau1_field_{name}": relative_l2(tau1[part], reference[part], weights[part])
         for name, part in (("near", depth < NEAR), ("deep", depth > DEEP))
         if np.any(part)
     }
@@ -229,11 +228,13 @@ def relative_l2(
 ) -> float:
     """||values - reference|| / ||reference||; points where either is not finite are left out."""
     known = np.isfinite(values) & np.isfinite(reference)
-    weights = np.broadcast_to(weights, values.shape)[known]
-    size = np.sum(weights * reference[known] ** 2)
+    if not known.all():
+        weights = np.broadcast_to(weights, values.shape)[known]
+        values, reference = values[known], reference[known]
+    size = np.sum(weights * reference**2)
     if size == 0.0:
-        return 0.0 if not np.any(values[known]) else np.inf
-    return float(np.sqrt(np.sum(weights * (values[known] - reference[known]) ** 2) / size))
+        return 0.0 if not np.any(values) else np.inf
+    return float(np.sqrt(np.sum(weights * (values - reference) ** 2) / size))
 
 
 def layer_thickness(depths: np.ndarray) -> np.ndarray:

@@ -18,6 +18,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 LEVEL_CODE = ("analytic", "meshes", "fem", "comparisons/scenes", "comparisons/models")
 PACKAGES = ("crosscheck", "numpy", "scipy", "fenics-dolfinx", "petsc4py", "gmsh", "meshio")
 PACKAGES += ("pyvista", "pydantic", "pint", "matplotlib")
+_version = cache(metadata.version)
 
 
 def versions() -> dict[str, str | None]:
@@ -25,7 +26,7 @@ def versions() -> dict[str, str | None]:
     found: dict[str, str | None] = {"python": platform.python_version()}
     for name in PACKAGES:
         try:
-            found[name] = metadata.version(name)
+            found[name] = _version(name)
         except metadata.PackageNotFoundError:
             found[name] = None
     return found

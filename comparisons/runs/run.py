@@ -20,7 +20,7 @@ from comparisons.common.cache import Cache
 from comparisons.common.errors import InputError, SceneError, SolverError
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
-from comparisons.common.provenance import digest
+from comparisons.common.provenance import digest, revision
 from comparisons.common.tasks import Preparation, Tasks, tasks_of_a_run
 from comparisons.models.forecast import forecast
 from comparisons.models.level import Level, ModelRun
@@ -133,7 +133,7 @@ def solve(
     try:
         told, memory = within(callback, 0.0, SOLVED), problem.scene.budget.memory
         there = _for_finite_elements() if "finite_element" in plan.models else ()
-        here = [partial(import_module, name) for name in REPORT if out is not None]
+        here = [revision, *(partial(import_module, name) for name in REPORT if out is not None)]
         with tasks_of_a_run(told, memory, here, there) as tasks:
             scattered = _announce_scatter(problem, plan, cache, tasks, executor)
             counted = None
