@@ -13,8 +13,7 @@ whatever the roughness: no bulge, but the opposite of one, constant outside the 
 where nu = 1/2. Below a rigid roller it is -(pi/4) mu (1 - 2 nu)/(1 - nu) h. It does no work on the
 pressure, for its kernel is odd: int p v dx = 0. The bulge is what B exceeds this step by: it takes
 a base below, flow, or slopes of a boundary that is meshed as it is. The same holds about the centre
-of any patch's load, as far as the next patches: B and the step there are those of the patch.
-"""
+of any patch's load, as far as the next patches: B and the step there are those of the patch."""
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid, trapezoid

@@ -5,8 +5,7 @@ place in the sums of `selection`. A scene is reduced to what the half-plane assu
 given any effects (`with_effects`): so each is measured alone. What makes finite deformation is one
 effect: at finite strain the gap is on the deformed surface and the boundary is rough. Its parts by
 themselves are linear bodies that have one of them without the others, with largest stresses on the
-flanks of asperities that do not flatten; no model error is put together of these.
-"""
+flanks of asperities that do not flatten; no model error is put together of these."""
 
 import tomllib
 from collections.abc import Iterable

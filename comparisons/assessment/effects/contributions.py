@@ -9,8 +9,7 @@ deformation together, c normal-tangential coupling, 0 none:
     interaction            F(W) - F(0) - the sum of these
 
 These add up to the whole, F(W) - F(0), in any order. The scene's own finite elements do not contain
-F(W) - F(scene).
-"""
+F(W) - F(scene)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

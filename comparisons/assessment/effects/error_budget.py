@@ -10,8 +10,7 @@ What cannot change a verdict is left out, unless budget.effects is "all":
 2. The whole's third level, where every judged figure holds, fails, or remains inconclusive by what
    is not modelled, wherever in its uncertainty on the second level the error comes to lie.
 
-The model error and its uncertainty are stated for every figure in any case.
-"""
+The model error and its uncertainty are stated for every figure in any case."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -188,8 +187,7 @@ def _refined(
     frugal  what was selected, where such a level is left out; else None
 
     The split stays on the least levels, unless the whole and the scene's own finite elements are
-    all that it takes. Raises NotComputedError where a whole has no solution on the least levels.
-    """
+    all that it takes. Raises NotComputedError where a whole has no solution on the least levels."""
     problem, runs = solved.problem, {"half_plane": half_plane, "finite_element": solved.own}
     history: dict[float, list[EffectContributions]] = {mu: [] for mu in problem.scene.friction}
     own: list[ModelError] = []
@@ -322,8 +320,7 @@ def sampling_changes(
 ) -> dict[float, dict[str, float]]:
     """By friction coefficient and quantity, the relative change from half the samples.
 
-    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared
-    """
+    levels  of the half-plane, coarse to fine; the third, or the last before it, is compared"""
     level, found = levels[:SAMPLED][-1], {}
     for first, key in enumerate(_announce_sampling(problem, window, levels, tasks)):
         thinned, other = _thinned(problem, first), tasks.result(key)

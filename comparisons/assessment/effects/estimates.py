@@ -10,8 +10,7 @@ are computed, and count for those that are not. Each is a factor times a group. 
 the full solutions of smooth and wavy bodies, the maps' among them, quantity by quantity: an effect
 is larger in stresses than in the contact, and largest in fields next to the surface.
 Normal-tangential coupling is measured on the half-plane where that is possible
-(`comparisons.assessment.normal_tangential_coupling`).
-"""
+(`comparisons.assessment.normal_tangential_coupling`)."""
 
 from collections.abc import Iterable
 
@@ -41,8 +40,7 @@ def estimates(
     peak       largest pressure [Pa] of the half-plane
     mean       of its contact [Pa]: the pressure that the load stands under on average
     contained  names of the effects that the scene's own finite elements have
-    couplings  of the half-plane, one a friction coefficient
-    """
+    couplings  of the half-plane, one a friction coefficient"""
     found = {
         "finite_size": _finite_size(problem),
         "coating": _coating(problem),

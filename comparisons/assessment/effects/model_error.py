@@ -7,8 +7,7 @@ effects. A largest value is followed asperity by asperity, and the whole's is th
 in the end: an effect is what changes at that asperity. Where the half-plane has its own largest
 value at another one, what lies between the two is the jump, no effect. Norms do not add: their
 error is the norm of the half-plane against the whole on the level of the effects, with the far
-boundary of the models' difference.
-"""
+boundary of the models' difference."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -85,8 +84,7 @@ def model_errors(
 
     rows     the models' comparison at that friction
     history  the effects there on the first levels, coarse to fine; perhaps of the whole alone on
-             the last of these
-    """
+             the last of these"""
     friction = rows[0].friction
     number, divided = len(history) - 1, [parts for parts in history if parts.nothing is not None]
     if any(parts.unsplit for parts in history):
@@ -201,8 +199,7 @@ def _competing(
     """What asperities that may have the largest value add to the uncertainty of a figure [SI].
 
     numerical  relative uncertainty of the scene's own finite elements
-    missing    by asperity, what the whole has beside these, relative to the largest value
-    """
+    missing    by asperity, what the whole has beside these, relative to the largest value"""
     values = whole.figures[LARGEST[name]]
     top = values[at]
     if not np.isfinite(numerical + missing(at).uncertainty):

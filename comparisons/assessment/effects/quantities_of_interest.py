@@ -2,8 +2,7 @@
 
 Effects are differences of them, on the same pressure elements and the same field points. A largest
 value is one of each asperity (`Problem.asperities`): effects may move the largest of all from one
-to another, and the difference of two largest values at different places would measure neither.
-"""
+to another, and the difference of two largest values at different places would measure neither."""
 
 from __future__ import annotations
 

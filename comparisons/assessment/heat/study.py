@@ -2,8 +2,7 @@
 
 The half-space takes the half-plane's pressures, the finite elements their own, so that the
 difference has what both theories leave out: `by_pressure` is the part of it that the half-space
-finds under the finite elements' pressures. One rule judges it, as everything else.
-"""
+finds under the finite elements' pressures. One rule judges it, as everything else."""
 
 from collections.abc import Iterable, Set
 
