@@ -79,11 +79,12 @@ def _processor() -> str | None:
 
 @cache
 def program_code(*places: str) -> str:
-    """Hash of the code in folders and files of the project, tables in TOML among it."""
+    """Hash of the code in folders and files of the project, its C and tables in TOML among it."""
     total = hashlib.sha256()
     for place in places:
         path = PROJECT / place
-        sources = [*path.rglob("*.py"), *path.rglob("*.toml")] if path.is_dir() else [path]
+        kinds = ("*.py", "*.toml", "*.c") if path.is_dir() else ()
+        sources = [each for kind in kinds for each in path.rglob(kind)] or [path]
         for source in sorted(sources):
             with open(source, "rb", buffering=0) as file:
                 total.update(file.read())

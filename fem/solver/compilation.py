@@ -3,17 +3,28 @@
 dolfinx caches compiled forms in a folder. A process that is stopped while it compiles leaves a
 source there without the mark that it is ready; later processes wait for that mark, then fail."""
 
+import hashlib
 import importlib
+import os
+import platform
+import re
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cache
+from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TypeVar
 
+import numpy as np
+
 from fem import compat
+from fem.solver.mumps import FemError
 
 Result = TypeVar("Result")
 
@@ -21,6 +32,8 @@ Result = TypeVar("Result")
 STALE_SECONDS = 60.0
 # Times that a process waits for the mark (10 s each) before a source has become that old.
 MOST_WAITS = 7
+# Without NaN and errno for each product and logarithm; rounding stays as it is.
+COMPILER = ("-O3", "-fcx-limited-range", "-fno-math-errno")
 
 
 @contextmanager
@@ -67,6 +80,51 @@ def compiled(make: Callable[[], Result]) -> Result:
             waits, clear = waits + 1, remove_leftovers
             if waits > MOST_WAITS:
                 raise
+
+
+@cache
+def c_function(source: Path, name: str) -> Callable[..., None]:
+    """The function `name` of a C `source`: numbers, then contiguous arrays of long or double. Like
+    forms it is compiled once, into their cache, by a name of what it depends on. Raises FemError
+    where it does not compile."""
+    text = source.read_text(encoding="utf-8")
+    made_of = text, sys.version, platform.machine(), *COMPILER
+    key = hashlib.sha256("\n".join(made_of).encode()).hexdigest()[:16]
+    module = f"{source.stem}_{key}"
+    ready = compat.form_cache() / (module + EXTENSION_SUFFIXES[0])
+    with uninterrupted():
+        if not ready.exists():
+            from cffi import FFI, VerificationError
+
+            ffi = FFI()
+            head = re.search(rf"^void {name}\(.*?\)", text, re.DOTALL | re.MULTILINE)
+            ffi.cdef(head.group() + ";")
+            ffi.set_source(module, text, extra_compile_args=list(COMPILER), libraries=["m"])
+            ready.parent.mkdir(parents=True, exist_ok=True)
+            with TemporaryDirectory(dir=ready.parent) as folder:
+                try:
+                    os.replace(ffi.compile(tmpdir=folder), ready)  # whole, whoever else does it
+                except VerificationError as error:
+                    raise FemError(f"{source.name} does not compile: {error}") from error
+        spec = spec_from_file_location(module, ready)
+        loaded = module_from_spec(spec)
+        spec.loader.exec_module(loaded)
+    function, buffer = getattr(loaded.lib, name), loaded.ffi.from_buffer
+
+    def call(*given: float | np.ndarray) -> None:
+        kinds = {"i": ("long[]", np.int_), "f": ("double[]", float)}
+        function(
+            *(
+                buffer(
+                    kinds[each.dtype.kind][0], np.ascontiguousarray(each, kinds[each.dtype.kind][1])
+                )
+                if isinstance(each, np.ndarray)
+                else each
+                for each in given
+            )
+        )
+
+    return call
 
 
 def remove_leftovers(folder: Path) -> None:
