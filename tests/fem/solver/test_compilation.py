@@ -7,10 +7,19 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from scenes import PROJECT
 
-from fem.solver.compilation import STALE_SECONDS, compiled, remove_leftovers, uninterrupted
+from fem import compat
+from fem.solver.compilation import (
+    STALE_SECONDS,
+    c_function,
+    compiled,
+    remove_leftovers,
+    uninterrupted,
+)
+from fem.solver.mumps import FemError
 
 SCRIPT = """
 import sys
@@ -165,3 +174,35 @@ print(hasattr(pkg_resources, "WorkingSet"))
         [sys.executable, "-W", "ignore", "-c", script], cwd=PROJECT, capture_output=True, text=True
     )
     assert told.stdout == "True\n", told.stderr
+
+
+@pytest.fixture
+def cache(monkeypatch, tmp_path):
+    """An empty cache of compiled code, and none in this process."""
+    folder = tmp_path / "cache"
+    monkeypatch.setattr(compat, "form_cache", lambda: folder)
+    c_function.cache_clear()
+    yield folder
+    c_function.cache_clear()
+
+
+def test_c_is_compiled_once_and_again_where_it_changes(cache, tmp_path, capfd):
+    source, found = tmp_path / "scale.c", []
+    code = "void scale(long n, double by, double *x) {{ for (long i = 0; i < n; i++) x[i] *= {}; }}"
+    for text, ready in (("by", 1), ("by", 1), ("by * by", 2)):
+        source.write_text(code.format(text))
+        c_function.cache_clear()
+        x = np.array([1.0, 2.0])
+        c_function(source, "scale")(2, 3.0, x)
+        found.append(list(x))
+        assert len(list(cache.iterdir())) == ready  # nothing else is left there
+    assert found == [[3.0, 6.0], [3.0, 6.0], [9.0, 18.0]]
+    assert capfd.readouterr() == ("", "")
+
+
+def test_c_that_does_not_compile_is_said_and_leaves_nothing(cache, tmp_path):
+    source = tmp_path / "wrong.c"
+    source.write_text("void wrong(long n) { return missing; }")
+    with pytest.raises(FemError, match=r"wrong\.c does not compile"):
+        c_function(source, "wrong")
+    assert not list(cache.iterdir())
