@@ -46,7 +46,9 @@ def refined(
 
     def add(name: str, number: int, key: str | None = None) -> str:
         key, half_block = key or f"{name}-{number}", key is not None
-        cost, urgency = expected(name, number), FIRST if name == "half_plane" else NEEDED
+        # the finest level that is asked for lasts longest of all
+        is_first = name == "half_plane" or number == len(problem.pitches)
+        cost, urgency = expected(name, number), FIRST if is_first else NEEDED
         if (name, number) == ("half_plane", 1):  # for which the others wait
             urgency = AT_ONCE
         given = cache, key, name, problem, plan, window, number, half_block
