@@ -124,14 +124,14 @@ def asperity_dips(
 ) -> list[AsperityDip]:
     """The dip under each asperity that touches at |x| <= a, its zone as wide as the asperity."""
     a, tau1 = problem.hertz.half_width, level.stress(friction).field.tau1
-    found = []
+    found, tau1 = [], np.where(np.isfinite(tau1), tau1, -inf)
     for start, stop in zip((-inf, *problem.asperities), (*problem.asperities, inf), strict=True):
         columns = (window.x >= max(start, -a)) & (window.x < min(stop, a))
         patches = np.clip(level.patches, max(start, -a), min(stop, a))
         lengths = np.diff(patches, axis=1)[:, 0]
         if not np.any(columns) or lengths.sum() <= 0.0:
             continue
-        shear = np.max(np.where(np.isfinite(tau1), tau1, -inf)[:, columns], axis=1)
+        shear = np.max(tau1[:, columns], axis=1)
         place = float(lengths @ patches.mean(axis=1) / lengths.sum())
         dip = shear_dip(window.z, np.where(np.isfinite(shear), shear, nan), DEEP * a)
         found.append(AsperityDip(place, float(lengths.sum()), dip))
