@@ -29,7 +29,7 @@ from meshes.build import build_block
 Result = TypeVar("Result")
 
 UNBOUNDED_SIDES = "fixed"  # half of the error in tau1 that free sides or rollers leave
-HELD = 3  # a rough body, and what presses it in two sets of effects
+HELD = 2  # a rough body, and what presses it: each more would add to the memory of a whole run
 
 
 @dataclass(frozen=True)
