@@ -10,6 +10,7 @@ from fem.contact.terms import ContactTerms
 from fem.solver.mumps import FemError
 
 MOST_HATS = 800  # for which the compliance is formed: a back-substitution each
+LEAST = 1e-8  # of the largest: smaller parts of a compliance are rounding
 MOST_EXCHANGES = 100  # of hats that touch and hats that do not
 
 
@@ -24,9 +25,15 @@ class CondensedRoller:
 
     def __init__(self, flexible: np.ndarray, weights: np.ndarray, symmetric: bool) -> None:
         self._flexible, self._weights, self.symmetric = flexible, weights, symmetric
-        stiff = weights[:, None] * np.linalg.inv(flexible) * weights
         if symmetric:
-            stiff = 0.5 * (stiff + stiff.T)
+            size, right = np.linalg.eigh(flexible)
+            left = right
+        else:
+            left, size, right = np.linalg.svd(flexible)
+            right = right.T
+        # where contact is not expected, hats stand closer than the mesh's nodes: C is singular
+        size = np.maximum(size, LEAST * size.max())
+        stiff = weights[:, None] * ((right / size) @ left.T) * weights
         self.held = np.broadcast_to([False, True], (len(weights), 2))
         held = kron(np.abs(stiff).max() * eye(len(weights)), np.diag([0.0, 1.0]))
         self._stiffness = (kron(stiff, np.diag([1.0, 0.0])) + held).tocsr()

@@ -10,6 +10,7 @@ from comparisons.common.quantities import MODELS
 from comparisons.models.finite_element.cost import flow_increments
 from comparisons.models.finite_element.nonlinear import _refuse_cut_off
 from comparisons.runs.run import run
+from comparisons.scenes.resolve import load_scene
 from fem.solver.mumps import FemError
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -105,3 +106,13 @@ def test_contact_that_leaves_the_grid_is_refused(outcome):
     _refuse_cut_off(*given, level.solution.pressure, level.solution, "here")
     with pytest.raises(FemError, match="contact here reaches beyond the pressure elements"):
         _refuse_cut_off(*given, level.solution.pressure + 1.0, level.solution, "here")
+
+
+def test_the_shipped_scene_is_solved_below_its_elastic_roller():
+    """Its pressure elements reach beyond the fine mesh; a third beyond first flow the body bears
+    less than Hertz's peak, on a longer contact."""
+    [finite_element] = run(load_scene("yielding"), None, ("finite_element",)).runs.values()
+    level, hertz = finite_element.finest, 2.4e9
+    assert level.solution.converged
+    assert 0.9 * hertz < level.solution.pressure.max() < 0.94 * hertz
+    assert 855e-6 < level.contact_length < 875e-6

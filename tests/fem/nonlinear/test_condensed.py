@@ -48,3 +48,16 @@ def test_a_roller_on_the_hats_moves_as_the_whole_one(compliance, friction):
     force, _ = roller.linearised(moved)
     np.testing.assert_allclose(force.ravel(), terms.force @ pressure, atol=1e-9)
     assert roller.symmetric is not bool(friction)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.2])
+def test_hats_between_the_nodes_of_a_coarse_mesh_do_no_harm(compliance, friction):
+    """Their compliance is singular: what it moves comes back, whatever else pressures hold."""
+    hats = np.linspace(-1.0, 1.0, 68)
+    flexible = FiniteElementCompliance(compliance.body, hats).matrix(friction)
+    assert np.linalg.matrix_rank(flexible) < len(flexible)
+    weights = np.full(len(flexible), hats[1] - hats[0])
+    roller, pressure = CondensedRoller(flexible, weights, not friction), 1.0 + hats[1:-1]
+    moved = roller.moved(pressure)
+    again = roller.moved(roller.force(moved)[:, 0] / weights)
+    np.testing.assert_allclose(again, moved, rtol=1e-6, atol=0.0)
