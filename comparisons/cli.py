@@ -169,6 +169,8 @@ def _defect(error: Exception) -> ExitStatus:
         drop(sys.stdout)
     if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
         return ExitStatus.OUT_OF_MEMORY
+    if "INFOG(1)=-13" in str(error):  # MUMPS, while it solves
+        return ExitStatus.OUT_OF_MEMORY
     # where the system maps no more memory, libraries say that a part of them is not there
     if isinstance(error, ImportError) and (_address_space() or "failed to map" in str(error)):
         return ExitStatus.OUT_OF_MEMORY

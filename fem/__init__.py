@@ -15,9 +15,8 @@ if "TMPDIR" in os.environ:
     with suppress(FileNotFoundError):  # there is none
         os.environ["TMPDIR"] = tempfile.gettempdir()
 
-# A process alone needs neither Open MPI's daemon nor its search for networks, which take a third of
-# a second. Open MPI reads these when MPI begins; what a launcher or the user set stays.
+# A process alone needs neither Open MPI's daemon nor its search for fast networks, which take a
+# third of a second. Open MPI reads these when MPI begins; what a launcher or the user set stays.
 if not any(name.startswith(("OMPI_COMM_", "PMI_", "PMIX_")) for name in os.environ):
     os.environ.setdefault("OMPI_MCA_ess_singleton_isolated", "1")
     os.environ.setdefault("OMPI_MCA_pml", "ob1")
-    os.environ.setdefault("OMPI_MCA_btl", "self")

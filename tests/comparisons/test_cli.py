@@ -344,6 +344,15 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     assert "0.3 GB of address space (ulimit -v)" in line
 
 
+def test_what_a_factor_lacks_while_it_solves_is_memory(solver, capsys, monkeypatch):
+    def starved(*given):
+        raise RuntimeError("reported by MUMPS in solve phase: INFOG(1)=-13")
+
+    monkeypatch.setattr(solver, "run", starved)
+    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
+    assert capsys.readouterr().err.startswith("crosscheck: out of memory: ")
+
+
 def test_long_work_speaks_every_so_often_where_no_terminal_shows_it(solver, capsys, monkeypatch):
     monkeypatch.setattr("comparisons.commands.output.SILENCE", 60.0)
     clock = iter((0.0, 1.0, 61.0, 62.0, 125.4))  # as it begins, then at each stage
