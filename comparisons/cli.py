@@ -6,7 +6,6 @@ command needs beyond the standard library its job imports: `crosscheck --help` l
 
 import errno
 import os
-import resource
 import sys
 import traceback
 import warnings
@@ -18,7 +17,7 @@ from pathlib import Path
 import typer
 
 from comparisons.commands import checks, doctor, finished, run, scenes, studies
-from comparisons.common.errors import ExitStatus, InputError, SolverError, drop, tell
+from comparisons.common.errors import ExitStatus, InputError, SolverError, address_space, drop, tell
 from comparisons.common.mpi import as_one, forget_inherited_launcher, is_several
 
 TRACEBACK = "CROSSCHECK_TRACEBACK"  # set to anything, errors show where they come from
@@ -169,24 +168,19 @@ def _defect(error: Exception) -> ExitStatus:
         drop(sys.stdout)
     if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
         return ExitStatus.OUT_OF_MEMORY
-    if "INFOG(1)=-13" in str(error):  # MUMPS, while it solves
+    # MUMPS, while it solves, and a process that has no place for a thread's stack
+    if any(said in str(error) for said in ("INFOG(1)=-13", "can't start new thread")):
         return ExitStatus.OUT_OF_MEMORY
     # where the system maps no more memory, libraries say that a part of them is not there
-    if isinstance(error, ImportError) and (_address_space() or "failed to map" in str(error)):
+    if isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)):
         return ExitStatus.OUT_OF_MEMORY
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
-
-
-def _address_space() -> int | None:
-    """Bytes of address space that the process may have, None without a limit."""
-    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
-    return None if limit == resource.RLIM_INFINITY else limit
 
 
 def _account(error: Exception, status: ExitStatus) -> str:
     """An error that is not the user's, and where in the program it was raised."""
     if status == ExitStatus.OUT_OF_MEMORY:
-        limit = _address_space()
+        limit = address_space()
         remedy = "allowed is a smaller scene (budget.memory, resolution, stress.points)"
         if limit:
             remedy = f"the process may have {limit / 1e9:.3g} GB of address space (ulimit -v)"

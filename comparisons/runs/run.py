@@ -17,7 +17,7 @@ from comparisons.assessment.refinement import refined
 from comparisons.assessment.scatter.figures import InputScatter
 from comparisons.assessment.verdict import Comparison
 from comparisons.common.cache import Cache
-from comparisons.common.errors import InputError, SceneError, SolverError
+from comparisons.common.errors import InputError, SceneError, SolverError, address_space
 from comparisons.common.mpi import is_several
 from comparisons.common.progress import ProgressCallback, Stages, no_progress, within
 from comparisons.common.provenance import digest, revision
@@ -45,6 +45,7 @@ REPORT = (
 )
 Answers = Mapping[str, tuple[Answer, ...]]  # by name, on each resolution
 SOLVED = 0.9  # share of a run's time after which all is solved: for progress alone
+LEAST_ADDRESS_SPACE = 10**9  # bytes, of finite elements: libraries, threads, and a small scene
 GOES_ON = "finished levels are kept, the same command goes on from there"
 
 
@@ -68,6 +69,7 @@ def run(
     SolverError where the finite elements find no solution; nothing is written then."""
     stages = Stages(callback)
     _check_processes(scene, models)
+    _check_address_space(models)
     try:
         if scene.running_in is not None:
             with stages.stage("running-in", "running the surface in"):
@@ -99,6 +101,14 @@ def _check_processes(scene: ResolvedScene, models: tuple[str, ...]) -> None:
             f"{scene.source}: finite_element.{name}: is solved on one process; allowed without "
             "mpirun"
         )
+
+
+def _check_address_space(models: tuple[str, ...]) -> None:
+    """Raise MemoryError where the finite elements' libraries would fail, each in its own words."""
+    allowed = address_space()
+    if "finite_element" in models and allowed is not None and allowed < LEAST_ADDRESS_SPACE:
+        least = LEAST_ADDRESS_SPACE / 1e9
+        raise MemoryError(f"finite elements take at least {least:.3g} GB of address space")
 
 
 def _problem(scene: ResolvedScene, models: tuple[str, ...], callback: ProgressCallback) -> Problem:

@@ -340,8 +340,17 @@ def test_too_little_address_space_is_no_missing_library(tmp_path):
     done = python(code, check=False)
     assert done.returncode == ExitStatus.OUT_OF_MEMORY
     (line,) = done.stderr.splitlines()
-    assert line.startswith("crosscheck: out of memory: ")
+    assert line.startswith("crosscheck: out of memory: finite elements take at least 1 GB")
     assert "0.3 GB of address space (ulimit -v)" in line
+
+
+def test_no_place_for_a_thread_is_no_defect(solver, capsys, monkeypatch):
+    def starved(*given):
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(solver, "run", starved)
+    assert main(["run", "smooth"]) == ExitStatus.OUT_OF_MEMORY
+    assert "can't start new thread; allowed is" in capsys.readouterr().err
 
 
 def test_what_a_factor_lacks_while_it_solves_is_memory(solver, capsys, monkeypatch):
