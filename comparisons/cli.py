@@ -168,11 +168,13 @@ def _defect(error: Exception) -> ExitStatus:
         drop(sys.stdout)
     if isinstance(error, MemoryError) or getattr(error, "errno", None) == errno.ENOMEM:
         return ExitStatus.OUT_OF_MEMORY
-    # MUMPS, while it solves, and a process that has no place for a thread's stack
-    if any(said in str(error) for said in ("INFOG(1)=-13", "can't start new thread")):
+    if "INFOG(1)=-13" in str(error):  # MUMPS, while it solves
         return ExitStatus.OUT_OF_MEMORY
     # where the system maps no more memory, libraries say that a part of them is not there
     if isinstance(error, ImportError) and (address_space() or "failed to map" in str(error)):
+        return ExitStatus.OUT_OF_MEMORY
+    # without such a limit it is one on the number of processes
+    if address_space() and "can't start new thread" in str(error):
         return ExitStatus.OUT_OF_MEMORY
     return ExitStatus.CANNOT_WRITE if isinstance(error, OSError) else ExitStatus.DEFECT
 

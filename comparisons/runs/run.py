@@ -66,7 +66,8 @@ def run(
     executor  solves the samples of the scene's [scatter]; None: this machine's cores
     answers   from outside, read before; by default the scene's are read from their files
     Raises InputError for a scene that cannot be solved or a folder that cannot be written, and
-    SolverError where the finite elements find no solution; nothing is written then."""
+    SolverError where the finite elements find no solution, MemoryError where the process may not
+    have what they take; nothing is written then."""
     stages = Stages(callback)
     _check_processes(scene, models)
     _check_address_space(models)
